@@ -1,6 +1,6 @@
 /// @file
-/// What is said of an answer beside its numbers: whether to act on it, and why. Codes with values;
-/// the sentences for people are made of them in services/words.
+/// The assessment of an answer: quality and reasons, as codes with values. services/base turns them
+/// into sentences.
 
 #pragma once
 
@@ -12,24 +12,23 @@
 
 namespace spindrift {
 
-/// Whether to act on an answer.
 enum class Quality {
-  Converging,  ///< Nothing speaks against it, but it is too young to be checked by its own data.
+  Converging,  ///< Nothing contradicts it, but too few of its own data have checked it yet.
   Ok,
-  Ambiguous,  ///< Another answer fits as well, or nothing has settled this one.
-  Doubtful,   ///< The data contradict it, the noise or the model; or there is too little of them.
-  Lost,       ///< It is no longer, or never was, the true one.
+  Ambiguous,  ///< Another answer fits equally well, or no evidence has settled this one.
+  Doubtful,   ///< The data contradict the answer, the noise or the model, or are too few.
+  Lost,       ///< The answer is no longer the true one, or never was.
 };
 inline constexpr int kQualities = 5;
 std::string_view name_of(Quality quality);
 
-/// Whether nothing speaks against the answer, checked or not.
+/// Returns whether nothing contradicts the answer, be it checked or not.
 constexpr bool is_unopposed(Quality quality) {
   return quality == Quality::Ok || quality == Quality::Converging;
 }
 
 struct NamedValue {
-  /// A number or a name; of several things of a kind, their names.
+  /// A number, a name, or the names of several things.
   using Value = std::variant<std::int64_t, double, std::string, std::vector<std::string>>;
 
   std::string name;  ///< Ends in the unit.
@@ -38,7 +37,7 @@ struct NamedValue {
   bool operator==(const NamedValue&) const = default;
 };
 
-/// Something to be said, and what it is about.
+/// Holds a message code with its values.
 template <class Code>
 struct Coded {
   Code code;
@@ -47,8 +46,8 @@ struct Coded {
   bool operator==(const Coded&) const = default;
 };
 
-/// Why an answer has its quality, and what it rests on. schemas/status.md says of each what it
-/// means.
+/// The reasons for a quality and the basis of an answer; schemas/status.md explains each. The
+/// comments list the values that a reason carries.
 enum class ReasonCode {
   Fixes,                ///< count
   FewFixes,             ///< needed
@@ -96,7 +95,7 @@ enum class ReasonCode {
   OrbitSteps,           ///< t_tai_ns, km, m_s
   Withheld,             ///< table, column
   ComputingFailed,      ///< what
-  // Of a reconstruction.
+  // Reasons of a reconstruction:
   SunVectors,           ///< count
   SunOutliers,          ///< count
   SunVectorsShadowed,   ///< count
@@ -128,7 +127,7 @@ struct Assessment {
 
 bool has(const Assessment& assessment, ReasonCode code);
 
-/// Adds what speaks against an answer: unopposed before, it is DOUBTFUL now.
+/// Adds a reason against an answer, which becomes DOUBTFUL if it was unopposed.
 void doubt(Assessment& assessment, Reason reason);
 
 }  // namespace spindrift

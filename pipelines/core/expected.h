@@ -1,5 +1,5 @@
 /// @file
-/// The one way anything in spindrift reports failure: as a value.
+/// The error type of spindrift: all failures are returned as values.
 
 #pragma once
 
@@ -9,13 +9,13 @@
 
 namespace spindrift {
 
-/// A code names the decision that the caller can take; the message is for a person.
+/// The code tells the caller how to react; the message is for a person.
 enum class ErrorCode {
   InvalidConfiguration,  ///< Wrong before any telemetry arrived: refuse to start.
   InvalidInput,          ///< This sample or row cannot be true: record it and go on.
-  Unobservable,          ///< Plausible, but it does not determine the answer.
+  Unobservable,          ///< Plausible input that does not determine the answer.
   NoCoverage,            ///< The orbit or another table ends before the time asked for.
-  Unavailable,           ///< The world said no (disk, network, lock): stop, or try again.
+  Unavailable,           ///< Disk, network or a lock failed: stop, or try again.
 };
 
 struct Error {

@@ -1,6 +1,5 @@
 /// @file
-/// Why one revolution gives no spin axis. Codes with values; the sentences are made of them in
-/// services/words.
+/// The reasons why a revolution gives no spin axis; services/base turns them into sentences.
 
 #pragma once
 
@@ -8,10 +7,11 @@
 
 namespace spindrift {
 
+/// The comments list the values that a code carries, then the locus of the axis where there is one.
 enum class NoFixCode {
-  BothChordsAlone,      ///< - , a cone about the Earth
-  SunAngleAlone,        ///< - , a cone about the Sun
-  OneChordAlone,        ///< - , cones about the Earth
+  BothChordsAlone,      ///< - ; cone about the Earth
+  SunAngleAlone,        ///< - ; cone about the Sun
+  OneChordAlone,        ///< - ; cones about the Earth
   NothingMeasured,      ///< -
   SunEarthInLine,       ///< sun_earth_deg
   ChordTooWide,         ///< chord_deg, disc_deg, mount_angle_deg

@@ -1,6 +1,5 @@
 /// @file
-/// What a person should know of a pass beside its products. Codes with values; the sentences are
-/// made of them in services/words.
+/// The notices about a pass for operators; services/base turns them into sentences.
 
 #pragma once
 
@@ -12,6 +11,7 @@
 
 namespace spindrift {
 
+/// The comments list the values that a notice carries.
 enum class NoticeCode {
   LateEdges,               ///< -
   EdgesOutOfTime,          ///< -
@@ -25,14 +25,14 @@ enum class NoticeCode {
   EdgesLeftOut,            ///< percent, most
   SilentChannels,          ///< channels
   ChannelsWithoutSensor,   ///< channels
-  OutsideOrbit,            ///< t_tai_ns, of the start of the revolution; likewise the following
-  RangeImpossible,         ///< t_tai_ns
+  OutsideOrbit,            ///< t_tai_ns (start of the revolution)
+  RangeImpossible,         ///< t_tai_ns (start of the revolution)
   OrbitStepsInPass,        ///< t_tai_ns, km, m_s
-  MuchOutsideOrbit,        ///< revolutions, t_tai_ns, either of the two
-  NoFix,                   ///< revolution, and why
-  NoAxis,                  ///< revolutions, and why the last of them
+  MuchOutsideOrbit,        ///< revolutions, t_tai_ns; counts the previous two codes
+  NoFix,                   ///< revolution; with `why`
+  NoAxis,                  ///< revolutions; with `why` of the last one
   DispersionSettles,       ///< t_tai_ns, ra_deg, dec_deg, fixes, scatter_ratio
-  LikelihoodSettles,       ///< likewise, log_likelihood_ratio
+  LikelihoodSettles,       ///< as DispersionSettles, log_likelihood_ratio
   RevolutionsContradict,   ///< -
   FixContradictsItself,    ///< -
   HealthyBeamSilent,       ///< beam
@@ -43,27 +43,26 @@ enum class NoticeCode {
   SequentialNeverBegan,    ///< -
   LittleLeverage,          ///< error_deg, moved_deg
   NotFinite,               ///< table, column
-  AmbiguousNoPrior,        ///< geometry_case; likewise the following
-  AmbiguousNearTangent,    ///< -
-  AmbiguousPriorNoHelp,    ///< - , as fixes are near-tangent
-  AmbiguousAgainstPrior,   ///< -
-  AmbiguousFarFromPrior,   ///< -
-  AmbiguousNearPrior,      ///< prior_sigma_deg
-  AmbiguousPriorNotBorne,  ///< -
+  AmbiguousNoPrior,        ///< geometry_case
+  AmbiguousNearTangent,    ///< geometry_case
+  AmbiguousPriorNoHelp,    ///< geometry_case
+  AmbiguousAgainstPrior,   ///< geometry_case
+  AmbiguousFarFromPrior,   ///< geometry_case
+  AmbiguousNearPrior,      ///< geometry_case, prior_sigma_deg
+  AmbiguousPriorNotBorne,  ///< geometry_case
   LateSamples,             ///< -
   SamplesOutOfTime,        ///< -
-  FieldWithoutOrbit,       ///< t_tai_ns; likewise the following
-  OutsideFieldModel,       ///< -
+  FieldWithoutOrbit,       ///< t_tai_ns
+  OutsideFieldModel,       ///< t_tai_ns
   AttitudeNeverBegan,      ///< gyro, star, sun, magnetometer
-  MostLeftOut,  ///< sensor, percent, rejected_by; of some rate_deg_s and range_deg_s, or sigmas and
-                ///< most_sigmas
+  MostLeftOut,  ///< sensor, percent, rejected_by; rates or sigmas if the test has numbers
 };
 inline constexpr int kNoticeCodes = static_cast<int>(NoticeCode::MostLeftOut) + 1;
 
 struct Notice {
   NoticeCode code;
   std::vector<NamedValue> values = {};
-  std::optional<WhyNoFix> why = {};  ///< Of NoFix and NoAxis.
+  std::optional<WhyNoFix> why = {};  ///< Set for NoFix and NoAxis.
 
   bool operator==(const Notice&) const = default;
 };

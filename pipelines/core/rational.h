@@ -5,8 +5,7 @@
 
 namespace spindrift {
 
-/// What a rationality test expects of a measurement, and how far from that it may be; the unit is
-/// that of the measurement.
+/// Holds the expected value of a measurement and its largest deviation, in the measurement's unit.
 struct Rational {
   double expected;
   double limit;

@@ -1,5 +1,5 @@
 /// @file
-/// Whether numbers that were sent twice are the same ones, written differently.
+/// Decides whether a number sent twice is the same one, written differently.
 
 #pragma once
 
@@ -9,20 +9,19 @@
 
 namespace spindrift {
 
-/// A number printed with "%f" keeps so much: six digits behind the point. Float32 and longer texts
-/// lose less.
+/// Resolution of a number printed with "%f": six decimals. Float32 and longer texts are finer.
 inline constexpr double kSixDecimals = 1e-6;
-/// A number printed with "%g" keeps this share of its largest power of ten: six digits in all.
+/// Resolution of a number printed with "%g", relative to its leading power of ten: six digits.
 inline constexpr double kSixDigits = 1e-5;
 
-/// A sender that rounds to fewer digits than this says something else.
+/// Coarser rounding than to this many digits counts as a different value.
 inline constexpr int kFewestDigits = 4;
 
-/// Whether `coarse` is `fine`, rounded to four digits of its largest component or more: all its
-/// components are multiples of one power of ten, and no further than half of that from `fine`.
+/// Returns whether `coarse` is `fine`, rounded to at least four digits of its largest component:
+/// its components are multiples of one power of ten and within half of that from `fine`.
 template <int N>
 bool is_rounded(const Eigen::Vector<double, N>& coarse, const Eigen::Vector<double, N>& fine) {
-  // Float32 keeps seven digits.
+  // Float32 keeps seven digits, so that a multiple may be off by this part of the unit.
   constexpr double kOfUnit = 1e-3;
   const double largest = coarse.cwiseAbs().maxCoeff();
   if (largest == 0.0) {
@@ -40,9 +39,9 @@ bool is_rounded(const Eigen::Vector<double, N>& coarse, const Eigen::Vector<doub
   return false;
 }
 
-/// Compares the components of one vector, in one unit. Two are the same when one is the other
-/// rounded to four or five digits, or when they differ by no more than one unit of the sixth digit
-/// of the largest component, or of the sixth decimal where that is more.
+/// Compares the components of one vector, all in one unit. Two vectors are the same if one is the
+/// other rounded to four or five digits, or if they differ by at most one unit of the sixth digit
+/// of the largest component or of the sixth decimal, whichever is larger.
 template <int N>
 bool same_but_for_rounding(const Eigen::Vector<double, N>& a, const Eigen::Vector<double, N>& b) {
   const double largest = std::min(a.cwiseAbs().maxCoeff(), b.cwiseAbs().maxCoeff());

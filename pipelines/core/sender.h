@@ -1,5 +1,5 @@
 /// @file
-/// Who sent a sample.
+/// The sender of a sample.
 
 #pragma once
 
@@ -7,8 +7,8 @@
 
 namespace spindrift {
 
-/// A number for it: whoever takes samples in knows the names. Preferred: the one whose value counts
-/// where samples contradict each other.
+/// Numbers the senders; the input layer knows their names. The value of the preferred sender counts
+/// if samples contradict each other.
 enum class Sender : std::uint32_t { Preferred = 0, First = 1 };
 
 template <class Sample>

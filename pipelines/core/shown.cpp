@@ -14,7 +14,7 @@ unsigned byte_at(std::string_view text, std::size_t i) {
   return static_cast<unsigned char>(text[i]);
 }
 
-/// How many bytes the first byte of a character asks for; 0: it begins none.
+/// Returns the length that the first byte of a UTF-8 character implies; 0 if it cannot start one.
 std::size_t length_by(unsigned first) {
   if (first < 0x80U) {
     return 1;
@@ -25,7 +25,7 @@ std::size_t length_by(unsigned first) {
   return first < 0xE0U ? 2 : first < 0xF0U ? 3 : 4;
 }
 
-/// Neither overlong, nor half of a pair of UTF-16, nor beyond the last character.
+/// Rejects overlong encodings, UTF-16 surrogates and codes beyond U+10FFFF.
 bool is_character(std::uint32_t code, std::size_t length) {
   return length == 1 || length == 2 ||
          (length == 3 ? code >= 0x800U && (code < 0xD800U || code > 0xDFFFU)
@@ -41,7 +41,7 @@ bool can_be_shown(std::uint32_t code) {
   return !control && !separates_lines && !turns_writing;
 }
 
-/// Bytes of the character at the front that can be shown as it is; 0: there is none.
+/// Returns the length of the first character if it can be shown unchanged; else 0.
 std::size_t character_at_front(std::string_view text) {
   const std::size_t length = length_by(byte_at(text, 0));
   if (length == 0 || length > text.size()) {
@@ -62,7 +62,7 @@ std::size_t character_at_front(std::string_view text) {
 std::string shown(std::string_view text) {
   const auto is_plain = [](char c) { return c >= ' ' && c <= '~'; };
   if (text.size() <= kMostShown && std::all_of(text.begin(), text.end(), is_plain)) {
-    return std::string{text};  // Of every sample of telemetry, nearly.
+    return std::string{text};  // Fast path for nearly every telemetry sample.
   }
   std::string shown;
   for (std::size_t characters = 0; !text.empty();) {

@@ -1,5 +1,5 @@
 /// @file
-/// Text from outside, as a message, a log or a key of the archive may hold it.
+/// Makes text from outside safe for messages, logs and archive keys.
 
 #pragma once
 
@@ -9,11 +9,11 @@
 
 namespace spindrift {
 
-inline constexpr std::size_t kMostShown = 200;  ///< Characters.
+inline constexpr std::size_t kMostShown = 200;  ///< In characters.
 
-/// `text` of unknown origin, UTF-8 or not. Control characters, line separators, marks that turn the
-/// direction of writing, and bytes that are no UTF-8 become \xNN; beyond kMostShown characters
-/// "..." stands for the rest.
+/// Returns `text`, which may be invalid UTF-8, with control characters, line separators,
+/// bidirectional marks and invalid bytes replaced by \xNN. Longer text is cut after kMostShown
+/// characters, with "..." for the rest.
 std::string shown(std::string_view text);
 
 }  // namespace spindrift

@@ -1,5 +1,5 @@
 /// @file
-/// How the Earth stands among the stars.
+/// Orientation of the Earth in ICRF.
 
 #pragma once
 
@@ -11,24 +11,21 @@
 
 namespace spindrift {
 
-/// Precession and nutation IAU 2006/2000A, Earth rotation angle (eraC2t06a); since 1972.
-///
-/// UT1 is taken for UTC, which turns the Earth by at most 13.5 arcsec (0.9 s) about its pole; polar
-/// motion, at most 0.6 arcsec, is left out.
+/// Returns the orientation since 1972: IAU 2006/2000A and Earth rotation angle (eraC2t06a). UTC is
+/// used for UT1 (error 0.9 s, 13.5 arcsec); polar motion, 0.6 arcsec, is left out.
 /// @return q_icrf_itrf, from the Earth's axes to ICRF.
 Eigen::Quaterniond earth_orientation(TaiTime t);
 
-/// The same to 0.02 arcsec, and to 15 arcsec within the hour of a leap second, but cheap.
-///
-/// Turns the axes of the last hour of TAI about the Earth's own: keeps that hour, which changes
-/// speed, never a bit of the result.
+/// Fast `earth_orientation`, to 0.02 arcsec; to 15 arcsec within the hour of a leap second. Turns
+/// the orientation at the start of the hour of TAI about the Earth's axis. It keeps the last such
+/// orientation, which changes the speed and never a bit of the result.
 class TurningEarth {
  public:
   /// @return q_icrf_itrf.
   Eigen::Quaterniond orientation(TaiTime t);
 
  private:
-  std::optional<std::int64_t> hour_;  ///< Of TAI since 1970; empty: none yet.
+  std::optional<std::int64_t> hour_;  ///< Hours of TAI since 1970; empty: none yet.
   Eigen::Quaterniond q_icrf_at_hour_;
 };
 

@@ -1,5 +1,5 @@
 /// @file
-/// The Earth's pole among the stars: the short axis of the ellipsoid.
+/// Direction of the Earth's pole, the short axis of the ellipsoid, in ICRF.
 
 #pragma once
 
@@ -9,7 +9,7 @@
 
 namespace spindrift {
 
-/// Mean pole of date, ICRF, unit vector: bias and precession IAU 2006 (eraPmat06).
+/// Returns the mean pole of date, ICRF, unit vector: bias and precession IAU 2006 (eraPmat06).
 ///
 /// Nutation (10 arcsec) and polar motion (0.5 arcsec) are left out: they move the limb of an
 /// ellipsoid flattened by 1/298 by less than 0.04 arcsec.

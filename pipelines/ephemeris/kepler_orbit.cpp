@@ -79,7 +79,7 @@ KeplerOrbit::KeplerOrbit(const KeplerElements& elements)
   semi_minor_icrf_km_ = a_km * std::sqrt((1.0 - e) * (1.0 + e)) * R_icrf_perifocal.col(1);
 }
 
-/// The ellipse's axes by its eccentricity vector; those of a circle lie anywhere.
+/// Takes the axes of the ellipse from the eccentricity vector; those of a circle are arbitrary.
 Expected<KeplerOrbit> KeplerOrbit::through(TaiTime t, const OrbitState& state) {
   const Eigen::Vector3d& r_km = state.position_icrf_km;
   const Eigen::Vector3d& v_km_s = state.velocity_icrf_km_s;

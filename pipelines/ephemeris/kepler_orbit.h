@@ -25,18 +25,18 @@ struct KeplerElements {
   double mean_anomaly_rad;
 };
 
-/// Valid at any time; good for hours, not for weeks: no perturbation is modelled.
+/// Two-body orbit, defined at any time; without perturbations, so good for hours, not weeks.
 class KeplerOrbit {
  public:
   /// @return InvalidConfiguration for an orbit that is not an ellipse, or whose perigee lies
   ///         inside the Earth.
   static Expected<KeplerOrbit> make(const KeplerElements& elements);
 
-  /// The orbit that passes through a state.
-  /// @return InvalidInput for a state that is on no ellipse, or on one as above.
+  /// Returns the orbit that passes through a state.
+  /// @return InvalidInput for a state on no ellipse, or one with its perigee inside the Earth.
   static Expected<KeplerOrbit> through(TaiTime t, const OrbitState& state);
 
-  /// Never fails; the type is that of every source of orbits.
+  /// Never fails; the return type is shared by all sources of orbits.
   Expected<OrbitState> at(TaiTime t) const;
 
  private:
@@ -47,7 +47,7 @@ class KeplerOrbit {
   double eccentricity_;
   double mean_anomaly_rad_;
   double mean_motion_rad_s_;
-  /// The ellipse's half axes: towards perigee, and along the motion there.
+  /// Half axes of the ellipse: towards perigee, and along the motion there.
   Eigen::Vector3d semi_major_icrf_km_;
   Eigen::Vector3d semi_minor_icrf_km_;
 };

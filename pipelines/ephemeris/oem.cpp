@@ -24,7 +24,7 @@ std::size_t window_size(const OemSegment& segment) {
   return static_cast<std::size_t>(points_needed(segment.interpolation, segment.degree));
 }
 
-/// What is wrong with a segment by itself; empty: nothing.
+/// Returns what is wrong with a segment by itself; empty: nothing.
 std::string fault_of(const OemSegment& segment) {
   if (segment.degree < 1 || segment.degree > kMaxInterpolationDegree) {
     return fmt::format("INTERPOLATION_DEGREE = {}: must lie in 1 to {}", segment.degree,
@@ -68,7 +68,7 @@ struct NewtonForm {
     coefficients.at(size) = value;
     ++size;
   }
-  /// Divided differences, in place, of `first_order` and higher.
+  /// Computes divided differences, in place, of `first_order` and higher.
   void divide_differences(std::size_t first_order) {
     for (std::size_t order = first_order; order < size; ++order) {
       for (std::size_t i = size - 1; i >= order; --i) {
@@ -77,7 +77,7 @@ struct NewtonForm {
       }
     }
   }
-  /// Value and first derivative at the instant asked for.
+  /// Returns value and first derivative at the instant asked for.
   ValueAndSlope evaluate() const {
     Eigen::Vector3d value = coefficients[size - 1];
     Eigen::Vector3d slope = Eigen::Vector3d::Zero();
@@ -122,8 +122,8 @@ OrbitState hermite_at(TaiTime t, std::span<const EphemerisPoint> window) {
   return {.position_icrf_km = at_t.value, .velocity_icrf_km_s = at_t.slope};
 }
 
-/// The points about `t`, as many before as after where the segment allows: the window changes only
-/// at a node, where the old polynomial and the new one agree.
+/// Returns the points about `t`, as many before as after where the segment allows: the window
+/// changes only at a node, where the old polynomial and the new one agree.
 std::span<const EphemerisPoint> window_about(TaiTime t, const OemSegment& segment) {
   const std::span<const EphemerisPoint> points{segment.points};
   const auto after = std::upper_bound(

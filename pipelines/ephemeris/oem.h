@@ -17,17 +17,17 @@
 namespace spindrift {
 
 enum class Interpolation {
-  Lagrange,  ///< Positions and velocities each by a polynomial of their own, degree + 1 points.
+  Lagrange,  ///< Separate polynomials for positions and velocities, degree + 1 points.
   Hermite,   ///< One polynomial through positions and velocities, (degree + 1) / 2 points.
 };
 
-/// Beyond it the end intervals swing and divided differences lose more than the degree gains.
+/// Beyond this degree the end intervals oscillate and divided differences lose more than it gains.
 inline constexpr int kMaxInterpolationDegree = 15;
 
 struct EphemerisPoint {
   TaiTime t;
   OrbitState state;
-  int line = 0;  ///< Of the message that it was read from.
+  int line = 0;  ///< Line of the message that it was read from.
 };
 
 /// One metadata block with its data lines: states at strictly increasing times.
@@ -37,12 +37,12 @@ struct OemSegment {
   Interpolation interpolation;
   int degree;
   std::vector<EphemerisPoint> points;
-  std::string object_name = {};  ///< As its metadata has it; likewise:
+  std::string object_name = {};  ///< OBJECT_NAME and OBJECT_ID of its metadata.
   std::string object_id = {};
 };
 
-/// Points that one interpolation looks at; two at least, so that it never extrapolates. An even
-/// Hermite degree is raised by one: a point brings two conditions.
+/// Returns the points that one interpolation uses; at least two, so that it never extrapolates. An
+/// even Hermite degree is raised by one: a point brings two conditions.
 constexpr int points_needed(Interpolation interpolation, int degree) {
   const int points = interpolation == Interpolation::Lagrange ? degree + 1 : (degree + 2) / 2;
   return points < 2 ? 2 : points;
@@ -56,7 +56,7 @@ class OrbitEphemeris {
   ///         of successive segments may touch but not overlap.
   static Expected<OrbitEphemeris> make(std::vector<OemSegment> segments);
 
-  /// Where two segments touch, the later one answers.
+  /// Returns the state at `t`. Where two segments touch, the later one is used.
   /// @return NoCoverage, saying by how much `t` lies outside.
   Expected<OrbitState> at(TaiTime t) const;
 
@@ -69,29 +69,28 @@ class OrbitEphemeris {
   std::vector<OemSegment> segments_;
 };
 
-/// One line of a message, without its end.
+/// One line of a message, without its line end.
 struct OemLine {
-  int number;             ///< From 1.
-  std::string_view text;  ///< Good until the next line is asked for.
+  int number;             ///< Line number, from 1.
+  std::string_view text;  ///< Valid until the next line is read.
 };
 
-/// Gives the lines one after the other, blank ones or not; empty behind the last.
+/// Returns the next line on each call, including blank ones; empty after the last.
 using OemLines = std::function<Expected<std::optional<OemLine>>()>;
 
-/// Reads an OEM.
-///
-/// Earth-centred; EME2000 (J2000), ICRF or GCRF, one frame here, for their axes differ by 0.02
-/// arcsec; UTC or TAI. A segment is usable where its USEABLE times, its START and STOP times and
-/// its data lines all reach. Without INTERPOLATION: Hermite of degree 7, less if the points are
-/// few, since every data line has a velocity. Accelerations and covariances are checked for form
-/// only. Each state must follow from the one before (`jump_km` of state_jump.h; lesser jumps are
-/// taken, and `orbit_jumps` finds them); between segments the velocity may change. Where lines are
-/// left out so that the interpolation goes astray, there is no orbit (`cut_at_holes`).
-/// @return InvalidConfiguration with the line number, the key and what is allowed; the errors of
+/// Reads an OEM. Accepts only Earth-centred orbits; EME2000 (J2000), ICRF or GCRF, treated as one
+/// frame as their axes differ by 0.02 arcsec; UTC or TAI. A segment is usable where its USEABLE
+/// times, its START and STOP times and its data lines overlap. Without INTERPOLATION: Hermite of
+/// degree 7, less if the points are few, since every data line has a velocity. Accelerations and
+/// covariances are checked for form only. Each state must follow from the one before (`jump_km` of
+/// state_jump.h; smaller jumps are accepted, and `orbit_jumps` finds them); between segments the
+/// velocity may change. Where missing lines lead the interpolation astray, there is no orbit
+/// (`cut_at_holes`).
+/// @return InvalidConfiguration with the line number, the key and what is allowed; errors of
 ///         `next_line`.
 Expected<OrbitEphemeris> parse_oem(const OemLines& next_line);
 
-/// Likewise, of all its text.
+/// Reads an OEM that is given as a whole text.
 Expected<OrbitEphemeris> parse_oem(std::string_view text);
 
 }  // namespace spindrift

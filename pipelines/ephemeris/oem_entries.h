@@ -1,6 +1,5 @@
 /// @file
-/// The `KEY = value` lines of an Orbit Ephemeris Message (CCSDS 502.0-B), and how a
-/// value is refused. For its parser only.
+/// The `KEY = value` lines of an OEM (CCSDS 502.0-B), and their errors. For its parser only.
 
 #pragma once
 
@@ -19,24 +18,24 @@ struct OemEntry {
   int line;
   std::string value;
 };
-/// By key.
+/// Entries by key.
 using OemEntries = std::map<std::string_view, OemEntry>;
 
 using OemReadTime = Expected<TaiTime> (*)(std::string_view);
 
-/// InvalidConfiguration that names the line.
+/// Returns InvalidConfiguration with the line number.
 Unexpected oem_refused(int line, std::string_view what);
-/// And key and value.
+/// Returns InvalidConfiguration with line number, key and value.
 Unexpected oem_refused(std::string_view key, const OemEntry& entry, std::string_view what);
 
-/// A finite number, if `word` is one as a whole.
+/// Returns the finite number that `word` as a whole is; empty: it is none.
 std::optional<double> oem_number(std::string_view word);
 
-/// The value of `key`, which must stand there, in capitals, if it is one of `allowed`.
+/// Returns the value of `key`, which must be present, in capitals, if it is one of `allowed`.
 Expected<std::string> oem_choice(const OemEntries& entries, std::string_view key,
                                  std::span<const std::string_view> allowed);
 
-/// The time of `key`, which must stand there.
+/// Returns the time of `key`, which must be present.
 Expected<TaiTime> oem_time(const OemEntries& entries, std::string_view key, OemReadTime read_time);
 
 }  // namespace spindrift

@@ -13,11 +13,11 @@
 namespace spindrift {
 namespace {
 
-// 0.008 deg of the nadir direction near the Earth, half a sigma of the axis of a good pass.
+// 1 km is 0.008 deg of the nadir direction near the Earth, half a sigma of the axis of a good pass.
 constexpr double kBridged_km = 1.0;
-constexpr double kLonger = 1.5;  // One line left out of an even row makes it 2.
+constexpr double kLonger = 1.5;  // One missing line doubles a uniform step.
 
-/// Where the points from `first` up to before `last` reach, within what is usable.
+/// Returns the part with the points from `first` up to before `last`, cut to the usable times.
 OemSegment part_of(const OemSegment& segment, std::size_t first, std::size_t last) {
   OemSegment part = segment;
   const auto begin = segment.points.begin();
@@ -33,14 +33,14 @@ bool can_be_used(const OemSegment& part) {
   return part.points.size() >= needed && part.usable_from <= part.usable_to;
 }
 
-/// Points outside the usable times count too: the interpolation looks at them.
+/// Makes all points usable, also those outside the usable times: the interpolation uses them.
 Expected<OrbitEphemeris> usable_everywhere(OemSegment segment) {
   segment.usable_from = segment.points.front().t;
   segment.usable_to = segment.points.back().t;
   return OrbitEphemeris::make({std::move(segment)});
 }
 
-/// Whether the interpolation takes the right way between two of its points.
+/// Returns whether the interpolation between two of its points agrees with two-body motion.
 bool bridges(const OrbitEphemeris& ephemeris, const EphemerisPoint& from,
              const EphemerisPoint& to) {
   const auto expected_km = halfway_icrf_km(from, to);
@@ -54,7 +54,7 @@ bool bridges(const OrbitEphemeris& ephemeris, const EphemerisPoint& from,
       .value_or(false);
 }
 
-/// Indices of the points behind holes.
+/// Returns the indices of the points that follow holes.
 Expected<std::vector<std::size_t>> behind_holes(const OemSegment& segment) {
   return usable_everywhere(segment).map([&](const OrbitEphemeris& everywhere) {
     const auto& points = segment.points;

@@ -1,5 +1,5 @@
 /// @file
-/// Where an orbit ephemeris has no states, be it between its segments or within one.
+/// Holes of an orbit ephemeris, between its segments or within one.
 
 #pragma once
 
@@ -10,10 +10,10 @@
 
 namespace spindrift {
 
-/// The segments cut in two at every hole: a step of more than 1.5 times the shortest of its
-/// segment, halfway through which the interpolation is more than 1 km from where two-body motion
-/// and both its ends put it (`halfway_icrf_km`). So steps may change as long as the interpolation
-/// bridges them, and states that are evenly sparse are taken at their word. A part with fewer
+/// Returns the ephemeris with its segments cut in two at every hole: a step of more than 1.5 times
+/// the shortest of its segment, halfway through which the interpolation is more than 1 km from
+/// where two-body motion and both its ends put it (`halfway_icrf_km`). So steps may change as long
+/// as the interpolation bridges them, and uniformly sparse states are accepted. A part with fewer
 /// points than its interpolation needs is left out.
 /// @return InvalidConfiguration, with the line, where nothing is left.
 Expected<OrbitEphemeris> cut_at_holes(const OrbitEphemeris& ephemeris);
@@ -22,10 +22,10 @@ Expected<OrbitEphemeris> cut_at_holes(const OrbitEphemeris& ephemeris);
 struct OrbitGap {
   TaiTime from;
   TaiTime to;
-  int line;  ///< Of the first state behind it.
+  int line;  ///< Line of the first state after the gap.
 };
 
-/// In order of time.
+/// Returns the gaps in order of time.
 std::vector<OrbitGap> orbit_gaps(const OrbitEphemeris& ephemeris);
 
 }  // namespace spindrift

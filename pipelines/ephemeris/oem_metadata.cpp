@@ -11,7 +11,7 @@
 namespace spindrift {
 namespace {
 
-/// The time of `key`, or `otherwise` where it does not stand; it must not lie outside the span.
+/// Returns the time of `key`, or `otherwise` without that key; it must lie within the span.
 Expected<TaiTime> time_within(const OemEntries& entries, std::string_view key,
                               const OemMetadata& meta, TaiTime otherwise) {
   if (!entries.contains(key)) {

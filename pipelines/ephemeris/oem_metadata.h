@@ -1,6 +1,5 @@
 /// @file
-/// The metadata of a segment of an Orbit Ephemeris Message (CCSDS 502.0-B). For its
-/// parser only.
+/// The metadata of a segment of an OEM (CCSDS 502.0-B). For its parser only.
 
 #pragma once
 
@@ -23,10 +22,10 @@ struct OemMetadata {
   TaiTime usable_start;
   TaiTime usable_stop;
   std::optional<Interpolation> interpolation;
-  int degree = 0;  ///< Of `interpolation`.
+  int degree = 0;  ///< Degree of `interpolation`.
 };
 
-/// @param entries All keys that the standard requires are there.
+/// @param entries Must hold all keys that the standard requires.
 /// @return InvalidConfiguration with line, key and what is allowed.
 Expected<OemMetadata> oem_metadata_from(const OemEntries& entries);
 

@@ -31,7 +31,7 @@ constexpr std::size_t kStateAndAccelerationNumbers = 9;
 constexpr std::size_t kCovarianceRows = 6;
 constexpr std::size_t kDefaultHermitePoints = 4;
 
-/// One that says something: not blank, not a comment.
+/// A line that is neither blank nor a comment.
 struct Line {
   int number;
   std::string text;
@@ -81,7 +81,6 @@ bool is_meaningful(std::string_view line) {
   return !line.empty() && line != "COMMENT" && !line.starts_with("COMMENT ");
 }
 
-/// `words` as finite numbers.
 Expected<std::vector<double>> numbers_of(std::span<const std::string_view> words, int line) {
   std::vector<double> numbers;
   for (const std::string_view word : words) {
@@ -94,7 +93,7 @@ Expected<std::vector<double>> numbers_of(std::span<const std::string_view> words
   return numbers;
 }
 
-/// What the metadata and the data lines agree on.
+/// Makes a segment, usable where its metadata and its data lines overlap.
 OemSegment segment_from(const OemMetadata& meta, std::vector<EphemerisPoint> points) {
   const int most_hermite = 2 * static_cast<int>(std::min(points.size(), kDefaultHermitePoints)) - 1;
   return {.usable_from = std::max(meta.usable_start, points.front().t),
@@ -106,19 +105,19 @@ OemSegment segment_from(const OemMetadata& meta, std::vector<EphemerisPoint> poi
           .object_id = meta.object_id};
 }
 
-/// Takes lines from the front of what is left over.
+/// Reads the message line by line.
 class OemReader {
  public:
   explicit OemReader(const OemLines& next_line) : next_line_{next_line} { advance(); }
 
-  /// No line is left, or none can be had.
+  /// Returns whether no line is left, or the next could not be read.
   bool done() const { return !front_; }
 
-  /// Why no more lines were to be had.
+  /// Returns why the next line could not be read.
   const std::optional<Error>& failure() const { return failure_; }
 
-  /// The first data line read that is not later than the one before it: told of what is otherwise
-  /// well formed.
+  /// Returns the error of the first data line that is not later than the one before it. It is
+  /// reported only when the message is otherwise well formed.
   const std::optional<Error>& disorder() const { return disorder_; }
 
   Expected<void> read_header() {
@@ -215,7 +214,7 @@ class OemReader {
     return {};
   }
 
-  /// Takes `KEY = value` lines until one that is none, and holds them against the rules.
+  /// Reads `KEY = value` lines up to the first other line, and checks them against the rules.
   Expected<OemEntries> read_entries(std::span<const KeyRule> rules) {
     OemEntries entries;
     while (!done() && front_->text.find('=') != std::string::npos) {
@@ -254,7 +253,7 @@ class OemReader {
         });
   }
 
-  /// A message is of one object, that of its first segment.
+  /// Checks that all segments are of one object.
   Expected<void> check_object(const OemEntry& id) {
     object_id_ = object_id_.value_or(id.value);
     if (id.value != *object_id_) {
@@ -305,7 +304,7 @@ class OemReader {
     return take_marker(kCovarianceStop);
   }
 
-  /// A lower triangle: one number in the first row, six in the sixth.
+  /// Reads the lower triangle of a covariance: one number in the first row, six in the sixth.
   Expected<void> read_covariance(const OemMetadata& meta) {
     const Expected<OemEntries> entries = read_entries(kCovarianceRules);
     if (!entries) {
@@ -338,7 +337,8 @@ class OemReader {
   int last_line_ = 1;
   std::optional<Error> disorder_;
   std::optional<std::string> object_id_;
-  std::optional<EphemerisPoint> last_point_;  ///< Of this segment or the one before.
+  /// Last point read, in this segment or the one before.
+  std::optional<EphemerisPoint> last_point_;
 };
 
 Expected<OrbitEphemeris> message_from(OemReader& reader) {
@@ -364,7 +364,7 @@ Expected<OrbitEphemeris> message_from(OemReader& reader) {
 Expected<OrbitEphemeris> parse_oem(const OemLines& next_line) {
   OemReader reader{next_line};
   auto ephemeris = message_from(reader);
-  // What else seems wrong then only lacks the lines that could not be had.
+  // Any other error may only follow from the lines that could not be read.
   return reader.failure() ? Expected<OrbitEphemeris>{Unexpected{*reader.failure()}}
                           : std::move(ephemeris);
 }

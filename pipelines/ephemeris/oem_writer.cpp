@@ -11,7 +11,7 @@
 namespace spindrift {
 namespace {
 
-/// Without the final Z, which CCSDS leaves to TIME_SYSTEM.
+/// Formats a time without the final Z, as CCSDS leaves the time scale to TIME_SYSTEM.
 std::string epoch(TaiTime t) {
   constexpr int kNanoseconds = 9;
   std::string text = format_utc(t, kNanoseconds);
@@ -23,7 +23,7 @@ std::string epoch(TaiTime t) {
 
 Expected<std::vector<EphemerisPoint>> sampled_orbit(const Orbit& orbit, TaiTime from, TaiTime to,
                                                     std::chrono::seconds step) {
-  // Two points close to each other would spoil the interpolation between them.
+  // Equal steps: two points close to each other would spoil the interpolation between them.
   const std::int64_t steps = (to - from + step - std::chrono::nanoseconds{1}) / step;
   std::vector<EphemerisPoint> points;
   for (std::int64_t i = 0; i <= steps; ++i) {

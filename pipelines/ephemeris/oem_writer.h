@@ -1,5 +1,5 @@
 /// @file
-/// An orbit as the text of a CCSDS Orbit Ephemeris Message (502.0-B, KVN).
+/// Writes an orbit as a CCSDS Orbit Ephemeris Message (502.0-B, KVN).
 
 #pragma once
 
@@ -15,16 +15,16 @@
 
 namespace spindrift {
 
-/// States at even steps from `from` to `to`, which is later; each at most `step`.
-/// @return NoCoverage where the orbit ends before.
+/// Returns states at equal steps of at most `step` from `from` to `to`, which is later.
+/// @return NoCoverage where the orbit ends earlier.
 Expected<std::vector<EphemerisPoint>> sampled_orbit(const Orbit& orbit, TaiTime from, TaiTime to,
                                                     std::chrono::seconds step);
 
-/// One segment, EME2000, UTC, Hermite of degree 7; micrometres and nanoseconds are kept. Every
-/// minute a point is enough for any orbit of the Earth: `parse_oem` gives it back within a
+/// Returns a message of one segment, EME2000, UTC, Hermite of degree 7; micrometres and nanoseconds
+/// are kept. With a point every minute `parse_oem` gives any orbit of the Earth back within a
 /// millimetre.
 ///
-/// @param object Name of the spacecraft, also taken for its number. @param created Of the file.
+/// @param object Name of the spacecraft, also used as its number. @param created Creation date.
 /// @param points At least two, in order of time.
 std::string oem_text(std::string_view object, TaiTime created,
                      const std::vector<EphemerisPoint>& points);

@@ -1,5 +1,5 @@
 /// @file
-/// Where the spacecraft is: from an orbit ephemeris message or from two-body elements.
+/// Orbit of the spacecraft, from an orbit ephemeris message or from two-body elements.
 
 #pragma once
 
@@ -14,7 +14,7 @@
 
 namespace spindrift {
 
-/// An orbit that can be asked for its state at any time it covers.
+/// Gives the state of the spacecraft at any time that the orbit covers.
 class Orbit {
  public:
   explicit Orbit(OrbitEphemeris ephemeris) : source_{std::move(ephemeris)} {}
@@ -25,7 +25,7 @@ class Orbit {
     return std::visit([t](const auto& source) { return source.at(t); }, source_);
   }
 
-  /// Null where the orbit is of elements.
+  /// Returns the ephemeris; null for an orbit of elements.
   const OrbitEphemeris* ephemeris() const { return std::get_if<OrbitEphemeris>(&source_); }
 
  private:

@@ -11,7 +11,7 @@
 namespace spindrift {
 
 /// @return q_icrf_orbit: v_icrf = q v_orbit q*. A body's attitude in the frame is q* q_icrf_body.
-///         Unobservable where the spacecraft falls straight down or up: there is no normal.
+///         Unobservable where the velocity is vertical: there is no orbit normal.
 Expected<Eigen::Quaterniond> orbit_frame(const OrbitState& spacecraft);
 
 }  // namespace spindrift

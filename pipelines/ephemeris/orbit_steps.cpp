@@ -9,7 +9,7 @@
 namespace spindrift {
 namespace {
 
-/// The state that a segment has at a time that its points reach, usable there or not.
+/// Returns the state of a segment at any time within its points, even outside its usable times.
 Expected<OrbitState> state_at(OemSegment segment, TaiTime t) {
   segment.usable_from = segment.points.front().t;
   segment.usable_to = segment.points.back().t;
@@ -18,7 +18,7 @@ Expected<OrbitState> state_at(OemSegment segment, TaiTime t) {
   });
 }
 
-/// A step between two segments; empty where they meet, or neither reaches the other.
+/// Returns the step between two segments; empty where they meet or cannot be compared.
 std::optional<OrbitStep> step_between(const OemSegment& before, const OemSegment& behind) {
   const TaiTime to = behind.usable_from;
   const TaiTime from = std::min(before.points.back().t, to);

@@ -1,5 +1,5 @@
 /// @file
-/// Whether the Earth stands before the Sun.
+/// Test whether the spacecraft is in the Earth's shadow.
 
 #pragma once
 
@@ -7,9 +7,9 @@
 
 namespace spindrift {
 
-/// The Sun's centre lies behind the Earth, a sphere of the equatorial radius without air: within
-/// seconds of when it does in a low orbit. Partly covered before and after, it looks up to a
-/// quarter of a degree displaced.
+/// Returns whether the Sun's centre is behind the Earth, taken as a sphere of the equatorial radius
+/// without air. In a low orbit the times are right within seconds. A Sun that is partly covered,
+/// before and after, appears displaced by up to a quarter of a degree.
 /// @param sun_icrf Unit vector spacecraft -> Sun.
 bool is_in_shadow(const Eigen::Vector3d& position_icrf_km, const Eigen::Vector3d& sun_icrf);
 

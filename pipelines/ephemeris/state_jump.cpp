@@ -12,13 +12,14 @@
 namespace spindrift {
 namespace {
 
-// Within this a fall round the Earth's surface is good to a metre.
+// With this step two-body motion near the Earth's surface is accurate to a metre.
 constexpr double kIntegration_s = 30.0;
-constexpr double kMostSteps = 1e5;  // A month: no orbit is known so long from one state alone.
+// Steps for a month: no orbit is known that long from one state alone.
+constexpr double kMostSteps = 1e5;
 constexpr double kTolerance_km = 10.0;
 constexpr double kToleranceOfWay = 0.05;
 
-// States may be printed to no more than that.
+// States may be printed to no more digits than that.
 constexpr double kRounding_km = 1.0;
 constexpr double kRounding_km_s = 1e-3;
 
@@ -39,7 +40,7 @@ OrbitState moved(const OrbitState& state, const Slope& slope, double dt_s) {
           .velocity_icrf_km_s = state.velocity_icrf_km_s + dt_s * slope.acceleration_km_s2};
 }
 
-/// More than what two-body motion leaves out at that distance from the Earth's centre: J2 over the
+/// Returns an upper bound of the perturbations at a distance from the Earth's centre: J2 over the
 /// poles, 3.2e-5 km/s^2 at the surface; Moon and Sun, 1.4e-8 in the geostationary ring, 4e-6 near
 /// the Moon's orbit.
 double left_out_km_s2(double range_km) {
@@ -47,14 +48,15 @@ double left_out_km_s2(double range_km) {
          1.2e-8 * std::pow(range_km / 40'000.0, 3);
 }
 
-/// A state that falls, and how far it may be from where the real one is.
+/// A state propagated by two-body motion, and bounds of its error.
 struct Fall {
   OrbitState state;
   double bound_km = kRounding_km;
   double bound_km_s = kRounding_km_s;
 };
 
-/// What is left out carries it away, and gravity's gradient, 2 mu / r^3 at most, what is away.
+/// Grows the bounds by the perturbations, and by the error so far times 2 mu / r^3, gravity's
+/// gradient.
 void widen(Fall& fall, double dt_s) {
   const double range_km = fall.state.position_icrf_km.norm();
   const double gradient_s2 = 2.0 * kEarthMu_km3_s2 / std::pow(range_km, 3);
@@ -62,7 +64,7 @@ void widen(Fall& fall, double dt_s) {
   fall.bound_km += dt_s * fall.bound_km_s;
 }
 
-/// Two-body motion, by Runge and Kutta's fourth order.
+/// Propagates a state by two-body motion with fourth-order Runge-Kutta.
 Fall fall_from(const OrbitState& from, double duration_s) {
   const double steps = std::clamp(std::ceil(duration_s / kIntegration_s), 1.0, kMostSteps);
   const double dt_s = duration_s / steps;
@@ -84,16 +86,16 @@ bool inside_earth(const EphemerisPoint& point) {
   return point.state.position_icrf_km.norm() < wgs84::kEquatorialRadius_km;
 }
 
-/// How a state lies to where the one before it falls to.
+/// Difference of a state from the propagated state before it.
 struct Step {
   double off_km;
   double off_km_s;
-  double manoeuvre_km;  ///< What the change of velocity that shows could have made of it.
-  double bound_km;      ///< Of what else is not in two-body motion.
+  double manoeuvre_km;  ///< Part that the change of velocity could explain.
+  double bound_km;      ///< Bound of the perturbations and of rounding.
   double bound_km_s;
 };
 
-/// Empty where it is not judged.
+/// Returns empty for a step that is not judged.
 std::optional<Step> step_between(const EphemerisPoint& from, const EphemerisPoint& to) {
   if (to.t < from.t || to.t - from.t > std::chrono::hours{6} || inside_earth(from) ||
       inside_earth(to)) {
@@ -111,7 +113,6 @@ std::optional<Step> step_between(const EphemerisPoint& from, const EphemerisPoin
 
 bool is_unexplained(const Step& step) { return step.off_km > step.bound_km + step.manoeuvre_km; }
 
-/// By time, the point of `segment` that is the last to be used.
 const EphemerisPoint& last_usable(const OemSegment& segment) {
   return *std::prev(
       std::upper_bound(segment.points.begin(), segment.points.end(), segment.usable_to,
@@ -157,7 +158,7 @@ std::optional<Eigen::Vector3d> halfway_icrf_km(const EphemerisPoint& from,
   const double dt_s = seconds_between(from.t, to.t);
   const OrbitState halfway = fall_from(from.state, 0.5 * dt_s).state;
   const OrbitState whole = fall_from(halfway, 0.5 * dt_s).state;
-  // The cubic that begins with nothing and ends with what two-body motion lacks.
+  // Adds a cubic that is flat zero at `from` and closes the gap of two-body motion at `to`.
   return halfway.position_icrf_km + 0.5 * (to.state.position_icrf_km - whole.position_icrf_km) -
          0.125 * dt_s * (to.state.velocity_icrf_km_s - whole.velocity_icrf_km_s);
 }

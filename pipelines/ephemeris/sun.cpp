@@ -17,7 +17,7 @@ constexpr double kAu_km = ERFA_DAU * 1e-3;
 constexpr double kAuPerDay_km_s = kAu_km / ERFA_DAYSEC;
 constexpr double kLight_km_s = ERFA_CMPS * 1e-3;
 
-/// Unit vector to what is seen at `relative_km` by an observer with that velocity.
+/// Returns the unit vector to an object at `relative_km` as an observer of that velocity sees it.
 Eigen::Vector3d aberrated(const Eigen::Vector3d& relative_km,
                           const Eigen::Vector3d& velocity_km_s) {
   Eigen::Vector3d natural = relative_km.normalized();
@@ -48,7 +48,7 @@ EarthMotion earth_motion(TaiTime t) {
 
 Eigen::Vector3d geometric_sun_icrf_km(TaiTime t) { return -earth_motion(t).heliocentric_icrf_km; }
 
-/// Cubic in position, from positions and velocities at both ends; linear in the velocities.
+/// Interpolates positions by the cubic Hermite polynomial, velocities linearly.
 EarthMotion ApparentSun::interpolated_earth(TaiTime t) {
   const auto hour = std::chrono::floor<hours>(t);
   if (hour_ != hour.time_since_epoch().count()) {
@@ -71,7 +71,7 @@ EarthMotion ApparentSun::interpolated_earth(TaiTime t) {
 Eigen::Vector3d ApparentSun::direction_icrf(TaiTime t, const OrbitState& spacecraft) {
   const EarthMotion earth = interpolated_earth(t);
   const Eigen::Vector3d sun_now_km = -earth.heliocentric_icrf_km - spacecraft.position_icrf_km;
-  // The light left the Sun where that was, relative to the barycentre, one light time ago.
+  // The light left the Sun at its position, relative to the barycentre, one light time ago.
   const Eigen::Vector3d sun_velocity_km_s =
       earth.barycentric_icrf_km_s - earth.heliocentric_icrf_km_s;
   const double light_time_s = sun_now_km.norm() / kLight_km_s;

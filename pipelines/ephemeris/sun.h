@@ -1,9 +1,9 @@
 /// @file
 /// The apparent Sun as a spacecraft near the Earth sees it.
 ///
-/// From ERFA's eraEpv00: within 11.2 km of DE405 from 1900 to 2100 (note 4 of that function), which
-/// is 0.015 arcsec; twice that by 1800 and 2200. TAI + 32.184 s is taken for TDB: they differ by
-/// less than 2 ms, 60 m of the Earth's way.
+/// Computed by ERFA's eraEpv00: within 11.2 km of DE405 from 1900 to 2100 (note 4 of that
+/// function), which is 0.015 arcsec; twice that by 1800 and 2200. TAI + 32.184 s is used for TDB:
+/// they differ by less than 2 ms, 60 m of the Earth's motion.
 
 #pragma once
 
@@ -16,7 +16,7 @@
 
 namespace spindrift {
 
-/// The Earth relative to the Sun, and its velocity relative to the solar system's barycentre.
+/// The Earth's motion relative to the Sun, and its velocity relative to the barycentre.
 struct EarthMotion {
   Eigen::Vector3d heliocentric_icrf_km;
   Eigen::Vector3d heliocentric_icrf_km_s;
@@ -24,23 +24,22 @@ struct EarthMotion {
 };
 EarthMotion earth_motion(TaiTime t);
 
-/// Geometric Sun relative to the Earth's centre at `t`, ICRF, km.
+/// Returns the geometric position of the Sun relative to the Earth's centre at `t`, ICRF, km.
 Eigen::Vector3d geometric_sun_icrf_km(TaiTime t);
 
-/// Directions to the apparent Sun.
-///
-/// Evaluates the Earth's motion on hourly nodes of TAI and interpolates (below 1 m), because ERFA's
-/// series is dear: keeps the last interval, which changes speed, never a bit of the result.
+/// Computes directions to the apparent Sun. The Earth's motion is evaluated at full hours of TAI
+/// and interpolated (error below 1 m), because ERFA's series is expensive. The last interval is
+/// cached; the result is bit-identical.
 class ApparentSun {
  public:
-  /// Unit vector spacecraft -> Sun, ICRF: light time and annual aberration included, parallax of
-  /// the spacecraft too. The spacecraft's own velocity (up to 7 arcsec) is left out.
+  /// Returns the unit vector spacecraft -> Sun, ICRF, with light time, annual aberration and the
+  /// parallax of the spacecraft. The spacecraft's own velocity (up to 7 arcsec) is left out.
   Eigen::Vector3d direction_icrf(TaiTime t, const OrbitState& spacecraft);
 
  private:
   EarthMotion interpolated_earth(TaiTime t);
 
-  std::optional<std::int64_t> hour_;  ///< Of TAI since 1970; empty: no interval yet.
+  std::optional<std::int64_t> hour_;  ///< Hours of TAI since 1970; empty: no interval yet.
   EarthMotion at_hour_;
   EarthMotion at_next_hour_;
 };

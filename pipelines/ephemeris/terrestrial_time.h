@@ -10,10 +10,10 @@
 
 namespace spindrift {
 
-/// The first part, of 1970-01-01.
+/// First part: the Julian date of 1970-01-01.
 inline constexpr double kTaiEpoch_jd = 2440587.5;
 
-/// The second part, days since then.
+/// Returns the second part: days since then.
 constexpr double tt_days(TaiTime t) {
   return (seconds_between(TaiTime{}, t) + ERFA_TTMTAI) / ERFA_DAYSEC;
 }

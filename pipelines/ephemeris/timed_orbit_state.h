@@ -1,5 +1,5 @@
 /// @file
-/// Position and velocity as a spacecraft says them itself.
+/// Position and velocity that a spacecraft reports itself.
 
 #pragma once
 
@@ -16,7 +16,7 @@ struct TimedOrbitState {
   Sender sender = Sender::First;
 };
 
-/// But for rounding.
+/// Returns whether two reported states are equal but for rounding.
 inline bool say_the_same(const TimedOrbitState& a, const TimedOrbitState& b) {
   return same_but_for_rounding(a.state.position_icrf_km, b.state.position_icrf_km) &&
          same_but_for_rounding(a.state.velocity_icrf_km_s, b.state.velocity_icrf_km_s);

@@ -1,5 +1,5 @@
 /// @file
-/// Channels and spans of time that an operator leaves out.
+/// The operator actions that exclude channels and time segments of telemetry.
 
 #pragma once
 
@@ -9,7 +9,7 @@
 
 namespace spindrift {
 
-/// @tparam Channel What a spacecraft of the kind has several of.
+/// @tparam Channel Pulse channel of a spinner or sample kind of a three-axis spacecraft.
 template <class Channel>
 struct ExcludeChannel {
   Channel channel;
@@ -23,8 +23,8 @@ struct IncludeChannel {
 template <class Channel>
 struct ExcludeSegment {
   TaiTime from;
-  TaiTime to;                      ///< Itself not in it.
-  std::optional<Channel> channel;  ///< Empty: all.
+  TaiTime to;                      ///< End, exclusive.
+  std::optional<Channel> channel;  ///< Empty for all channels.
 };
 
 }  // namespace spindrift

@@ -1,5 +1,5 @@
 /// @file
-/// What an operator has left out so far.
+/// Collects an operator's exclusions of telemetry.
 
 #pragma once
 
@@ -16,7 +16,7 @@ namespace spindrift {
 template <class Channel>
 class Exclusions {
  public:
-  /// @name What is said of telemetry from `from` on
+  /// @name Actions that apply to telemetry from `from` on
   /// @{
   void add(TaiTime from, const ExcludeChannel<Channel>& action) {
     is_out_[action.channel].insert_or_assign(from, true);
@@ -44,7 +44,7 @@ class Exclusions {
   }
 
  private:
-  std::map<Channel, std::map<TaiTime, bool>> is_out_;  ///< From when on, until the next.
+  std::map<Channel, std::map<TaiTime, bool>> is_out_;  ///< Excluded or not, by start time.
   std::vector<ExcludeSegment<Channel>> segments_;
 };
 

@@ -1,5 +1,5 @@
 /// @file
-/// Degrees and turns, and turns per minute, in radians.
+/// Conversions between radians, degrees, turns and turns per minute.
 
 #pragma once
 

@@ -6,7 +6,7 @@
 
 namespace spindrift {
 
-/// In the axes of `a`, to which the errors of `b` are turned.
+/// Works in the axes of `a`, into which the errors of `b` are rotated.
 Expected<AttitudeDifference> attitude_difference(const UncertainAttitude& a,
                                                  const UncertainAttitude& b) {
   const Eigen::Quaterniond q_a_b = a.q_ref_body.conjugate() * b.q_ref_body;

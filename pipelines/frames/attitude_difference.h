@@ -9,8 +9,9 @@
 namespace spindrift {
 
 struct AttitudeDifference {
-  double angle_rad;   ///< [0, pi]
-  double chi_square;  ///< Of three degrees of freedom where errors alone keep the two apart.
+  double angle_rad;  ///< [0, pi]
+  /// Chi-square with three degrees of freedom where errors alone separate them.
+  double chi_square;
 };
 
 /// @return InvalidInput where the covariances leave an axis without any error.

@@ -1,5 +1,5 @@
 /// @file
-/// How a body stands and turns at an instant.
+/// Attitude and rate of a body at an instant.
 
 #pragma once
 

@@ -29,7 +29,7 @@ double angle_between_rad(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
 
 Eigen::Matrix<double, 3, 2> tangent_basis(const Eigen::Vector3d& axis_icrf) {
   const double equatorial = std::hypot(axis_icrf.x(), axis_icrf.y());
-  // At a pole the right ascension is 0, as above.
+  // At a pole the right ascension is 0, as in `ra_dec_of`.
   const Eigen::Vector3d east = equatorial > 0.0 ? Eigen::Vector3d{-axis_icrf.y() / equatorial,
                                                                   axis_icrf.x() / equatorial, 0.0}
                                                 : Eigen::Vector3d::UnitY();

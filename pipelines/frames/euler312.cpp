@@ -22,8 +22,8 @@ Eigen::Quaterniond quaternion_of(const Euler312& angles) {
          Eigen::AngleAxisd{angles.theta_rad, Eigen::Vector3d::UnitY()};
 }
 
-/// By half sum and half difference of theta and psi, of which the singularity spoils but one, which
-/// does not matter there (after Bernardes and Viollet 2022). With c, s the cosine and sine of
+/// Computes half sum and half difference of theta and psi; the singularity spoils only one of them,
+/// which does not matter there (after Bernardes and Viollet 2022). With c, s the cosine and sine of
 /// phi / 2 the quaternion of the three turns has
 ///     w + x = (c + s) cos sum, y + z = (c + s) sin sum,
 ///     w - x = (c - s) cos difference, y - z = (c - s) sin difference.

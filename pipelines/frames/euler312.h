@@ -3,8 +3,8 @@
 ///
 ///     A_body_ref = Ry(theta) Rx(phi) Rz(psi) = R(q_ref_body)^T,    v_body = A_body_ref v_ref
 ///
-/// The reference is ICRF or the orbit frame. At phi = +-90 deg theta and psi turn about one axis:
-/// angles are for people, the quaternion is the state.
+/// The reference frame is ICRF or the orbit frame. At phi = +-90 deg theta and psi turn about one
+/// axis: angles are for display, the quaternion is the state.
 
 #pragma once
 
@@ -19,15 +19,13 @@ struct Euler312 {
   double psi_rad;    ///< (-pi, pi]
 };
 
-/// A_body_ref
 Eigen::Matrix3d attitude_matrix(const Euler312& angles);
-/// q_ref_body
 Eigen::Quaterniond quaternion_of(const Euler312& angles);
 
 struct Euler312Reading {
-  Euler312 angles;  ///< They make the attitude to 1e-15 everywhere.
-  /// phi is within a degree of +-90 deg: an error of the attitude is 57 times as large, and more,
-  /// in theta and psi, of which only theta + psi (+90 deg) or theta - psi (-90 deg) is known well.
+  Euler312 angles;  ///< The angles reproduce the attitude to 1e-15 everywhere.
+  /// True within a degree of phi = +-90 deg: there an attitude error is 57 times as large, or more,
+  /// in theta and psi, of which only theta + psi (+90 deg) or theta - psi (-90 deg) is well known.
   bool near_singular;
 };
 

@@ -1,5 +1,5 @@
 /// @file
-/// Moments of inertia that a body can have.
+/// Check of a matrix of inertia.
 
 #pragma once
 
@@ -7,8 +7,8 @@
 
 namespace spindrift {
 
-/// Symmetric, with positive principal moments, none above the sum of the other two; to 1e-9 of the
-/// greatest.
+/// Returns whether a body can have this matrix of inertia: symmetric, with positive principal
+/// moments, none above the sum of the other two; to 1e-9 of the greatest.
 bool is_inertia(const Eigen::Matrix3d& matrix);
 
 }  // namespace spindrift

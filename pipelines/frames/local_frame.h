@@ -1,5 +1,5 @@
 /// @file
-/// Places on and above the Earth, and north-east-down there.
+/// Positions on and above the Earth, and their north-east-down frames.
 
 #pragma once
 
@@ -10,14 +10,14 @@
 
 namespace spindrift {
 
-/// By the ellipsoid's normal (WGS-84).
+/// Position by the normal of the ellipsoid (WGS-84).
 struct GeodeticPlace {
-  double latitude_rad;   ///< North positive.
-  double longitude_rad;  ///< East positive.
-  double height_km;      ///< Above the ellipsoid.
+  double latitude_rad;   ///< Geodetic latitude, north positive.
+  double longitude_rad;  ///< Longitude, east positive.
+  double height_km;      ///< Height above the ellipsoid.
 };
 
-/// By the line to the Earth's centre.
+/// Position by the line to the Earth's centre.
 struct GeocentricPlace {
   double latitude_rad;
   double longitude_rad;
@@ -26,15 +26,14 @@ struct GeocentricPlace {
 
 struct LocalFrame {
   Eigen::Vector3d origin_itrf_km;
-  Eigen::Quaterniond q_itrf_ned;  ///< Down is against the normal, or to the Earth's centre.
+  Eigen::Quaterniond q_itrf_ned;  ///< Down is opposite to the normal, or to the Earth's centre.
 };
 
-/// @return q_itrf_ned, to the Earth's axes. At a pole north is away from the longitude's meridian
-/// at
-///         the north one, and along it at the south one.
+/// @return q_itrf_ned. At the north pole, north is away from the longitude's meridian; at the south
+///         pole, along it.
 Eigen::Quaterniond north_east_down(double latitude_rad, double longitude_rad);
 
-/// @return InvalidInput for a latitude beyond 90 deg and for what is no number.
+/// @return InvalidInput for a latitude beyond 90 deg and for values that are not finite.
 Expected<LocalFrame> local_frame(const GeodeticPlace& place);
 Expected<LocalFrame> local_frame(const GeocentricPlace& place);
 

@@ -1,5 +1,5 @@
 /// @file
-/// Rotations by their vector: along the axis, as long as the angle.
+/// Rotations by their rotation vector: along the axis, with the angle as its length.
 
 #pragma once
 
@@ -9,7 +9,7 @@
 
 namespace spindrift {
 
-/// cross_matrix(a) b = a x b
+/// Returns the matrix with cross_matrix(a) b = a x b.
 inline Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& a) {
   Eigen::Matrix3d cross;
   cross << 0.0, -a.z(), a.y(),  //
@@ -18,7 +18,7 @@ inline Eigen::Matrix3d cross_matrix(const Eigen::Vector3d& a) {
   return cross;
 }
 
-/// Unit quaternion that turns by `vector_rad`, of any length.
+/// Returns the unit quaternion that turns by `vector_rad`, of any length.
 inline Eigen::Quaterniond quaternion_by(const Eigen::Vector3d& vector_rad) {
   constexpr double kSeries_rad = 1e-3;  // The next term of the series is then 1e-17.
   const double angle_rad = vector_rad.norm();
@@ -30,8 +30,7 @@ inline Eigen::Quaterniond quaternion_by(const Eigen::Vector3d& vector_rad) {
   return q;
 }
 
-/// The shortest vector that turns as `q`, which needs no unit length, does; at most pi long. `q`
-/// and `-q` are one rotation.
+/// Returns the rotation vector, at most pi long, of `q` (any length); `-q` is the same rotation.
 inline Eigen::Vector3d rotation_vector_of(const Eigen::Quaterniond& q) {
   const double sine = q.vec().norm();
   if (sine == 0.0) {
@@ -41,7 +40,7 @@ inline Eigen::Vector3d rotation_vector_of(const Eigen::Quaterniond& q) {
   return (q.w() < 0.0 ? -2.0 : 2.0) * half_angle_rad / sine * q.vec();
 }
 
-/// quaternion_by(v + dv) = quaternion_by(v) quaternion_by(J dv), the right Jacobian of SO(3).
+/// The right Jacobian J of SO(3): quaternion_by(v + dv) = quaternion_by(v) quaternion_by(J dv).
 inline Eigen::Matrix3d right_jacobian(const Eigen::Vector3d& vector_rad) {
   constexpr double kSeries_rad = 1e-2;  // The next terms of the series are then 1e-11.
   const double angle_rad = vector_rad.norm();
@@ -55,8 +54,8 @@ inline Eigen::Matrix3d right_jacobian(const Eigen::Vector3d& vector_rad) {
          (angle_rad - std::sin(angle_rad)) / (square * angle_rad) * cross * cross;
 }
 
-/// Its inverse: rotation_vector_of(quaternion_by(v) quaternion_by(e)) = v + J e, of vectors shorter
-/// than a turn.
+/// Returns the inverse J of the right Jacobian: rotation_vector_of(quaternion_by(v)
+/// quaternion_by(e)) = v + J e, for vectors shorter than a turn.
 inline Eigen::Matrix3d inverse_right_jacobian(const Eigen::Vector3d& vector_rad) {
   constexpr double kSeries_rad = 1e-2;
   const double squared = vector_rad.squaredNorm();
@@ -68,7 +67,7 @@ inline Eigen::Matrix3d inverse_right_jacobian(const Eigen::Vector3d& vector_rad)
   return Eigen::Matrix3d::Identity() + 0.5 * cross + second * cross * cross;
 }
 
-/// The angle between two attitudes, [0, pi].
+/// Returns the angle between two attitudes, [0, pi].
 inline double angle_between_rad(const Eigen::Quaterniond& a, const Eigen::Quaterniond& b) {
   return rotation_vector_of(a.conjugate() * b).norm();
 }

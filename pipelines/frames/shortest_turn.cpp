@@ -2,7 +2,7 @@
 
 namespace spindrift {
 
-// In a file of its own: what Eigen does for opposite directions takes ten seconds to compile.
+// In a file of its own: Eigen's code for opposite directions takes ten seconds to compile.
 Eigen::Quaterniond shortest_turn(const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
   return Eigen::Quaterniond::FromTwoVectors(from, to);
 }

@@ -8,8 +8,8 @@
 
 namespace spindrift {
 
-/// Turns `from` into the direction of `to`; lengths do not matter. Of opposite directions the axis
-/// is any across them.
+/// Returns the shortest rotation of `from` into the direction of `to`, both of any length. For
+/// opposite directions the axis is any across them.
 Eigen::Quaterniond shortest_turn(const Eigen::Vector3d& from, const Eigen::Vector3d& to);
 
 }  // namespace spindrift

@@ -1,5 +1,5 @@
 /// @file
-/// Rotations of some degrees, by their vector: what a small change of the vector turns by.
+/// Rotations of a few degrees by their rotation vector, and their derivative by it.
 
 #pragma once
 
@@ -10,7 +10,7 @@
 
 namespace spindrift {
 
-/// Exactly the identity for zero.
+/// Returns the rotation; exactly the identity for zero.
 inline Eigen::Matrix3d rotation_by(const Eigen::Vector3d& vector_rad) {
   if (vector_rad.isZero(0.0)) {
     return Eigen::Matrix3d::Identity();
@@ -18,8 +18,8 @@ inline Eigen::Matrix3d rotation_by(const Eigen::Vector3d& vector_rad) {
   return Eigen::AngleAxisd{vector_rad.norm(), vector_rad.stableNormalized()}.toRotationMatrix();
 }
 
-/// rotation_by(v + dv) = rotation_by(J dv) rotation_by(v), the left Jacobian of SO(3); to the
-/// second power of v, 2e-7 at a degree.
+/// Returns the left Jacobian J of SO(3), rotation_by(v + dv) = rotation_by(J dv) rotation_by(v), to
+/// second order in v: 2e-7 at a degree.
 inline Eigen::Matrix3d rotation_per_vector(const Eigen::Vector3d& vector_rad) {
   const Eigen::Matrix3d cross = cross_matrix(vector_rad);
   return Eigen::Matrix3d::Identity() + 0.5 * cross + cross * cross / 6.0;

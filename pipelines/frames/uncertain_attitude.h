@@ -10,18 +10,17 @@
 
 namespace spindrift {
 
-/// The true one is q_ref_body * quaternion_by(error), the error small.
+/// Attitude whose true value is q_ref_body * quaternion_by(error), with a small error.
 struct UncertainAttitude {
-  Eigen::Quaterniond q_ref_body;    ///< Unit.
-  Eigen::Matrix3d covariance_rad2;  ///< Of the error, body axes.
+  Eigen::Quaterniond q_ref_body;    ///< Unit quaternion.
+  Eigen::Matrix3d covariance_rad2;  ///< Covariance of the error, body axes.
 };
 
-/// Beyond it, one standard deviation of all axes together, an error is not small, and its
-/// covariance has no meaning.
+/// Largest sigma of all axes together: beyond it errors are not small and covariances meaningless.
 inline constexpr double kLargestSigma_rad = 1.0;
 
-/// With a larger sigma an attitude, or the axis of a spin, is open: it is on a cone about the Sun,
-/// the Earth or the field, more or less.
+/// With a larger sigma an attitude, or the axis of a spin, is open: all that is known is a cone
+/// about the Sun, the Earth or the field.
 inline constexpr double kOpen_rad = 10.0 * kRadPerDeg;
 
 }  // namespace spindrift

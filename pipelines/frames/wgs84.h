@@ -1,5 +1,5 @@
 /// @file
-/// The Earth's figure and how fast it turns, WGS-84 (NIMA TR8350.2).
+/// The Earth's figure and rotation rate, WGS-84 (NIMA TR8350.2).
 
 #pragma once
 

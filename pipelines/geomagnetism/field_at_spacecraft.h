@@ -1,5 +1,5 @@
 /// @file
-/// The main field where a spacecraft is.
+/// The Earth's main magnetic field at a spacecraft.
 
 #pragma once
 
@@ -12,7 +12,7 @@
 
 namespace spindrift {
 
-/// @return ICRF, nT; NoCoverage outside the years of the model, InvalidInput within the core.
+/// @return Field in ICRF, nT; NoCoverage outside the model's years, InvalidInput within the core.
 Expected<Eigen::Vector3d> field_icrf_nt(const MainFieldModel& model, TaiTime t,
                                         const Eigen::Vector3d& position_icrf_km,
                                         TurningEarth& earth);

@@ -13,7 +13,7 @@ using Eigen::Vector3d;
 
 constexpr std::size_t kRow = kHighestDegree + 2;
 
-/// Of the recursion: V_nm = by_z z V_n-1,m - by_square V_n-2,m.
+/// Factors of the recursion V_nm = by_z z V_n-1,m - by_square V_n-2,m.
 struct Steps {
   std::array<std::array<double, kRow>, kRow> by_z{};
   std::array<std::array<double, kRow>, kRow> by_square{};
@@ -31,14 +31,15 @@ constexpr Steps kSteps = [] {
   return steps;
 }();
 
-/// V_nm + i W_nm of one degree n: the solid harmonics (a/r)^(n+1) P_nm(sin b) e^(i m l), P_nm
-/// without normalisation; 0 where m is n + 1, not set beyond.
+/// Harmonics V_nm + i W_nm of one degree n: the solid harmonics (a/r)^(n+1) P_nm(sin b) e^(i m l),
+/// with P_nm unnormalised; 0 where m is n + 1, not set beyond.
 struct Harmonics {
   std::array<double, kRow + 1> v;
   std::array<double, kRow + 1> w;
 };
 
-/// Degree n, from the two below. @param scaled (a/r^2) times the position. @param square (a/r)^2.
+/// Computes degree n from the two below. @param scaled (a/r^2) times the position. @param square
+/// (a/r)^2.
 void find_degree(std::size_t n, const Vector3d& scaled, double square,
                  const Harmonics& second_below, const Harmonics& below, Harmonics& here) {
   for (std::size_t m = 0; m < n; ++m) {
@@ -54,7 +55,7 @@ void find_degree(std::size_t n, const Vector3d& scaled, double square,
   here.w[n + 1] = 0.0;
 }
 
-/// What the coefficients of degree n add, from the harmonics of degree n + 1.
+/// Adds the part of the coefficients of degree n, from the harmonics of degree n + 1.
 void add_degree(std::size_t n, const Harmonics& above, const GaussCoefficients& coefficients,
                 Vector3d& field_nt) {
   const double* const g = &coefficients.g_nt[n * (n + 1) / 2];
@@ -73,7 +74,7 @@ void add_degree(std::size_t n, const Harmonics& above, const GaussCoefficients& 
   field_nt += Vector3d{0.5 * x, 0.5 * y, z};
 }
 
-/// Schmidt's factors, sqrt(2 (n - m)! / (n + m)!) and 1 for m = 0.
+/// Returns Schmidt's factors, sqrt(2 (n - m)! / (n + m)!) and 1 for m = 0.
 const std::array<double, GaussCoefficients::kCount>& normalisations() {
   static const auto kFactors = [] {
     std::array<double, GaussCoefficients::kCount> factors{};
@@ -110,7 +111,7 @@ Expected<Vector3d> MainField::at(const Vector3d& position_itrf_km) const {
   }
   const double scale = kFieldRadius_km / (distance_km * distance_km);
   const Vector3d scaled = scale * position_itrf_km;
-  std::array<Harmonics, kRow + 1> of;  // Of degree -1, which is 0, and so on.
+  std::array<Harmonics, kRow + 1> of;  // Starts at degree -1, which is 0.
   of[0].v[0] = of[0].w[0] = 0.0;
   of[1].v = {kFieldRadius_km / distance_km, 0.0};
   of[1].w = {0.0, 0.0};

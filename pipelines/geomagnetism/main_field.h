@@ -1,11 +1,11 @@
 /// @file
-/// The Earth's main magnetic field of one date: what its core makes.
+/// The Earth's main magnetic field, that of its core, at one date.
 ///
 ///     B = -grad V,  V = a sum_n (a/r)^(n+1) sum_m (g_nm cos m l + h_nm sin m l) P_nm(sin b)
 ///
-/// with a = 6371.2 km, latitude b, longitude l, and Schmidt's semi-normalised P_nm. Summed in
+/// with a = 6371.2 km, latitude b, longitude l, and Schmidt's semi-normalised P_nm. The sum is in
 /// Cartesian components by Cunningham's recursion (Montenbruck and Gill 2000, eq. 3.29 to 3.33),
-/// which divides by r only: a pole is a place like any other.
+/// which divides by r only and so has no singularity at the poles.
 
 #pragma once
 
@@ -19,16 +19,16 @@ namespace spindrift {
 
 class MainField {
  public:
-  /// The sources of the field are below; the sum means nothing there.
+  /// Radius below which the sources of the field lie and the sum has no meaning.
   static constexpr double kCoreRadius_km = 3480.0;
 
-  /// @param degree Up to which is summed, 1 to kHighestDegree.
+  /// @param degree Highest degree of the sum, 1 to kHighestDegree.
   MainField(const GaussCoefficients& coefficients, int degree);
 
-  /// @return ITRF, nT; InvalidInput within the core and for what is no number.
+  /// @return Field in ITRF, nT; InvalidInput within the core and for a position that is not finite.
   Expected<Eigen::Vector3d> at(const Eigen::Vector3d& position_itrf_km) const;
 
-  /// @return north, east, down, nT; InvalidInput likewise.
+  /// @return Field north, east, down, nT; InvalidInput as for `at`.
   Expected<Eigen::Vector3d> ned_at(const LocalFrame& frame) const;
 
  private:

@@ -14,7 +14,7 @@ namespace {
 using std::chrono::days;
 
 struct YearSpan {
-  days beginning;  ///< Since 1970.
+  days beginning;  ///< Start of the year, days since 1970.
   days length;
 };
 

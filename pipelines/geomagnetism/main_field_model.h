@@ -1,5 +1,5 @@
 /// @file
-/// The Earth's main magnetic field over a century: coefficients of epochs, even change between.
+/// The Earth's main magnetic field over a century, interpolated linearly between epochs.
 
 #pragma once
 
@@ -13,9 +13,9 @@
 
 namespace spindrift {
 
-/// The year and its part that has passed at `t`, by TAI: a year is 365 or 366 days.
+/// Returns the year and its elapsed fraction at `t`, by TAI: a year is 365 or 366 days.
 double decimal_year(TaiTime t);
-/// The other way round.
+/// Returns the inverse of `decimal_year`.
 TaiTime instant_of_year(double year);
 
 struct FieldEpoch {
@@ -23,17 +23,16 @@ struct FieldEpoch {
   GaussCoefficients coefficients;
 };
 
-/// Valid by construction.
+/// A field model, valid by construction.
 class MainFieldModel {
  public:
   /// @return InvalidConfiguration for fewer than two epochs, and for epochs out of order.
   static Expected<MainFieldModel> make(std::vector<FieldEpoch> epochs);
 
-  /// @param year With decimals. @return NoCoverage for a year outside the epochs.
+  /// @param year Decimal year. @return NoCoverage for a year outside the epochs.
   Expected<GaussCoefficients> coefficients(double year) const;
 
-  /// @param degree Up to which is summed. @return NoCoverage likewise; InvalidInput for a degree
-  ///        outside 1 to kHighestDegree.
+  /// @param degree Highest degree of the sum.
   Expected<MainField> at(double year, int degree = kHighestDegree) const;
 
   double first_year() const { return epochs_.front().year; }

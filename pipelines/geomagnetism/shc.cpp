@@ -15,7 +15,7 @@
 namespace spindrift {
 namespace {
 
-/// Degrees, epochs, order and steps; the years that they span may stand behind.
+/// Lowest and highest degree, epochs, order and steps; the years that they span may follow.
 constexpr std::size_t kHeadNumbers = 5;
 
 struct Row {
@@ -47,7 +47,7 @@ std::optional<std::vector<double>> numbers_of(std::string_view line) {
   }
 }
 
-/// Without comments and blank lines.
+/// Returns the rows of numbers, without comments and blank lines.
 Expected<std::vector<Row>> rows_of(std::string_view text) {
   std::vector<Row> rows;
   for (int line = 1; !text.empty(); ++line) {
@@ -84,7 +84,7 @@ Expected<void> check_head(const Row& head, const Row& epochs) {
   return {};
 }
 
-/// Takes a coefficient's row into the epochs.
+/// Adds a row's coefficient to the epochs.
 Expected<void> take_in(const Row& row, std::set<std::pair<int, int>>& seen,
                        std::vector<FieldEpoch>& epochs) {
   if (row.numbers.size() != epochs.size() + 2) {

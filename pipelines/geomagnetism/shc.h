@@ -10,10 +10,10 @@
 
 namespace spindrift {
 
-/// Reads the whole text: comments behind '#'; degrees from 1, number of epochs, order of the spline
-/// (2: even change) and its steps (1); the epochs; then a row of each coefficient, degree, order
-/// (negative: of h), and its value at each epoch.
-/// @return InvalidConfiguration with line and reason; likewise for other splines, degrees beyond
+/// Reads an SHC text: comments after '#'; degrees from 1, number of epochs, order of the spline (2:
+/// linear) and its steps (1); the epochs; then a row per coefficient with degree, order (negative:
+/// of h), and its value at each epoch.
+/// @return InvalidConfiguration with line and reason, also for other splines, degrees beyond
 ///         kHighestDegree and a coefficient that is there twice or not at all.
 Expected<MainFieldModel> parse_shc(std::string_view text);
 

@@ -5,8 +5,8 @@
 
 namespace spindrift {
 
-/// @return The normalised innovation squared that noise alone exceeds once in 1.7 million samples.
-/// @param freedom 1 to 3.
+/// Returns the normalised innovation squared that noise exceeds once in 1.7 million samples.
+/// @param freedom Degrees of freedom, 1 to 3.
 double innovation_gate(int freedom);
 
 }  // namespace spindrift

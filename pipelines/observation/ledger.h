@@ -1,6 +1,5 @@
 /// @file
-/// The observations of one estimator, as far as anybody asks for them later: what monitors,
-/// assessments and alerts say of its measurements are queries of this.
+/// The ledger of one estimator's observations, which monitors, assessments and alerts query.
 
 #pragma once
 
@@ -16,15 +15,15 @@
 
 namespace spindrift {
 
-/// What people are shown is of the last few hundred observations of each source.
+/// Rules for display: the last few hundred observations of each source.
 inline constexpr RecordRules kShownRules{
     .recent = 300.0, .fewest_freedoms = 15.0, .most_freedoms = 300.0, .noise_from_share = 1.0};
 
-/// What people are shown of one source.
+/// Holds the statistics of one source for display.
 struct SourceSummary {
   SampleSource source;
-  double used;                  ///< Share.
-  std::optional<double> noise;  ///< ObservationRecord::noise(); empty: none was used.
+  double used;                  ///< Share of observations used.
+  std::optional<double> noise;  ///< ObservationRecord::noise(); empty if none was used.
 };
 
 class Ledger {
@@ -32,20 +31,20 @@ class Ledger {
   explicit Ledger(const RecordRules& rules)
       : all_{rules}, of_(kSampleSources, Source{.record = ObservationRecord{rules}}) {}
 
-  /// @param together Of one instant, or of one turn of the body: in that each source speaks once.
+  /// @param together Observations of one instant, or of one revolution with one per source.
   void add(std::span<const Observation> together);
 
   const ObservationRecord& all() const { return all_; }
   const ObservationRecord& of(SampleSource source) const { return at(source).record; }
   double oscillation(SampleSource source) const { return at(source).oscillation.noise(); }
 
-  /// The source that is left out in the most of the recent turns, where that is more than half.
+  /// Returns the source rejected in the most recent revolutions, if in more than half of them.
   std::optional<SampleSource> mostly_left_out() const;
-  /// Every source that has spoken.
+  /// Returns the statistics of every source with observations.
   std::vector<SourceSummary> sources() const;
   std::int64_t turns() const { return turns_; }
 
-  /// The estimator begins anew: as ObservationRecord.
+  /// Restarts the records with the estimator; see ObservationRecord.
   void restart();
   void discard_transient(double most);
 
@@ -60,7 +59,7 @@ class Ledger {
   const Source& at(SampleSource source) const { return of_[index_of(source)]; }
 
   ObservationRecord all_;
-  std::vector<Source> of_;  ///< Each stands at the index of its SampleSource.
+  std::vector<Source> of_;  ///< Indexed by SampleSource.
   std::int64_t turns_ = 0;
 };
 

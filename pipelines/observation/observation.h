@@ -1,6 +1,6 @@
 /// @file
-/// What one measurement said to one estimator: what was expected, how far off it was, how
-/// surprising that is, and whether it was used. The estimator makes it before it decides.
+/// The observation that one measurement gives to one estimator: residual, normalised innovation,
+/// limit and rejection. The estimator builds it before it decides on the measurement.
 
 #pragma once
 
@@ -17,8 +17,7 @@
 
 namespace spindrift {
 
-/// The pulse channels in the order of PulseChannel, then the kinds of samples in that of
-/// SampleKind.
+/// The pulse channels in the order of PulseChannel, then the sample kinds in that of SampleKind.
 enum class SampleSource : std::uint8_t {
   Sun1,
   Sun2,
@@ -34,7 +33,7 @@ enum class SampleSource : std::uint8_t {
 };
 inline constexpr std::size_t kSampleSources = 11;
 constexpr std::size_t index_of(SampleSource source) { return static_cast<std::size_t>(source); }
-/// The archive calls a source by its pulse channel, or by its kind of sample.
+/// Returns the source's name in the archive: that of its pulse channel or sample kind.
 constexpr std::string_view name_of(SampleSource source) {
   constexpr std::array<std::string_view, kSampleSources> kNames = {
       "sun1",        "sun2", "north_in", "north_out", "south_in",    "south_out",
@@ -42,11 +41,11 @@ constexpr std::string_view name_of(SampleSource source) {
   return kNames.at(index_of(source));
 }
 
-/// Measured minus expected. Edges: s. Star tracker, sun sensor: rad. Magnetometer: nT.
+/// Holds measured minus expected: edges in s, star and sun sensors in rad, magnetometer in nT.
 struct Residual {
-  int freedom = 0;  ///< So many components count; 0: nothing was expected.
+  int freedom = 0;  ///< Number of components; 0 if nothing was expected.
   Eigen::Vector3d value = Eigen::Vector3d::Zero();
-  /// One standard deviation of each component, by what the estimator knew before.
+  /// Prior standard deviation of each component.
   Eigen::Vector3d sigma = Eigen::Vector3d::Zero();
 };
 
@@ -54,13 +53,13 @@ struct Observation {
   TaiTime t;
   SampleSource source;
   Residual residual = {};
-  double nis = 0.0;    ///< Normalised innovation squared, a chi-square of so many freedoms.
-  double limit = 0.0;  ///< What `nis` was held against.
-  std::optional<Rejection> rejected_by = {};  ///< Empty: it was used.
+  double nis = 0.0;    ///< Normalised innovation squared, with `freedom` degrees of freedom.
+  double limit = 0.0;  ///< Upper limit of `nis`.
+  std::optional<Rejection> rejected_by = {};  ///< Empty if the measurement was used.
 
-  /// @return A residual of one degree of freedom, in its standard deviations.
+  /// Returns the residual of an observation with one degree of freedom, in standard deviations.
   double whitened() const { return residual.value[0] / residual.sigma[0]; }
-  /// What was left out counts as at its limit: nobody knows how far off a spurious one is.
+  /// Counts a rejected measurement at its limit, as the size of a spurious one is arbitrary.
   double bounded_nis() const { return rejected_by ? limit : nis; }
 };
 

@@ -1,6 +1,5 @@
 /// @file
-/// The record of what the observations of one source, or of several together, say of its noise
-/// and of how many are left out.
+/// The noise and the rejection rate of the observations of one source, or of several together.
 
 #pragma once
 
@@ -13,12 +12,12 @@
 
 namespace spindrift {
 
-/// Over how many observations a record is kept.
+/// Sets over how many observations the statistics extend.
 struct RecordRules {
-  double recent;           ///< So many make the share of what is left out.
-  double fewest_freedoms;  ///< Fewer say nothing of the noise.
-  double most_freedoms;    ///< So many of the last ones do.
-  /// From this share on what is left out belongs to the noise, and is not spurious.
+  double recent;           ///< Window of the share of rejections.
+  double fewest_freedoms;  ///< Degrees of freedom below which the noise counts as unknown.
+  double most_freedoms;    ///< Window of the noise, in degrees of freedom.
+  /// Share of rejections above which rejected observations count as noise, not as spurious.
   double noise_from_share;
 };
 
@@ -31,26 +30,26 @@ class ObservationRecord {
         share_for_noise_{rules.most_freedoms},
         mean_square_{rules.most_freedoms} {}
 
-  /// @param together Of one turn or instant: first their shares, then the noise.
+  /// @param together Observations of one revolution or instant; shares are updated before the
+  ///         noise.
   void add(std::span<const Observation> together);
 
-  /// Of the recent ones, as if all had been used before the first.
+  /// Returns the recent share of rejections, starting from a full window without rejections.
   double recent_share_left_out() const { return recent_share_.mean(); }
-  /// Likewise, but of the first ones the plain share: what starts wrong says so at once.
+  /// Returns the recent share of rejections, starting empty so that an early fault shows at once.
   double share_left_out() const { return share_from_the_start_.mean(); }
-  /// How many were heard, no more than recent ones.
+  /// Returns the number of observations, at most the window `recent`.
   double heard() const { return share_from_the_start_.count(); }
   std::int64_t left_out() const { return left_out_; }
 
-  /// Root of the mean square of a residual in its sigmas, of what was used: 1 when all is well.
+  /// Returns the root mean square of the whitened residuals used; 1 for noise as stated.
   double noise() const { return std::sqrt(mean_square_.mean()); }
-  /// How many times the variance of a residual is what its sigma makes it, where that is
-  /// significantly more than 1 (variance_factor.h); else 1.
+  /// Returns actual over stated variance if significantly above 1 (variance_factor.h); else 1.
   double excess_noise() const;
 
-  /// The estimator begins anew: so do the shares. The noise stays what it is, but less sure.
+  /// Restarts the shares with the estimator. The noise keeps its value but loses weight.
   void restart();
-  /// The noise so far was a transient: no more than `most` of it is believed.
+  /// Reduces the weight of a noise that was a transient, and caps its mean square at `most`.
   void discard_transient(double most);
 
  private:
@@ -58,7 +57,7 @@ class ObservationRecord {
   RecentMean recent_share_;
   RecentMean share_from_the_start_;
   RecentMean share_for_noise_;
-  RecentMean mean_square_;  ///< Of one freedom.
+  RecentMean mean_square_;  ///< Mean square per degree of freedom.
   std::int64_t left_out_ = 0;
 };
 

@@ -11,11 +11,11 @@ namespace {
 
 constexpr std::size_t kWindow = 64;
 constexpr std::size_t kFewest = 10;
-// So many more hardly change a full window.
+// A full window changes little with fewer new values, so the noise is updated this rarely.
 constexpr int kStale = 4;
 // A step or a ramp crosses the middle once.
 constexpr int kFewestCrossings = 3;
-// Half the distance of the quartiles has itself a sigma of 1.2 over the root of their number.
+// Half the quartile distance has a sigma of 1.2 over the root of the number of values.
 constexpr double kSignificant = 4.0 * 1.2;
 
 double noise_of(const std::deque<double>& recent) {

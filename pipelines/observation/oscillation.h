@@ -1,9 +1,8 @@
 /// @file
-/// Whether the residuals of a source oscillate about a middle: more noise than stated, or a motion
-/// that the estimator does not know, as nutation, under which the axis that slits and beams see
-/// circles the angular momentum. A gate of fixed width would keep one side of the oscillation and
-/// bias the estimate. Residuals that stay on one side do not oscillate: the estimate, or the
-/// sensor, is elsewhere.
+/// Detects residuals that oscillate about a middle value, due to excess noise or to an unmodelled
+/// motion such as nutation, in which the axis that slits and beams sense circles the angular
+/// momentum. A gate of fixed width would keep one side of the oscillation and bias the estimate.
+/// Residuals on one side only are not an oscillation but an offset of the estimate or sensor.
 
 #pragma once
 
@@ -13,16 +12,16 @@ namespace spindrift {
 
 class Oscillation {
  public:
-  /// @param whitened In standard deviations, whether it was used or not.
+  /// @param whitened Residual in standard deviations, whether it was used or not.
   void add(double whitened);
 
-  /// How many times the variance of the recent ones is what it should be, by their quartiles, which
-  /// take no notice of single spurious ones; 1 where they do not oscillate significantly.
+  /// Returns the ratio of recent to stated variance by the quartiles, which ignore single spurious
+  /// values; 1 unless the residuals oscillate significantly.
   double noise() const { return noise_; }
 
  private:
   std::deque<double> recent_;
-  int stale_ = 0;  ///< So many have come since the noise was found.
+  int stale_ = 0;  ///< Number of values since `noise_` was computed.
   double noise_ = 1.0;
 };
 

@@ -1,5 +1,5 @@
 /// @file
-/// Why a measurement was left out: by the tests before an estimator, or by the estimator itself.
+/// The reasons for rejecting a measurement, by tests ahead of an estimator or by the estimator.
 
 #pragma once
 
@@ -7,29 +7,29 @@
 
 namespace spindrift {
 
-/// schemas/tables.sql says each in words (table `rejection`). From Period on they are the tests of
-/// the angles and the period of a revolution.
+/// schemas/tables.sql describes each reason in words (table `rejection`). From Period on they are
+/// the rationality tests of the angles and the period of a revolution.
 enum class Rejection {
   Unassociated,  ///< No revolution had a place for the edge.
   Late,          ///< It arrived after its time had been processed.
-  OutOfTime,     ///< It is far from all others in time, by a clock that nothing else agrees with.
-  Contradicted,  ///< It came with other values, too, and no sender is preferred.
-  Copy,          ///< The channel's edges come several times: another counts, or it came alone.
-  Interference,  ///< An edge of another channel is so near that both are spoilt.
-  Operator,      ///< An operator has left it out.
-  Phase,     ///< It is not where the edges of its channel lie; a measurement rests on such an edge.
-  Geometry,  ///< The measurement has no meaning (chord of a whole turn, slit lag out of range).
-  NoSensor,  ///< The mission file has no such sensor.
-  NoOrbit,   ///< The orbit does not cover it; an orbit state is on no ellipse round the Earth.
-  NoField,   ///< The model of the field does not reach it.
+  OutOfTime,     ///< The time is far from all others, by a clock that no other supports.
+  Contradicted,  ///< Its senders contradict each other and none is preferred.
+  Copy,          ///< It is a copy of an edge; another copy counts, or this one came alone.
+  Interference,  ///< An edge of another channel is so near that both are corrupted.
+  Operator,      ///< An operator has excluded it.
+  Phase,         ///< It is off the phase of its channel's edges, or is derived from such an edge.
+  Geometry,      ///< The measurement is meaningless (chord of a whole turn, slit lag out of range).
+  NoSensor,      ///< The mission file has no such sensor.
+  NoOrbit,     ///< The orbit does not cover it, or an orbit state is on no ellipse round the Earth.
+  NoField,     ///< The field model does not cover it.
   Saturated,   ///< The gyro turned faster than its range.
-  Frozen,      ///< The sensor gives the same numbers as too many times before.
-  Outlier,     ///< The gyro's samples beside it are elsewhere.
-  Shadow,      ///< The Earth is before the Sun.
-  Unit,        ///< The gyro's rates are in another unit, by the star fixes.
-  Innovation,  ///< It is too far from where the estimator expects it, or nothing is expected there.
+  Frozen,      ///< The sensor repeats its values beyond chance.
+  Outlier,     ///< The gyro sample departs from its neighbours.
+  Shadow,      ///< The Sun is eclipsed by the Earth.
+  Unit,        ///< Star fixes show that the gyro's rates are in another unit.
+  Innovation,  ///< It is too far from the estimator's prediction, or there is no prediction.
   Period,      ///< It failed the spin-period test.
-  SunAngle,    ///< It failed the 3-sigma test of that quantity; likewise the following.
+  SunAngle,    ///< From here on: it failed the 3-sigma test of the named quantity.
   NorthChord,
   SouthChord,
   NorthDihedral,

@@ -24,7 +24,7 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-// Fewer residuals say nothing of their noise.
+// A noise estimate requires more residuals than this.
 constexpr std::int64_t kFewResiduals = 10;
 
 SensorResiduals sun_residuals(const Observations& all, const ChainSolution& fine,
@@ -54,8 +54,8 @@ SensorResiduals sun_residuals(const Observations& all, const ChainSolution& fine
   return residuals;
 }
 
-/// A fix that agrees with its neighbours is used however far the solution is from it: what it says
-/// is what it said to them.
+/// Counts a fix that agrees with its neighbours as used, however far off the solution is; its
+/// observation is the one relative to its neighbours.
 SensorResiduals star_residuals(const ChainSolution& fine, std::vector<Observation>& said) {
   const Chain& chain = fine.solved.chain;
   said.insert(said.end(), fine.stars.said.begin(), fine.stars.said.end());
@@ -98,7 +98,7 @@ std::vector<OpenBiasDirection> open_directions(const Observations& all, const Ch
   return open;
 }
 
-/// @param gyro_noise_rad_s Of the samples, as in the chain.
+/// @param gyro_noise_rad_s Noise that the turns of the chain were built with.
 NodeEstimates nodes_of(const SolvedChain& solved, const ChainCovariance& known,
                        double gyro_noise_rad_s) {
   return {.times_s = solved.chain.times_s,
@@ -110,7 +110,7 @@ NodeEstimates nodes_of(const SolvedChain& solved, const ChainCovariance& known,
           .gyro_noise_rad_s = gyro_noise_rad_s};
 }
 
-/// With the noise as stated, whatever the samples show.
+/// Returns the history with the stated noise, whatever noise the samples show.
 History bound_of(const ReconstructionRequest& request, const Observations& all,
                  const ChainSolution& fine) {
   SolvedChain stated = fine.solved;

@@ -9,8 +9,8 @@
 namespace spindrift {
 namespace {
 
-/// Of every turn, per axis. Two samples a nanosecond apart would be held together by so much that
-/// the digits of a double do not hold what else is known of them.
+/// Least noise of a turn per axis. Two samples a nanosecond apart would otherwise get a weight at
+/// which double precision loses the rest of the information.
 constexpr double kLeastNoise_rad = 1e-8;
 
 }  // namespace

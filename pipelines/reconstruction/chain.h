@@ -1,14 +1,15 @@
 /// @file
-/// The problem of `batch`: attitudes at nodes in time, linked by what the gyro measured, held by
-/// sun vectors and star fixes, with one gyro bias and one misalignment of the sun sensor.
+/// The least-squares problem of the `batch` method: attitudes at nodes in time, linked by the gyro,
+/// tied to sun vectors and star fixes, with one gyro bias and one sun sensor misalignment. Its
+/// residuals are
 ///
-///     gyro   log(turn(bias)^-1 q_i^-1 q_j)             by the root of its covariance
-///     sun    exp(misalignment) R(q)^T sun_icrf - s     by its noise
-///     star   log(q_star^-1 q)                          by its noise
-///     bias, misalignment                               by their priors
+///     gyro   log(turn(bias)^-1 q_i^-1 q_j)             over the root of its covariance
+///     sun    exp(misalignment) R(q)^T sun_icrf - s     over its noise
+///     star   log(q_star^-1 q)                          over its noise
+///     bias, misalignment                               over their prior sigmas
 ///
-/// Errors of attitudes are small rotations about body axes. A sun vector leaves the rotation about
-/// itself open; without a star fix nothing is determined.
+/// Attitude errors are small rotations about body axes. A sun vector leaves the rotation about
+/// itself open, so that without a star fix the attitude is unobservable.
 
 #pragma once
 
@@ -37,13 +38,13 @@ struct ChainNoise {
   double sun_rad;
   double star_rad;
   double bias_rad_s;
-  std::optional<double> misalignment_rad;  ///< Empty: it is zero.
+  std::optional<double> misalignment_rad;  ///< Empty if no misalignment is estimated.
 };
 
 struct Chain {
-  std::vector<double> times_s;  ///< Of the nodes.
-  std::vector<Turn> turns;      ///< From each node to the next, with `bias_rad_s` taken off.
-  Eigen::Vector3d bias_rad_s;   ///< About which the turns are linear in the bias.
+  std::vector<double> times_s;  ///< Node times since T2.
+  std::vector<Turn> turns;      ///< Turns between adjacent nodes, corrected for `bias_rad_s`.
+  Eigen::Vector3d bias_rad_s;   ///< Bias about which the turns are linearised.
   std::vector<ChainSun> sun;
   std::vector<ChainStar> stars;
   ChainNoise noise;
@@ -55,19 +56,19 @@ struct ChainState {
   Eigen::Vector3d misalignment_rad = Eigen::Vector3d::Zero();
 };
 
-/// With nodes at these sun vectors, star fixes and times.
-/// @param times_s In any order.
+/// Builds a chain with a node at each sun vector, star fix and given time.
+/// @param times_s Further node times, in any order.
 Chain chain_of(const RateTrack& rates, std::vector<double> times_s,
                std::span<const SunObservation> sun, std::span<const StarObservation> stars,
                const Eigen::Vector3d& bias_rad_s, const ChainNoise& noise);
 
-/// Attitudes from one star fix on, both ways, by the turns.
+/// Propagates the attitude of one star fix to all nodes with the gyro turns.
 ChainState started_at(const Chain& chain, const ChainStar& star);
 
-/// exp(misalignment) R(q)^T sun_icrf
+/// Returns exp(misalignment) R(q)^T sun_icrf.
 Eigen::Vector3d predicted_sun(const ChainState& state, const ChainSun& sun);
 
-/// Of a time that is one of the nodes.
+/// Returns the index of the node at `t_s`, which must be a node time.
 std::size_t node_at(const Chain& chain, double t_s);
 
 }  // namespace spindrift

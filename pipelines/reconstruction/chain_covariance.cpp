@@ -12,14 +12,14 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-/// Of one node and the shared unknowns.
+/// Holds the information matrix of one node and the shared unknowns.
 struct Information {
   Matrix3d node;
   PerShared mixed;
   Shared shared;
 };
 
-/// error_node = next error_(node + 1) + shared shared_error + noise
+/// Holds the coefficients of error_node = next error_(node + 1) + shared shared_error + noise.
 struct Smoothing {
   Matrix3d next;
   PerShared shared;
@@ -56,8 +56,8 @@ void add(const ChainSun& sun, const Chain& chain, const ChainState& state, Infor
   }
 }
 
-/// From a node to the next. The noise of the turn between is eliminated without inverting it, so
-/// that nothing is lost however small it is.
+/// Propagates the information to the next node. The turn's noise is marginalised without inverting
+/// it, so that it may be arbitrarily small.
 Smoothing pass_on(const Turn& turn, const Matrix3d& turned, Information& at) {
   PerShared later_per_shared = PerShared::Zero(3, at.mixed.cols());
   later_per_shared.leftCols<3>() = turn.per_bias_s;

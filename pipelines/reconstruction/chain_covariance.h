@@ -1,6 +1,6 @@
 /// @file
-/// What is known of every node of a chain, in time and memory that grow linearly with it: an
-/// information filter with bias and misalignment beside each node, then a smoother.
+/// Computes the covariance of every node of a chain in linear time and memory, by an information
+/// filter augmented with bias and misalignment, followed by a smoother.
 
 #pragma once
 
@@ -11,17 +11,17 @@
 
 namespace spindrift {
 
-/// Bias, and misalignment where it is estimated: three or six unknowns.
+/// Matrix over the shared unknowns: the bias, and the misalignment if it is estimated (3 or 6).
 using Shared = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, 6, 6>;
 using PerShared = Eigen::Matrix<double, 3, Eigen::Dynamic, 0, 3, 6>;
 
 struct ChainCovariance {
   Shared shared;
   std::vector<Eigen::Matrix3d> nodes_rad2;
-  std::vector<PerShared> node_shared;  ///< Between each node and the shared unknowns.
+  std::vector<PerShared> node_shared;  ///< Covariance of each node with the shared unknowns.
 };
 
-/// Of a solution.
+/// Returns the covariance at a solution.
 ChainCovariance covariance_of(const Chain& chain, const ChainState& state);
 
 }  // namespace spindrift

@@ -30,12 +30,12 @@ using Jacobian = Eigen::Map<Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>;
 
 constexpr double kFunctionTolerance = 1e-9;
 constexpr int kMostIterations = 100;
-/// As far as Ceres goes: none of Levenberg and Marquardt's damping. It holds each attitude where it
-/// is by a part of its own weight, and so nearly stops a turn of all of them together, which their
-/// links leave free.
+/// The largest radius that Ceres accepts, which disables Levenberg-Marquardt damping. Damping ties
+/// each attitude to its present value by a part of its weight and nearly stops a common rotation of
+/// all nodes, which the links leave free.
 constexpr double kTrustRegion = 1e16;
 constexpr double kFarLoss_sigmas = 3.0;
-constexpr double kFullWeight = 16.0;  ///< Squares of sigmas.
+constexpr double kFullWeight = 16.0;  ///< In sigmas squared, as `kNoWeight`.
 constexpr double kNoWeight = 64.0;
 
 class NearLoss final : public ceres::LossFunction {
@@ -90,7 +90,6 @@ class GyroCost final : public ceres::SizedCostFunction<3, 4, 4, 3> {
   Matrix3d whitening_;
 };
 
-/// Parameters: attitude, misalignment in rad.
 class SunCost final : public ceres::SizedCostFunction<3, 4, 3> {
  public:
   SunCost(const SunObservation& sun, double noise_rad) : sun_{&sun}, noise_rad_{noise_rad} {}
@@ -116,7 +115,6 @@ class SunCost final : public ceres::SizedCostFunction<3, 4, 3> {
   double noise_rad_;
 };
 
-/// Parameter: attitude.
 class StarCost final : public ceres::SizedCostFunction<3, 4> {
  public:
   StarCost(const StarObservation& star, double noise_rad) : star_{&star}, noise_rad_{noise_rad} {}
@@ -136,7 +134,7 @@ class StarCost final : public ceres::SizedCostFunction<3, 4> {
   double noise_rad_;
 };
 
-/// Parameter: what is zero but for `sigma`.
+/// The prior of a parameter with zero mean and standard deviation `sigma`.
 class PriorCost final : public ceres::SizedCostFunction<3, 3> {
  public:
   explicit PriorCost(double sigma) : sigma_{sigma} {}
@@ -153,7 +151,7 @@ class PriorCost final : public ceres::SizedCostFunction<3, 3> {
   double sigma_;
 };
 
-/// Keeps what Ceres points to where it is.
+/// Owns the cost and loss functions to which the Ceres problem points.
 class ChainProblem {
  public:
   ChainProblem(const Chain& chain, ChainState& state, SunLoss loss)
@@ -212,7 +210,7 @@ class ChainProblem {
 
 struct Misfit {
   const char* sensor;
-  double sigmas;  ///< Root of the mean square of a residual.
+  double sigmas;  ///< Root mean square of a residual component.
   const char* check;
 };
 

@@ -1,5 +1,5 @@
 /// @file
-/// The likeliest state of a chain, by Ceres: cost grows linearly with its nodes.
+/// Finds the maximum-likelihood state of a chain with Ceres, at a cost linear in the nodes.
 
 #pragma once
 
@@ -8,16 +8,16 @@
 
 namespace spindrift {
 
-/// How far off a sun vector still pulls.
+/// The robust loss of sun vectors.
 enum class SunLoss {
-  Far,   ///< Huber's: all do, for a start that may be far off.
-  Near,  ///< As least squares to 4 sigmas, then ever less; beyond 8 not at all.
+  Far,   ///< Huber loss: every vector pulls, for a start that may be far off.
+  Near,  ///< Least squares up to 4 sigmas, falling to no pull at 8 sigmas.
 };
 
-/// What is left of a sun vector's weight.
-/// @param squares Of its residual, in sigmas.
+/// Returns the weight that `SunLoss::Near` leaves to a sun vector.
+/// @param squares Squared residual, in sigmas squared.
 double weight_of(double squares);
-/// Where no more than that is left.
+/// The inverse of `weight_of`.
 double squares_of(double weight);
 
 struct ChainFit {
@@ -25,7 +25,7 @@ struct ChainFit {
   int iterations;
 };
 
-/// @return Unobservable where no minimum is found.
+/// @return Unobservable if the iteration does not converge.
 Expected<ChainFit> fit(const Chain& chain, ChainState start, SunLoss loss);
 
 }  // namespace spindrift

@@ -17,16 +17,16 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-// Of the start: so many vectors and fixes at most, spread over the span; the first span to both
-// sides of the star fix, in which no bias turns the body far, and by what it grows.
+// Limits of the coarse solution: the number of sun vectors and star fixes, thinned evenly, and the
+// first span on either side of the star fix, in which no bias turns the body far, with its growth.
 constexpr std::size_t kCoarseSun = 300;
 constexpr std::size_t kCoarseStars = 100;
 constexpr double kFirstSpan_s = 300.0;
 constexpr double kSpanGrowth = 4.0;
-/// Of the length of two normal variables, the median.
+/// Median length of a vector of two standard normal components.
 constexpr double kMedianLength = 1.17741;
 
-/// Those within the span, every so many-th.
+/// Returns every n-th sample within the span, such that at most `most` remain.
 template <class Sample>
 std::vector<Sample> thinned(std::span<const Sample> samples, double first_s, double last_s,
                             std::size_t most) {
@@ -41,8 +41,8 @@ std::vector<Sample> thinned(std::span<const Sample> samples, double first_s, dou
   return some;
 }
 
-/// From one star fix on, over spans that grow until they hold everything: a bias that the first
-/// minutes show does not turn the body far in the next.
+/// Solves over growing spans about the first star fix. The bias found in one span keeps the
+/// propagation error small in the next.
 Expected<SolvedChain> coarse_solution(const Observations& all,
                                       std::span<const StarObservation> stars,
                                       const ChainNoise& noise) {
@@ -73,7 +73,6 @@ Expected<SolvedChain> coarse_solution(const Observations& all,
   }
 }
 
-/// How many times the stated noise is in the sun vectors, by the median; at least 1.
 double louder_sun(const SolvedChain& solved) {
   std::vector<double> lengths;
   for (const ChainSun& sun : solved.chain.sun) {
@@ -88,8 +87,9 @@ double louder_sun(const SolvedChain& solved) {
   return louder > kLouder ? louder : 1.0;
 }
 
-/// By how far neighbours are from what the gyro turned between them, where it is beyond chance; at
-/// least 1. What is left about the solution says less: the chain goes along with each fix.
+/// Returns the star noise as a multiple of the stated one, from the differences of adjacent fixes
+/// to the gyro turn, if significant; at least 1. Residuals of the solution would show less, because
+/// the chain follows each fix.
 double louder_star(const RateTrack& rates, std::span<const StarObservation> stars,
                    const ChainNoise& noise, const Vector3d& bias_rad_s) {
   std::vector<double> times_s;
@@ -115,7 +115,7 @@ double louder_star(const RateTrack& rates, std::span<const StarObservation> star
                    std::max(0.0, excess_rad2) / (2.0 * freedom * std::pow(noise.star_rad, 2)));
 }
 
-/// Attitudes where the coarse solution has them, turned on by the gyro between.
+/// Takes attitudes from the coarse solution and propagates them to the other nodes with the gyro.
 ChainState started_from(const SolvedChain& coarse, const Chain& chain) {
   ChainState state{.q_icrf_body = {},
                    .bias_rad_s = coarse.state.bias_rad_s,
@@ -157,7 +157,7 @@ ChainNoise noise_of(const ReconstructionRequest& request) {
 
 struct CoarseSolution {
   SolvedChain solved;
-  StarConsensus stars;  ///< By its bias.
+  StarConsensus stars;  ///< Consensus with the bias of the coarse solution.
 };
 
 Expected<CoarseSolution> coarse_of(const ReconstructionRequest& request, const Observations& all) {

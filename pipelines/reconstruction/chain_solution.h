@@ -1,6 +1,6 @@
 /// @file
-/// The chain of all samples, solved: a coarse solution of some of them first, in which sun vectors
-/// far off still pull and star fixes that contradict it are found.
+/// Solves the chain of all samples. A coarse solution of a subset comes first; in it distant sun
+/// vectors still pull, and it identifies the star fixes that contradict it.
 
 #pragma once
 
@@ -21,15 +21,15 @@ struct SolvedChain {
 struct ChainSolution {
   SolvedChain solved;
   StarConsensus stars;
-  // So many times the stated noise is that of the chain, at least 1.
+  // The noise of the chain as a multiple of the stated noise, at least 1.
   double louder_sun;
   double louder_star;
 };
 
-/// Of the sun vectors, by the median of a coarse solution; 1 where there is none.
+/// Returns the sun vector noise over the stated one, by the median of a coarse solution; else 1.
 double louder_sun(const ReconstructionRequest& request, const Observations& all);
 
-/// @return Unobservable where no minimum is found.
+/// @return Unobservable if the iteration does not converge.
 Expected<ChainSolution> solution_of(const ReconstructionRequest& request, const Observations& all);
 
 }  // namespace spindrift

@@ -14,7 +14,7 @@ namespace {
 
 using enum SeparationEvent;
 
-// Torque-free longer than this nobody believes.
+// Longest plausible torque-free arc.
 constexpr double kLongestArc_s = 24.0 * kHour_s;
 
 template <class Sample>
@@ -66,7 +66,7 @@ Expected<std::vector<EventTime>> event_times(const SeparationTimes& times,
       first_behind(samples.gyro, times.separation).value_or(samples.gyro.front().t));
   auto acquisition = times.acquisition ? times.acquisition : first_behind(samples.sun, control_on);
   auto star = star_behind(acquisition.value_or(control_on));
-  // A Sun that is seen behind all star fixes only was not acquired before them.
+  // A sun vector later than all star fixes does not mark the acquisition before them.
   if (!times.acquisition && acquisition && (!star || *star < *acquisition)) {
     acquisition.reset();
     star = star_behind(control_on);

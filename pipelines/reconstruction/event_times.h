@@ -1,5 +1,5 @@
 /// @file
-/// When T1 to T4 are: as the mission says, and what it leaves out as the samples show it.
+/// Determines the epochs T1 to T4 from the mission file or, where it omits them, from the samples.
 
 #pragma once
 
@@ -18,19 +18,19 @@ struct EventTime {
   bool found;
 };
 
-/// Each kind in order of time.
+/// Holds the samples, each kind in time order.
 struct SamplesInOrder {
   std::span<const GyroSample> gyro;
   std::span<const SunDirection> sun;
   std::span<const StarFix> stars;
 };
 
-/// That no star fix lies behind `t`.
+/// Returns the error that there is no star fix after `t`.
 Error nothing_anchored(TaiTime t);
 
-/// T1, T2, T3 where a sun vector shows it, T4; see SeparationTimes.
-/// @return Unobservable where there is no gyro sample, or no star fix to find T4 by; InvalidInput
-///         where one is before another.
+/// Returns the events T1, T2, T3 (if a sun vector shows it) and T4; see SeparationTimes.
+/// @return Unobservable without gyro samples or without a star fix for T4; InvalidInput if the
+///         events are out of order.
 Expected<std::vector<EventTime>> event_times(const SeparationTimes& times,
                                              const SamplesInOrder& samples);
 

@@ -14,7 +14,7 @@ using Matrix6d = Eigen::Matrix<double, 6, 6>;
 
 constexpr double kMostArcPoints = 60.0;
 
-/// From T1 to T2, without T2, at least a second apart. Empty where T1 is T2.
+/// Returns attitudes from T1 to T2, T2 excluded, at least one second apart; empty if T1 is T2.
 std::vector<ReconstructedAttitude> arc_to_separation(const ReconstructionRequest& request,
                                                      const Observations& all,
                                                      const ReconstructedAttitude& control_on,
@@ -23,10 +23,10 @@ std::vector<ReconstructedAttitude> arc_to_separation(const ReconstructionRequest
   const double points = std::clamp(std::floor(arc_s), 1.0, kMostArcPoints);
   const std::optional<Inertia>& inertia = request.sensors.inertia;
   const auto kg_m2 = inertia ? std::optional{inertia->kg_m2} : std::nullopt;
-  Matrix6d at_start;  // The rate is the measured one less the bias.
+  Matrix6d at_start;  // Signs follow from rate = measured rate - bias.
   at_start << control_on.covariance_rad2, -rotation_bias_covariance,
       -rotation_bias_covariance.transpose(), control_on.rate_covariance_rad2_s2;
-  // Torques that nobody models, and the nutation of a body whose inertia nobody knows.
+  // Unmodelled torques, and the nutation of a body of unknown inertia.
   Eigen::Vector3d acceleration_rad_s2 = Eigen::Vector3d::Constant(request.disturbance_rad_s2);
   if (!inertia) {
     acceleration_rad_s2 += unknown_acceleration_rad_s2(control_on.rate_body_rad_s);

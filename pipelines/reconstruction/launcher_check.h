@@ -1,5 +1,5 @@
 /// @file
-/// The attitude at separation beside the launch vehicle's own figure of it.
+/// Compares the attitude at separation with the one that the launch vehicle reported.
 
 #pragma once
 
@@ -16,12 +16,12 @@
 
 namespace spindrift {
 
-/// Of the spacecraft's body at T1.
+/// Holds the attitude of the spacecraft body in the orbit frame at T1.
 struct InOrbitFrame {
   Euler312 angles;
 };
 
-/// The chain: body -> launch inertial -> north-east-down of the site -> Earth's axes -> ICRF.
+/// Uses the chain body -> launch inertial -> north-east-down of the site -> Earth-fixed -> ICRF.
 struct InLaunchFrame {
   Euler312 angles;
   Launch launch;
@@ -29,20 +29,20 @@ struct InLaunchFrame {
 
 struct LauncherAttitude {
   std::variant<InOrbitFrame, InLaunchFrame> told;
-  double sigma_rad;  ///< Per body axis.
+  double sigma_rad;  ///< Standard deviation per body axis.
 };
 
 struct LauncherCheck {
-  Eigen::Quaterniond q_icrf_body;  ///< The launcher's.
-  AttitudeDifference difference;   ///< From the launcher's to the reconstructed one.
-  /// That errors alone keep the two as far apart or farther: chi-square, 3 degrees of freedom.
+  Eigen::Quaterniond q_icrf_body;  ///< Attitude reported by the launcher.
+  AttitudeDifference difference;   ///< From the launcher's attitude to the reconstructed one.
+  /// Probability of at least this difference by errors alone: chi-square, 3 degrees of freedom.
   double chance;
 };
 
-/// @param separation Of T1.
-/// @param orbit Not needed by the chain.
-/// @return InvalidConfiguration where the sigma is not above 0; NoCoverage or Unobservable where
-///         there is no orbit frame at T1.
+/// @param separation Attitude at T1.
+/// @param orbit Needed for an attitude in the orbit frame only.
+/// @return InvalidConfiguration if the sigma is not positive; NoCoverage or Unobservable without an
+///         orbit frame at T1.
 Expected<LauncherCheck> launcher_check(const LauncherAttitude& launcher,
                                        const ReconstructedAttitude& separation,
                                        const std::optional<Orbit>& orbit);

@@ -1,6 +1,6 @@
 /// @file
-/// The two ways from the star fixes back to T2. Both end with the same arc: from T2 back to T1 the
-/// body turns without torques, by its inertia, or at a constant rate where that is unknown.
+/// The two reconstruction methods from the star fixes back to T2. Both continue to T1 by the same
+/// arc: torque-free motion by the inertia, or a constant rate if the inertia is unknown.
 
 #pragma once
 
@@ -11,14 +11,14 @@
 
 namespace spindrift {
 
-/// The likeliest history from T2 on, of all samples at once, with the bias of the gyro.
-/// @return Unobservable where no minimum is found.
+/// Estimates the maximum-likelihood history from T2 on from all samples, including the gyro bias.
+/// @return Unobservable if the iteration does not converge.
 Expected<Reconstruction> reconstruct_batch(const ReconstructionRequest& request,
                                            const Observations& all);
 
-/// Step by step from the star fix at T4, each attitude corrected to the sun vector it has; the bias
-/// of the gyro stays in it, and in its covariance.
-/// @return Unobservable where a step is not solved.
+/// Steps back from the star fix at T4 and corrects each attitude to its sun vector. The gyro bias
+/// is not estimated but is part of the covariance.
+/// @return Unobservable if a step is not solved.
 Expected<Reconstruction> reconstruct_sequential(const ReconstructionRequest& request,
                                                 const Observations& all);
 

@@ -24,16 +24,16 @@ namespace {
 
 using enum SeparationEvent;
 
-// So many usual steps may lie between the gyro samples and T2, T4 or a star fix: the next sample
-// was on its way.
+// Number of usual steps by which T2, T4 or a star fix may lie outside the gyro samples, to allow
+// for a sample that was still due.
 constexpr double kHeldSteps = 2.0;
 
 Unexpected refused(ErrorCode code, std::string message) {
   return Unexpected{{code, std::move(message)}};
 }
 
-/// From T1 on, in order of time, each instant once, what came first: however much more the caller
-/// has, and in whatever order, the result is the same.
+/// Sorts the samples from T1 on and keeps the first of each instant, so that the result depends
+/// neither on their order nor on additional samples.
 template <class Sample>
 std::vector<Sample> ordered(std::vector<Sample> samples, TaiTime separation) {
   std::erase_if(samples, [=](const Sample& sample) { return sample.t < separation; });
@@ -115,7 +115,7 @@ std::vector<TimedRate> timed(std::span<const GyroSample> samples, TaiTime origin
   return rates;
 }
 
-/// From T2 to the end, and a little behind it.
+/// Returns the gyro samples from T2 to shortly after the end.
 std::vector<GyroSample> needed(const Samples& samples, const Observations& all) {
   std::vector<GyroSample> within;
   std::copy_if(samples.gyro.begin(), samples.gyro.end(), std::back_inserter(within),
@@ -167,7 +167,7 @@ Expected<Samples> samples_of(const ReconstructionRequest& request) {
   return samples;
 }
 
-/// Between T1 and T2, by the rate at T2.
+/// Checks the turn from T1 to T2 that the rate at T2 implies.
 std::optional<Error> turns_too_often(const Observations& all) {
   const double rate_rad_s = all.rates.rate_at(0.0).norm();
   const double arc_s = elapsed_s(all.events.front().t, all.origin);

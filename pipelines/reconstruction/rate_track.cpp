@@ -17,8 +17,8 @@ using Eigen::Vector3d;
 
 constexpr double kGap = 1.75;
 
-/// In each step, as before it or as behind it, whichever is more; in one more before the first
-/// sample and one behind the last.
+/// Returns the density of each step, the larger of those before and after it. The first and last
+/// elements are for the times before the first sample and after the last one.
 std::vector<double> wander_rad2_s3(std::span<const TimedRate> samples, double noise_rad_s) {
   std::vector<double> wander(samples.size() + 1);
   RateWander forwards{noise_rad_s};
@@ -115,7 +115,7 @@ Vector3d RateTrack::rate_at(double t_s) const {
   return steps_.empty() ? samples_.front().rate_body_rad_s : rate_in(step_at(t_s), t_s);
 }
 
-/// Of a rate that is linear in time: the series of Magnus to the fourth order.
+/// Integrates a linear rate by the Magnus series to fourth order.
 void RateTrack::append(Turn& turn, std::size_t step, double from_s, double to_s,
                        const Vector3d& bias_rad_s) const {
   const double h_s = to_s - from_s;

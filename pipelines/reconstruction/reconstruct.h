@@ -1,5 +1,5 @@
 /// @file
-/// The attitude at separation and everything between, backwards from the first star fix.
+/// Reconstructs the attitude at separation and its history, backwards from the first star fix.
 
 #pragma once
 
@@ -9,11 +9,11 @@
 
 namespace spindrift {
 
-/// The same request gives the same result, bit for bit.
+/// Solves a request; the result is bit-identical for identical requests.
 /// @return InvalidConfiguration (sensors, inertia, sigmas), InvalidInput (times out of order or
-///         outside the samples, values that are not finite, quaternions and vectors not of unit
-///         length), Unobservable (no gyro; no star fix: nothing can be anchored; no solution
-///         found), naming the value and what is allowed.
+///         outside the samples, non-finite values, quaternions and vectors not of unit length),
+///         Unobservable (no gyro; no star fix as an anchor; no solution found). Messages name the
+///         value and what is allowed.
 Expected<Reconstruction> reconstruct(const ReconstructionRequest& request,
                                      ReconstructionMethod method);
 

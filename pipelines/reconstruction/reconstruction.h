@@ -1,5 +1,5 @@
 /// @file
-/// The attitude from separation to the star fixes, as reconstructed.
+/// The result of a reconstruction: the attitude from separation to the star fixes.
 
 #pragma once
 
@@ -21,20 +21,19 @@
 namespace spindrift {
 
 enum class ReconstructionMethod { Batch, Sequential };
-/// "batch", "sequential".
 constexpr std::string_view name_of(ReconstructionMethod method) {
   return method == ReconstructionMethod::Batch ? "batch" : "sequential";
 }
 
-/// T1 to T4.
+/// The events T1 to T4.
 enum class SeparationEvent { Separation, ControlOn, Acquisition, FirstStarFix };
-/// "T1" to "T4".
 constexpr std::string_view name_of(SeparationEvent event) {
   constexpr std::array<std::string_view, 4> kNames{"T1", "T2", "T3", "T4"};
   return kNames.at(static_cast<std::size_t>(event));
 }
 
-/// Covariances are of small rotations about body axes: q_true = q quaternion_by(error).
+/// Holds an attitude; covariances are of small rotations about body axes, q_true = q
+/// quaternion_by(error).
 struct ReconstructedAttitude {
   TaiTime t;
   Eigen::Quaterniond q_icrf_body;
@@ -42,15 +41,15 @@ struct ReconstructedAttitude {
   Eigen::Matrix3d covariance_rad2;
   Eigen::Matrix3d rate_covariance_rad2_s2;
 
-  double sigma_rad() const { return std::sqrt(covariance_rad2.trace()); }  ///< Of all three axes.
+  double sigma_rad() const { return std::sqrt(covariance_rad2.trace()); }  ///< Root of the trace.
 };
 
 struct ReconstructedEvent {
   SeparationEvent event;
-  bool found;  ///< In the samples, as nobody named its time.
+  bool found;  ///< True if the time was inferred from samples.
   ReconstructedAttitude attitude;
-  /// Of `batch`. Cramer-Rao bound of the error about all three axes together, with the noise as
-  /// stated and the priors.
+  /// Cramer-Rao bound of the total error about all three axes, with the stated noise and the
+  /// priors; `batch` only.
   std::optional<double> bound_rad = std::nullopt;
 };
 
@@ -59,40 +58,40 @@ struct SunMisalignment {
   Eigen::Matrix3d covariance_rad2;
 };
 
-/// A direction in which the measurements do not halve what is known of the bias beforehand.
+/// Holds a direction in which the measurements do not halve the prior uncertainty of the bias.
 struct OpenBiasDirection {
   Eigen::Vector3d axis_body;
   double sigma_rad_s;
-  double share;                       ///< Of that known beforehand.
-  std::optional<double> off_sun_rad;  ///< Its angle to the Sun line of the last sun vector.
+  double share;                       ///< Sigma over prior sigma.
+  std::optional<double> off_sun_rad;  ///< Angle to the line of the last sun vector.
 };
 
 struct SensorResiduals {
-  std::int64_t count = 0;     ///< Used.
-  std::int64_t outliers = 0;  ///< Not among these.
-  /// How many times the stated noise is in them. Of the gyro from how its samples scatter about the
-  /// lines through their neighbours. Empty where there are too few.
+  std::int64_t count = 0;     ///< Samples used.
+  std::int64_t outliers = 0;  ///< Outliers, not included in `count`.
+  /// Ratio of the observed noise to the stated one; empty if there are too few samples. For the
+  /// gyro it is measured by the scatter about the lines through adjacent samples.
   std::optional<double> noise = std::nullopt;
 };
 
 struct Reconstruction {
   ReconstructionMethod method;
-  std::vector<ReconstructedEvent> events;      ///< In order; no T3 where no sun vector shows it.
-  std::vector<ReconstructedAttitude> history;  ///< From T1, in order.
-  std::optional<GyroBias> bias;                ///< Of `batch`.
+  std::vector<ReconstructedEvent> events;  ///< In time order; without T3 if no sun vector shows it.
+  std::vector<ReconstructedAttitude> history;  ///< Attitudes from T1 on, in time order.
+  std::optional<GyroBias> bias;                ///< Gyro bias, `batch` only.
   std::optional<SunMisalignment> misalignment;
   std::vector<OpenBiasDirection> open_bias;
   SensorResiduals gyro;
   SensorResiduals sun;
   SensorResiduals star;
-  /// What sun vectors and star fixes said, used or not, in rad, and the gyro samples that were left
-  /// out; each sensor in order of time.
+  /// Observations of all sun vectors and star fixes, used or not, in rad, and of the rejected gyro
+  /// samples; in time order per sensor.
   std::vector<Observation> said = {};
   Assessment assessment;
-  int iterations;  ///< Of Ceres.
+  int iterations;  ///< Number of Ceres iterations.
 };
 
-/// Null where it has none.
+/// Returns the event; null if the reconstruction lacks it.
 inline const ReconstructedEvent* find(const Reconstruction& all, SeparationEvent event) {
   for (const ReconstructedEvent& one : all.events) {
     if (one.event == event) {

@@ -15,7 +15,7 @@ namespace {
 using enum ReasonCode;
 
 constexpr double kManyFixesGated = 1.0 / 3.0;
-constexpr double kLongGap_s = 10.0;  ///< The body may turn and stop in it, which no sigma foresees.
+constexpr double kLongGap_s = 10.0;  ///< The body may turn and stop in it, which no sigma covers.
 
 bool is_many(std::int64_t some, std::int64_t others, double share) {
   return static_cast<double>(some) > share * static_cast<double>(some + others);
@@ -23,7 +23,7 @@ bool is_many(std::int64_t some, std::int64_t others, double share) {
 
 class Doubts {
  public:
-  /// Says so where there are any.
+  /// Adds a reason if the count is positive.
   void count(ReasonCode code, std::int64_t count, bool is_doubt) {
     if (count > 0) {
       add({code, {{"count", count}}}, is_doubt);

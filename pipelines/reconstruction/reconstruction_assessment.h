@@ -1,5 +1,5 @@
 /// @file
-/// Whether to act on a reconstruction, and why.
+/// Rates how far a reconstruction can be trusted, with reasons.
 
 #pragma once
 
@@ -11,13 +11,14 @@
 
 namespace spindrift {
 
-/// OK          all is well
-/// CONVERGING  likewise, but of one star fix and no sun vector: nothing checks it
-/// DOUBTFUL    a sensor scatters by more than its noise or has many outliers, the gyro its
-///             first sample behind T2; it was saturated, frozen or silent for more than 10 s; a
-///             third of the star fixes are gated, or they contradict each other; the bias is not to
-///             be believed, or the attitude at T1 is open by more than 10 deg
-/// @param result All but its assessment.
+/// Assesses a reconstruction:
+/// OK          nothing contradicts it
+/// CONVERGING  nothing contradicts it, but it rests on one star fix and no sun vector checks it
+/// DOUBTFUL    a sensor scatters beyond its noise or has many outliers; the first gyro sample
+///             after T2 is an outlier; the gyro was saturated, frozen or silent for more than 10 s;
+///             a third of the star fixes are gated or they contradict each other; the bias is
+///             implausible; or the attitude at T1 has a sigma above 10 deg
+/// @param result The complete reconstruction except its assessment.
 Assessment assess(const ReconstructionRequest& request, const Observations& all,
                   const Reconstruction& result, const StarConsensus& stars);
 

@@ -1,5 +1,5 @@
 /// @file
-/// What of a request cannot be true.
+/// Validates the values of a reconstruction request.
 
 #pragma once
 
@@ -10,7 +10,7 @@
 
 namespace spindrift {
 
-/// Sensors, inertia, sigmas and every sample by itself; not the times.
+/// Checks sensors, inertia, sigmas and every single sample, but not the event times.
 std::optional<Error> refusal_of(const ReconstructionRequest& request);
 
 }  // namespace spindrift

@@ -1,5 +1,5 @@
 /// @file
-/// Quaternions as Ceres has them: x y z w, on ceres::EigenQuaternionManifold.
+/// Conversions for quaternions as Ceres stores them: x y z w, on ceres::EigenQuaternionManifold.
 
 #pragma once
 
@@ -12,8 +12,9 @@ inline Eigen::Quaterniond quaternion_at(const double* at) {
   return Eigen::Quaterniond{Eigen::Map<const Eigen::Vector4d>{at}};
 }
 
-/// Writes slopes by small rotations about body axes as those by the quaternion, along its tangent.
-/// @param jacobian Row-major, 3 x 4; nothing where it is null.
+/// Converts derivatives with respect to small body rotations to derivatives with respect to the
+/// quaternion, along its tangent.
+/// @param jacobian Row-major 3 x 4 output; ignored if null.
 inline void write_slopes(const Eigen::Matrix3d& slopes, const Eigen::Quaterniond& q,
                          double* jacobian) {
   if (jacobian == nullptr) {

@@ -1,5 +1,5 @@
 /// @file
-/// A reconstruction in the frames that people ask for, beside what the launcher told.
+/// Expresses a reconstruction in the orbit frame and compares it with the launcher's report.
 
 #pragma once
 
@@ -18,17 +18,17 @@ namespace spindrift {
 
 struct ReconstructedSeparation {
   Reconstruction solution;
-  /// The body in the orbit frame at each event; NoCoverage or Unobservable where there is no such
-  /// frame. Empty: no orbit is known.
+  /// Body attitude in the orbit frame at each event, or NoCoverage or Unobservable if that frame
+  /// does not exist. Empty if no orbit is known.
   std::vector<Expected<Euler312Reading>> in_orbit_frame;
-  std::optional<Expected<LauncherCheck>> launcher;  ///< Empty: the launcher told nothing.
-  std::int64_t samples = 0;  ///< That the request had: of two of one pass the later has more.
+  std::optional<Expected<LauncherCheck>> launcher;  ///< Empty if the launcher reported nothing.
+  std::int64_t samples = 0;  ///< Samples in the request; a later request of the pass has more.
 };
 
 ReconstructedSeparation separation_of(Reconstruction solution, const std::optional<Orbit>& orbit,
                                       const std::optional<LauncherAttitude>& launcher);
 
-/// Of a request by itself. @return As reconstruct().
+/// Solves a request. @return Errors as listed at reconstruct().
 Expected<ReconstructedSeparation> reconstruct_separation(
     const ReconstructionRequest& request, ReconstructionMethod method,
     const std::optional<LauncherAttitude>& launcher);

@@ -13,7 +13,7 @@
 
 namespace spindrift {
 
-/// @return Whether it was not there.
+/// @return True if no sample of that instant existed.
 template <class Sample>
 bool SeparationRecord::insert(std::vector<Sample>& samples, const Sample& sample) {
   const TaiTime separation = request_.times.separation;
@@ -35,7 +35,7 @@ bool SeparationRecord::insert(std::vector<Sample>& samples, const Sample& sample
   return true;
 }
 
-/// Something is there of its instant.
+/// Decides between the new sample and those of the same instant.
 template <class Sample>
 void SeparationRecord::contest(std::vector<Sample>& samples, const Sample& sample) {
   auto& of_kind = std::get<Said<Sample>>(said_);

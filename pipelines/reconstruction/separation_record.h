@@ -1,5 +1,5 @@
 /// @file
-/// The samples of a pass that its separation is reconstructed from, as they arrive, and when.
+/// Collects the samples of a pass for its separation reconstruction and decides when to solve.
 
 #pragma once
 
@@ -17,40 +17,40 @@
 
 namespace spindrift {
 
-/// A solution is due at the first star fix behind T3 and whenever twice as many as at the last have
-/// arrived: all together cost a few times the last; and when the stream falls silent behind others
-/// that a solution uses. While no T3 is found, those behind T2 count. A fix ahead of the gyro
-/// samples waits for them.
+/// Holds the samples received. A solution is due at the first star fix after T3 and whenever the
+/// number of fixes has doubled since the last one, so that all solutions together cost a few times
+/// the last. It is also due when the stream falls silent after further usable samples. Until T3 is
+/// found, fixes after T2 count. A fix later than the gyro samples waits for them.
 class SeparationRecord {
  public:
-  /// Samples from T1 to so long behind it are kept.
+  /// Time after T1 up to which samples are kept.
   static constexpr std::chrono::hours kLongest{24};
 
-  /// @param begun Without samples.
+  /// @param begun Request without samples.
   explicit SeparationRecord(ReconstructionRequest begun) : request_{std::move(begun)} {}
 
-  // Of those of one kind and instant one counts, or none (one_that_counts), whenever they come.
-  // Each: @return whether a solution is due.
+  // Adds a sample. Of contradicting samples of one kind and instant at most one counts
+  // (one_that_counts), in whatever order they arrive. @return True if a solution is due.
   bool push(const GyroSample& sample);
   bool push(const SunDirection& sun);
   bool push(const StarFix& fix);
   bool push(const TimedOrbitState& state);
 
-  /// Perhaps nothing comes any more. @param apart Of telemetry, from one that was due in a silence
-  /// to the next. @return whether a solution is due.
+  /// Handles a silence of the stream. @param apart Least span of telemetry time between two
+  /// solutions that silences trigger. @return True if a solution is due.
   bool fall_silent(std::chrono::nanoseconds apart);
 
-  /// What an operator has left out since it arrived.
-  /// @return whether a solution rests on it: another one is due.
+  /// Drops samples that an operator has excluded since they arrived.
+  /// @return True if a solution used them, so that a new one is due.
   bool forget(const Exclusions<SampleKind>& excluded);
 
-  /// What arrived has changed what counts of that before it, by a contradiction, and a solution
-  /// rests on that. One that is not due yet is with the next silence.
-  /// @param apart Of telemetry, from one that was due for this to the next. @return whether a
-  /// solution is due.
+  /// Handles contradictions that changed which of the earlier samples count after a solution used
+  /// them. A correction that is not due yet becomes due at the next silence.
+  /// @param apart Least span of telemetry time between two corrections.
+  /// @return True if a solution is due.
   bool take_correction(std::chrono::nanoseconds apart);
 
-  /// All up to now, each kind in order of time.
+  /// Returns all samples up to now, each kind in time order.
   const ReconstructionRequest& request() const { return request_; }
 
  private:
@@ -58,25 +58,25 @@ class SeparationRecord {
   bool insert(std::vector<Sample>& samples, const Sample& sample);
   template <class Sample>
   void contest(std::vector<Sample>& samples, const Sample& sample);
-  /// @param reached Gyro samples are there up to then. @return whether that was waited for.
+  /// @param reached Time up to which gyro samples exist. @return True if a solution awaited it.
   bool is_due(TaiTime reached);
 
   template <class Sample>
   using Said = std::map<TaiTime, std::vector<Sample>>;
 
   ReconstructionRequest request_;
-  /// Of instants of which more than one thing was said.
+  /// All contending samples of each instant that has several.
   std::tuple<Said<GyroSample>, Said<SunDirection>, Said<StarFix>, Said<TimedOrbitState>> said_;
-  std::optional<TaiTime> corrected_;        ///< The newest instant that a solution has wrong.
-  std::optional<TaiTime> last_correction_;  ///< Likewise, when one was due for it.
-  bool has_acquisition_ = false;            ///< T3 was there at the last star fix.
-  std::int64_t fixes_ = 0;                  ///< That have arrived behind it.
+  std::optional<TaiTime> corrected_;  ///< Newest instant whose sample changed after a solution.
+  std::optional<TaiTime> last_correction_;  ///< Value of `corrected_` when it was last due.
+  bool has_acquisition_ = false;            ///< True if T3 was known at the last star fix.
+  std::int64_t fixes_ = 0;                  ///< Star fixes that arrived after T3.
   std::int64_t due_at_fixes_ = 1;
-  std::optional<TaiTime> awaited_;       ///< A solution is due once gyro samples reach it.
-  bool was_due_ = false;                 ///< A solution.
-  std::optional<TaiTime> used_until_;    ///< The end of what a solution uses, at the last star fix.
-  std::optional<TaiTime> newest_used_;   ///< Of what arrived since a solution was due.
-  std::optional<TaiTime> last_silence_;  ///< That newest one, when one was due in a silence.
+  std::optional<TaiTime> awaited_;       ///< Gyro time at which a solution becomes due.
+  bool was_due_ = false;                 ///< True once any solution was due.
+  std::optional<TaiTime> used_until_;    ///< End of what a solution uses, as of the last fix.
+  std::optional<TaiTime> newest_used_;   ///< Newest usable sample since a solution was last due.
+  std::optional<TaiTime> last_silence_;  ///< `newest_used_` when a silence was last due.
 };
 
 }  // namespace spindrift

@@ -30,14 +30,14 @@ using Eigen::Quaterniond;
 using Eigen::Vector3d;
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
 
-/// That of Li 2017, of the cost from one iteration to the next.
+/// Relative tolerance of the cost between iterations, as in Li 2017.
 constexpr double kTolerance = 1e-6;
-/// The other tests must not end a step before it is solved: a slow body turns by less than that.
+/// Disables the other convergence tests, which would end a slow body's step before it is solved.
 constexpr double kNoTolerance = 1e-14;
 
-/// The kinematic equation of one step. Li 2017 writes it in Euler angles, with the rate at the
-/// later instant: singular at phi = 90 deg, and off by half of what the rate changes. Here it is
-/// the turn of the step. Parameter: the earlier attitude.
+/// The kinematic equation of one step; its parameter is the earlier attitude. Li 2017 writes it in
+/// Euler angles with the rate at the later instant, which is singular at phi = 90 deg and off by
+/// half the change of the rate. Here the turn of the step is used.
 class StepCost final : public ceres::SizedCostFunction<3, 4> {
  public:
   StepCost(Quaterniond later, Quaterniond turn)
@@ -60,7 +60,7 @@ class StepCost final : public ceres::SizedCostFunction<3, 4> {
   Quaterniond turn_;
 };
 
-/// A S_icrf = s_measured. Parameter: the attitude, whose rotation about the Sun it leaves open.
+/// The equation A S_icrf = s_measured; its parameter is the attitude. Turns about the Sun are free.
 class SunCorrection final : public ceres::SizedCostFunction<3, 4> {
  public:
   explicit SunCorrection(const SunObservation& sun) : sun_{&sun} {}
@@ -88,7 +88,7 @@ struct Solver {
     options.trust_region_strategy_type = strategy;
     options.linear_solver_type = ceres::DENSE_QR;
     options.num_threads = 1;
-    // No axis weighs more than another: a correction must not turn about the Sun.
+    // Equal weights for all axes, because a correction must not rotate about the Sun line.
     options.jacobi_scaling = false;
     options.min_lm_diagonal = 1.0;
     options.max_lm_diagonal = 1.0;
@@ -98,7 +98,6 @@ struct Solver {
     options.logging_type = ceres::SILENT;
   }
 
-  /// Moves `q` from where it is.
   bool solve(ceres::CostFunction& cost, Quaterniond& q) {
     ceres::Problem::Options keeping;
     keeping.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
@@ -113,8 +112,8 @@ struct Solver {
   }
 };
 
-/// An attitude on the way back, with the covariance of its error and that of the bias, which is
-/// never estimated.
+/// Holds the attitude during backward propagation, with the joint covariance of its error and of
+/// the gyro bias, which is not estimated.
 class Backwards {
  public:
   Backwards(const StarObservation& star, const ThreeAxisConfig& sensors) : q_{star.q_icrf_body} {
@@ -136,7 +135,7 @@ class Backwards {
     return solved;
   }
 
-  /// Forwards, from the star fix to a later instant.
+  /// Propagates forwards, from the star fix to a later instant.
   void turn_on(const Turn& turn) {
     q_ = (q_ * turn.turn).normalized();
     const Matrix3d back = turn.turn.toRotationMatrix().transpose();
@@ -147,7 +146,7 @@ class Backwards {
     covariance_.topLeftCorner<3, 3>() += turn.covariance_rad2;
   }
 
-  /// What a vector says, which is used where it can be by what is known.
+  /// Gates a sun vector against the current covariance and returns its observation.
   Observation observe(const Observations& all, const SunObservation& sun, double noise_rad) const {
     const Vector3d predicted = q_.conjugate() * sun.sun_icrf;
     const Matrix3d slopes = cross_matrix(predicted);
@@ -183,7 +182,7 @@ class Backwards {
   Solver levenberg_marquardt_{ceres::LEVENBERG_MARQUARDT};
 };
 
-/// Every gyro sample, sun vector and event up to T4.
+/// Returns the times of every gyro sample, sun vector and event up to T4.
 std::vector<double> step_times(const Observations& all, double last_s) {
   std::vector<double> times_s;
   for (const EventTime& event : all.events) {
@@ -201,14 +200,14 @@ std::vector<double> step_times(const Observations& all, double last_s) {
   return times_s;
 }
 
-/// The accepted fix next to T4.
+/// Returns the accepted star fix closest to T4.
 const StarObservation& anchor(const std::vector<StarObservation>& stars, double last_s) {
   return *std::min_element(stars.begin(), stars.end(), [=](const auto& a, const auto& b) {
     return std::abs(a.t_s - last_s) < std::abs(b.t_s - last_s);
   });
 }
 
-/// From the fix to T4, where nobody says that it was at T4.
+/// Propagates from the star fix to T4 if they differ.
 void turn_to(Backwards& at, const RateTrack& rates, double from_s, double to_s) {
   if (from_s > to_s) {
     at.step(rates.turns(std::vector{to_s, from_s}, Vector3d::Zero()).front());
@@ -226,7 +225,7 @@ Error not_solved(const Observations& all, double t_s) {
 struct Pass {
   NodeEstimates nodes;
   SensorResiduals sun;
-  std::vector<Observation> said;  ///< By the sun vectors, the last one first.
+  std::vector<Observation> said;  ///< Observations of the sun vectors, latest first.
   int iterations;
 };
 

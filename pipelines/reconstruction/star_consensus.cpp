@@ -28,13 +28,13 @@ Turn joined(const Turn& first, const Turn& then) {
       .covariance_rad2 = back * first.covariance_rad2 * back.transpose() + then.covariance_rad2};
 }
 
-/// Of one fix from where another has it, about its axes.
+/// Holds the difference of one fix from its prediction by another, in body axes at that fix.
 struct Difference {
   Residual residual;
   double nis;
 };
 
-/// Of the later one, and of the earlier one.
+/// Returns the differences of the later fix and of the earlier fix.
 std::array<Difference, 2> differences(const StarObservation& earlier, const StarObservation& later,
                                       const Turn& turn, const ConsensusNoise& noise) {
   const Vector3d off_rad = rotation_vector_of(
@@ -52,8 +52,8 @@ std::array<Difference, 2> differences(const StarObservation& earlier, const Star
           Difference{about(-turn.turn.toRotationMatrix()), nis}};
 }
 
-/// By those of its neighbours that `differ` has, the one in the middle, or the lower of two there:
-/// where that agrees, at least half do.
+/// Returns the observation relative to the neighbour with the median difference, the lower of two
+/// medians. If it passes the gate, at least half of the neighbours agree.
 Observation said_by(TaiTime t, std::vector<Difference> differ) {
   Observation said{.t = t, .source = SampleSource::Star, .limit = innovation_gate(3)};
   if (differ.empty()) {
@@ -70,7 +70,6 @@ Observation said_by(TaiTime t, std::vector<Difference> differ) {
   return said;
 }
 
-/// What each says among these.
 std::vector<Observation> observations_among(std::span<const StarObservation> stars,
                                             const Observations& all, const ConsensusNoise& noise) {
   std::vector<double> times_s;

@@ -1,5 +1,5 @@
 /// @file
-/// Star fixes that agree, by what the gyro turned between them.
+/// Selects star fixes that agree with each other, given the gyro turns between them.
 
 #pragma once
 
@@ -15,13 +15,13 @@ namespace spindrift {
 
 struct StarConsensus {
   std::vector<StarObservation> accepted;
-  /// Of each fix, used or not, off the neighbour that is in the middle of them. Nothing is expected
-  /// of one without neighbours, nor where they contradict each other. In order of time.
+  /// Observation of each fix, used or not, in time order. Its residual is relative to the neighbour
+  /// with the median difference. There is none if a fix has no neighbours or if all contradict.
   std::vector<Observation> said = {};
-  /// No fix has most of its neighbours with it: all are accepted, as nobody knows which is wrong.
+  /// True if no fix agrees with most neighbours; all are then accepted, as any may be wrong.
   bool contradict = false;
 
-  /// What those said that disagree with most of their neighbours.
+  /// Returns the observations of fixes that disagree with most of their neighbours.
   std::vector<Observation> gated() const;
   void add(const std::vector<Observation>& more);
 };
@@ -32,8 +32,7 @@ struct ConsensusNoise {
   Eigen::Matrix3d bias_covariance_rad2_s2;
 };
 
-/// A fix is accepted that agrees with at least half of the four before and the four behind it that
-/// are accepted.
+/// Accepts a fix that agrees with at least half of its accepted neighbours, four on each side.
 StarConsensus consensus_of(const Observations& all, std::span<const StarObservation> stars,
                            const ConsensusNoise& noise);
 

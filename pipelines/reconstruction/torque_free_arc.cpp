@@ -27,11 +27,11 @@ struct RigidBody {
 
   Matrix3d kg_m2;
   Matrix3d inverse;
-  /// By a part of each principal moment; none where the rate is constant.
+  /// Derivatives by the relative change of each principal moment; zero for a constant rate.
   std::array<Matrix3d, 3> changes{Matrix3d::Zero(), Matrix3d::Zero(), Matrix3d::Zero()};
 };
 
-/// Of rate and slopes, and of the quaternion, x y z w.
+/// Holds the integration state; used for its time derivative as well. The quaternion is x y z w.
 struct State {
   Eigen::Vector4d q;
   Vector3d rate;

@@ -1,11 +1,11 @@
 /// @file
-/// Parameters b that one pass cannot check and that do not average out, beside the unknowns x of
-/// its normal equations (consider analysis). With whitened equations
+/// Consider analysis: parameters b that one pass cannot check and that do not average out, in
+/// addition to the unknowns x of its normal equations. With whitened equations
 ///
 ///     r = J x + J_b b + noise
 ///
-/// and the prior covariance B of b, least squares that take b for zero are off by S b, where
-/// S = -(J'J)^-1 J'J_b: their covariance is (J'J)^-1 + S B S'.
+/// and the prior covariance B of b, a least-squares solution that assumes b = 0 is off by S b,
+/// where S = -(J'J)^-1 J'J_b. Its covariance is (J'J)^-1 + S B S'.
 
 #pragma once
 
@@ -37,25 +37,25 @@ struct Considered {
     return *this;
   }
 
-  /// What the equations say of x whatever b is: b is a draw from its prior and eliminated. With a
-  /// prior of zero it is known, and nothing changes.
+  /// Marginalises b over its prior, which leaves the information on x alone. A zero prior means
+  /// that b is known and changes nothing.
   /// @param information J'J of x; @param right J'r.
   void eliminate(const Prior& prior, Eigen::Matrix<double, unknowns, unknowns>& information,
                  Eigen::Matrix<double, unknowns, 1>& right) const {
     if ((prior.array() == 0.0).all()) {
       return;
     }
-    // The prior may be singular, where some of b is known.
+    // The prior may be singular if part of b is known.
     const Prior known = posterior(prior);
     information -= shared * known * shared.transpose();
     right -= shared * known * score;
   }
 
-  /// By how much less the sum of r^2 is where b is fitted, with its prior.
+  /// Returns the decrease of the sum of r^2 when b is fitted with its prior.
   double explained(const Prior& prior) const { return score.dot(posterior(prior) * score); }
 
  private:
-  /// Of b, covariance with its prior, x known.
+  /// Returns the covariance of b with its prior and known x.
   Prior posterior(const Prior& prior) const {
     return (Prior::Identity() + prior * own).partialPivLu().solve(prior);
   }

@@ -8,7 +8,7 @@
 namespace spindrift {
 namespace {
 
-// By so much a deviation beyond the median one widens the scatter, one within narrows it.
+// Factor by which a deviation beyond the median widens the scale and one within it narrows it.
 constexpr double kScaleStep = 1.05;
 constexpr double kMostScale = 30.0;
 
@@ -43,7 +43,7 @@ Eigen::Matrix3d DriftFilter::covariance_at(double x, const DriftNoise& noise) co
   moved.row(1) += ahead * moved.row(2);
   moved.col(0) += ahead * (moved.col(1) + 0.5 * ahead * moved.col(2));
   moved.col(1) += ahead * moved.col(2);
-  // The wander integrated over the way; backwards it is as long.
+  // Process noise integrated over the distance, which counts the same backwards.
   const double length = std::abs(ahead);
   const double change = noise.wander * noise.wander * length;
   const double bend = noise.bend_wander * noise.bend_wander * length;
@@ -62,7 +62,7 @@ double DriftFilter::sigma_at(double x, const DriftNoise& noise) const {
 }
 
 double DriftFilter::change_sigma_at(double x, const DriftNoise& noise) const {
-  // Far back rounding may leave next to nothing of it, or less.
+  // Far back, rounding may leave almost nothing of the variance, or make it negative.
   return std::sqrt(std::max(covariance_(1, 1), covariance_at(x, noise)(1, 1)));
 }
 
@@ -76,7 +76,7 @@ bool DriftFilter::follow(double x, double measured, const DriftNoise& noise,
                          const DriftGate& gate) {
   const bool accepted = accepts(x, measured, noise, gate);
   const double ahead = x - x_;
-  if (ahead < 0.0) {  // The past is judged, not learnt from.
+  if (ahead < 0.0) {  // Earlier measurements are tested but not used.
     return accepted;
   }
   const Eigen::Matrix3d before = covariance_at(x, noise);
@@ -89,7 +89,7 @@ bool DriftFilter::follow(double x, double measured, const DriftNoise& noise,
     const Eigen::Vector3d gain = before.col(0) / variance;
     state_ = Eigen::Vector3d{at(x), state_[1] + state_[2] * ahead, state_[2]} + gain * off;
     x_ = x;
-    // Joseph's form: no variance becomes negative by rounding, however much was unknown before.
+    // Joseph form: rounding makes no variance negative, however large it was before.
     Eigen::Matrix3d kept = Eigen::Matrix3d::Identity();
     kept.col(0) -= gain;
     covariance_ = kept * before * kept.transpose() +

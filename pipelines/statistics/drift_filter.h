@@ -1,7 +1,6 @@
 /// @file
-/// A quantity that changes evenly but for a slow drift: three states, value, change and bend (the
-/// change of the change), the last two of which wander. The abscissa is whatever it is measured
-/// over: turns or seconds.
+/// Filters a quantity with a slowly drifting rate of change. Its states are value, change and bend
+/// (the change of the change); change and bend follow random walks. The abscissa is turns or time.
 
 #pragma once
 
@@ -9,20 +8,20 @@
 
 namespace spindrift {
 
-/// One standard deviation each.
+/// Standard deviations of the noise.
 struct DriftNoise {
-  double measured;           ///< Of one measurement.
-  double wander;             ///< By which the change itself changes along one unit of the abscissa.
-  double bend_wander = 0.0;  ///< The same of the bend.
+  double measured;           ///< Noise of one measurement.
+  double wander;             ///< Random walk of the change over one unit of the abscissa.
+  double bend_wander = 0.0;  ///< Random walk of the bend over one unit of the abscissa.
 };
 
-/// How far from the expectation a measurement may lie.
+/// The largest deviation of a measurement from its prediction.
 struct DriftGate {
-  double sigma;  ///< In standard deviations of the difference.
-  double most;   ///< In any case.
+  double sigma;  ///< In standard deviations of the deviation.
+  double most;   ///< Absolute limit.
 };
 
-/// What is known at an abscissa, with its standard deviations.
+/// The state at an abscissa, with standard deviations.
 struct DriftState {
   double x;
   double value;
@@ -31,41 +30,41 @@ struct DriftState {
   double change_sigma;
   double bend = 0.0;
   double bend_sigma = 0.0;
-  double scale = 1.0;  ///< By which the scatter exceeds the stated noise, at least 1.
+  double scale = 1.0;  ///< Ratio of scatter to stated noise, at least 1.
 };
 
-/// Kalman filter with an innovation gate. The stated noise is a lower bound: where the measurements
-/// scatter more, the gate opens until half of them lie where half of them should.
+/// Kalman filter with an innovation gate. The stated noise is a lower bound: the gate widens until
+/// half of the measurements lie within the median deviation.
 class DriftFilter {
  public:
   explicit DriftFilter(const DriftState& state);
 
   double at(double x) const;
-  /// Where the value is reached, next to the last abscissa that was taken in; where it never is,
-  /// where it comes nearest. The change must be positive there.
+  /// Returns the abscissa, next to the last one processed, where the value is reached or, if it
+  /// never is, approached most closely. The change must be positive there.
   double x_of(double value) const;
-  /// At the last abscissa that was taken in.
+  /// The state at the last abscissa processed.
   double value() const { return state_[0]; }
   double change() const { return state_[1]; }
   double bend() const { return state_[2]; }
   double change_at(double x) const { return state_[1] + state_[2] * (x - x_); }
   double scale() const { return scale_; }
-  /// Standard deviation of the value.
+  /// Returns the standard deviation of the value.
   double sigma_at(double x, const DriftNoise& noise) const;
-  /// The same of the change; before the last abscissa at least as much as there.
+  /// Returns the standard deviation of the change; before the last abscissa at least that there.
   double change_sigma_at(double x, const DriftNoise& noise) const;
 
-  /// Whether the measurement lies within the gate.
+  /// Returns whether a measurement lies within the gate.
   bool accepts(double x, double measured, const DriftNoise& noise, const DriftGate& gate) const;
-  /// The same, and takes it in when it does.
+  /// Tests a measurement and processes it if it lies within the gate.
   bool follow(double x, double measured, const DriftNoise& noise, const DriftGate& gate);
 
-  /// The same, had the bend been measured besides.
+  /// Returns the filter as if the bend had been measured in addition.
   DriftFilter supposing_bend(double bend, double sigma) const;
 
-  /// Moves value (at `x`) and change.
+  /// Shifts the value at `x` and the change.
   void shift(double x, double value, double change);
-  /// Adds independent errors at the last abscissa, one sigma each.
+  /// Adds independent errors at the last abscissa, given as standard deviations.
   void loosen(double value_sigma, double change_sigma, double bend_sigma);
 
  private:

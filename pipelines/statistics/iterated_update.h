@@ -1,14 +1,13 @@
 /// @file
-/// Limits of an iterated Kalman update of directions: Gauss and Newton's iteration of prior and
-/// measurement.
+/// Limits of the iterated Kalman update of directions, a Gauss-Newton iteration.
 
 #pragma once
 
 namespace spindrift {
 
-/// A correction beyond this (0.06 deg) is linearised anew where it ends.
+/// A larger correction (0.06 deg) is linearised again at its result.
 inline constexpr double kFarFromLinear_rad = 1e-3;
-/// Up to so many times.
+/// Largest number of linearisations.
 inline constexpr int kMostLinearisations = 8;
 
 }  // namespace spindrift

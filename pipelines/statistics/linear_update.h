@@ -1,6 +1,5 @@
 /// @file
-/// The Kalman update of the error of a state by one measurement, in Joseph's form: no variance
-/// becomes negative by rounding, however much was unknown before.
+/// The Kalman update in Joseph form, in which rounding makes no variance negative.
 
 #pragma once
 
@@ -9,14 +8,14 @@
 
 namespace spindrift {
 
-/// The state's error has `kState` components, the measurement `kSize`.
+/// Updates an error state of `kState` components by a measurement of `kSize` components.
 template <int kState, int kSize>
 struct LinearUpdate {
   using Covariance = Eigen::Matrix<double, kState, kState>;
   using Slope = Eigen::Matrix<double, kSize, kState>;
   using Noise = Eigen::Matrix<double, kSize, kSize>;
 
-  /// @param slope Change of the measurement with the error.
+  /// @param slope Derivative of the measurement by the error state.
   LinearUpdate(const Covariance& covariance, const Slope& slope, const Noise& noise)
       : slope{slope}, noise{noise} {
     const Eigen::Matrix<double, kState, kSize> shared = covariance * slope.transpose();
@@ -28,7 +27,7 @@ struct LinearUpdate {
     }
   }
 
-  /// Of the error that is left.
+  /// Returns the covariance of the error after the update.
   Covariance left_of(const Covariance& covariance) const {
     const Covariance left = Covariance::Identity() - gain * slope;
     return left * covariance * left.transpose() + gain * noise * gain.transpose();

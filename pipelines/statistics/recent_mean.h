@@ -1,6 +1,5 @@
 /// @file
-/// The mean of the recent values of a sequence: of the first ones the plain mean, later a mean that
-/// forgets.
+/// The mean of recent values: the plain mean of the first ones, then an exponential average.
 
 #pragma once
 
@@ -10,11 +9,11 @@ namespace spindrift {
 
 class RecentMean {
  public:
-  /// @param window So many values speak at most: each new one counts 1/window of it.
-  /// @param count So many values are taken to have had the mean 0 before the first.
+  /// @param window Largest effective number of values; a new value weighs at least 1/window.
+  /// @param count Weight of an initial mean of 0, as a number of values.
   explicit RecentMean(double window, double count = 0.0) : window_{window}, count_{count} {}
 
-  /// @param sum Of `count` values, which may be none.
+  /// @param sum Sum of `count` values; the count may be 0.
   void add(double sum, double count = 1.0) {
     if (count > 0.0) {
       count_ = std::min(count_ + count, window_);
@@ -22,12 +21,12 @@ class RecentMean {
     }
   }
 
-  /// The values so far speak like so many at most.
+  /// Limits the weight of the values so far to that of `count` values.
   void fade(double count) { count_ = std::min(count_, count); }
   void limit(double mean) { mean_ = std::min(mean_, mean); }
 
   double mean() const { return mean_; }
-  /// How many values speak, no more than the window.
+  /// Returns the effective number of values, at most the window.
   double count() const { return count_; }
 
  private:

@@ -20,7 +20,7 @@ double median_of_sorted(std::span<const double> sorted) {
   return sorted.size() % 2 == 1 ? sorted[middle] : 0.5 * (sorted[middle - 1] + sorted[middle]);
 }
 
-/// Median of |value - centre|: the deviations grow outwards on both sides of the centre.
+/// Returns the median of |value - centre|; deviations grow outwards on both sides of the centre.
 double median_deviation(std::span<const double> sorted, double centre) {
   auto above = std::lower_bound(sorted.begin(), sorted.end(), centre);
   auto below = std::make_reverse_iterator(above);
@@ -35,7 +35,7 @@ double median_deviation(std::span<const double> sorted, double centre) {
   return sorted.size() % 2 == 1 ? last : 0.5 * (before + last);
 }
 
-/// Those within the limit, which follow one another.
+/// Returns the values within the limit, which are contiguous.
 std::span<const double> kept_by(const RobustMean& mean, std::span<const double> sorted) {
   const auto first = std::partition_point(sorted.begin(), sorted.end(), [&](double value) {
     return value < mean.mean && !mean.keeps(value);

@@ -1,5 +1,5 @@
 /// @file
-/// Mean and scatter of a window of values of which some are wrong (rationality tests, Wang 2015).
+/// Mean and scatter of a window of values with outliers (rationality tests, Wang 2015).
 
 #pragma once
 
@@ -8,7 +8,7 @@
 
 namespace spindrift {
 
-/// How far from the mean a value may lie.
+/// The largest deviation of a value from the mean.
 struct ClipRule {
   double sigma;   ///< In empirical standard deviations.
   double stated;  ///< Standard deviation that the noise model states; same unit as the values.
@@ -23,15 +23,15 @@ struct RobustMean {
   bool keeps(double value) const;
 };
 
-/// Robust mean of the last `length` values of a sequence, kept in order of size: a value more costs
-/// a few passes over the window, without sorting and without allocation.
+/// Computes the robust mean of the last `length` values. They are kept sorted, so that a new value
+/// costs a few passes over the window without sorting or allocation.
 ///
-/// Starts at median and MAD, then mean and standard deviation of what lies within the limit, until
-/// the set no longer changes.
+/// It starts from median and MAD and iterates mean and standard deviation of the values within the
+/// limit until the set is stable.
 ///
-/// A value within one stated sigma of the mean is never an outlier: without that floor, values on a
+/// A value within one stated sigma of the mean is never an outlier. Without that floor, values on a
 /// coarse telemetry grid would reject each other. With fewer than ten values the empirical scatter
-/// is itself uncertain by a quarter, and the floor is `rule.sigma` stated sigmas.
+/// is uncertain by a quarter, and the floor is `rule.sigma` stated sigmas.
 class SlidingRobustMean {
  public:
   /// @param length At least one.
@@ -39,12 +39,12 @@ class SlidingRobustMean {
 
   /// @param value Finite.
   void add(double value);
-  /// Of at least one value.
+  /// Precondition: the window is not empty.
   RobustMean mean(const ClipRule& rule) const;
   std::size_t size() const { return sorted_.size(); }
 
  private:
-  std::vector<double> ring_;  ///< In the order they came, the oldest at next_ once it is full.
+  std::vector<double> ring_;  ///< In order of arrival; the oldest is at next_ once full.
   std::size_t length_;
   std::size_t next_ = 0;
   std::vector<double> sorted_;

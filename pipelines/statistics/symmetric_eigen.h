@@ -8,11 +8,11 @@
 namespace spindrift {
 
 struct SymmetricEigen {
-  Eigen::VectorXd values;   ///< Rising.
-  Eigen::MatrixXd vectors;  ///< Columns of length 1, in the order of the values.
+  Eigen::VectorXd values;   ///< In rising order.
+  Eigen::MatrixXd vectors;  ///< Unit columns, in the order of the values.
 };
 
-/// @param matrix Symmetric; its lower half is read.
+/// @param matrix Symmetric; only its lower half is read.
 SymmetricEigen symmetric_eigen(const Eigen::Ref<const Eigen::MatrixXd>& matrix);
 
 }  // namespace spindrift

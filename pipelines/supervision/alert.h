@@ -1,5 +1,5 @@
 /// @file
-/// One alert, as it came to be with its last change.
+/// An alert in its state after the last change.
 
 #pragma once
 
@@ -23,21 +23,21 @@ constexpr std::string_view name_of(AlertState state) {
 }
 
 struct Alert {
-  std::string alert_id = {};  ///< One occurrence.
+  std::string alert_id = {};  ///< Identifies one occurrence.
   std::string key = {};
   AlertSeverity severity = AlertSeverity::Info;
   AlertState state = AlertState::Active;
   std::int64_t revision = 1;  ///< Rises with every change.
   TaiTime raised = {};
-  TaiTime updated = {};  ///< Of the last change.
+  TaiTime updated = {};  ///< Time of the last change.
   std::optional<TaiTime> cleared = {};
   std::optional<TaiTime> shelved_until = {};
-  std::int64_t count = 1;     ///< The how manyth of its key.
-  std::string message = {};   ///< For people.
+  std::int64_t count = 1;     ///< Occurrences of this key so far, this one included.
+  std::string message = {};   ///< Text for operators.
   std::string evidence = {};  ///< A JSON object.
   /// @name The last change
   /// @{
-  std::optional<AlertState> from = {};  ///< Empty: raised.
+  std::optional<AlertState> from = {};  ///< Previous state; empty when the alert was raised.
   std::string by = {};
   std::string note = {};
   /// @}

@@ -12,10 +12,10 @@ namespace spindrift {
 namespace {
 
 constexpr std::string_view kService = "spindrift";
-// Changes of an alert are fewer than its nanoseconds.
+// An alert changes far less than once a millisecond.
 constexpr std::chrono::milliseconds kMoment{1};
 
-/// FNV-1a: the same occurrence has the same id wherever and whenever it is computed.
+/// Computes the id by FNV-1a, so that a recomputed occurrence gets the same id everywhere.
 std::string id_of(const Occurrence& occurrence) {
   constexpr std::uint64_t kBasis = 0xcbf29ce484222325;
   constexpr std::uint64_t kPrime = 0x100000001b3;

@@ -1,5 +1,5 @@
 /// @file
-/// The alerts of one spacecraft: at most one that is open a key.
+/// The alerts of one spacecraft, with at most one open alert per key.
 
 #pragma once
 
@@ -13,7 +13,7 @@
 
 namespace spindrift {
 
-/// What a condition that changes says of its alert.
+/// Holds the alert content of a condition that changes.
 struct Occurrence {
   std::string run_id;
   std::string key;
@@ -23,32 +23,32 @@ struct Occurrence {
   std::string evidence;
 };
 
-/// Active -> acknowledged -> cleared; active or acknowledged -> shelved -> active. Cleared is
-/// final: the next occurrence has another id. What is not later than the last change that the
-/// condition of a key made in the same run is known already: a restarted service computes its last
-/// minutes again. Another run may be of earlier telemetry.
+/// Manages the alert states: active -> acknowledged -> cleared; active or acknowledged -> shelved
+/// -> active. Cleared is final, and the next occurrence gets a new id. A change no later than the
+/// last one of its key in the same run is ignored as known, because a restarted service recomputes
+/// its last minutes. Another run may concern earlier telemetry.
 class AlertBook {
  public:
-  /// An alert of before, as it was last. In their order: of a key the last counts.
+  /// Restores an earlier alert; calls follow the original order, and the last of a key counts.
   void take_up(const std::string& run_id, Alert alert);
 
-  /// `t`, or a moment after the last change that the condition of a key made: of a condition that
-  /// nobody computes again, and whose clock may be set back.
+  /// Returns `t`, or a moment after the last change of the key's condition if that is later. For
+  /// conditions that are not recomputed and whose clock may be set back.
   TaiTime after(const std::string& key, TaiTime t) const;
 
-  /// @return the alert as it is now; empty: nothing has changed.
+  /// @return The updated alert; empty if nothing has changed.
   std::optional<Alert> raise(const Occurrence& occurrence);
   std::optional<Alert> clear(const Occurrence& occurrence);
 
-  /// @return InvalidInput where no such alert is open, or it has been done already.
+  /// @return InvalidInput if no such alert is open or the action is already done.
   Expected<Alert> acknowledge(const std::string& alert_id, TaiTime t, const std::string& by,
                               const std::string& note);
   Expected<Alert> shelve(const std::string& alert_id, TaiTime t, TaiTime until,
                          const std::string& by, const std::string& note);
-  /// Those shelved until `t` or before are active again.
+  /// Reactivates the alerts shelved until `t` or earlier.
   std::vector<Alert> expire(TaiTime t);
 
-  /// In the order of their keys.
+  /// Returns the open alerts, ordered by key.
   std::vector<Alert> open() const;
 
  private:
@@ -56,8 +56,8 @@ class AlertBook {
 
   struct Entry {
     Alert last;
-    std::string run_id;  ///< That raised it.
-    TaiTime settled;     ///< When the condition changed last.
+    std::string run_id;  ///< Run that raised the alert.
+    TaiTime settled;     ///< Time of the condition's last change.
   };
   static bool is_known(const Entry& entry, const Occurrence& occurrence) {
     return entry.run_id == occurrence.run_id && occurrence.t <= entry.settled;

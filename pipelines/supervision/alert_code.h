@@ -1,5 +1,5 @@
 /// @file
-/// What alerts are about: the keys that programs match on.
+/// The alert codes, whose names are the keys that programs match on.
 
 #pragma once
 
@@ -14,13 +14,13 @@ enum class AlertCode {
   LinkSilent,
   LinkLate,
   LinkAhead,
-  LinkGap,  ///< About a source, as are three others of the link.
+  LinkGap,  ///< Per source, as are LinkRestarted, LinkRepeated and LinkContradiction.
   LinkRejected,
   LinkRepeated,
   LinkRestarted,
   LinkContradiction,
   ServiceTwice,
-  ChannelSilent,  ///< About a channel.
+  ChannelSilent,  ///< Per channel.
   SpinInterference,
   SpinPeriod,
   SpinRejection,
@@ -34,12 +34,12 @@ enum class AlertCode {
   AttitudeLost,
   AttitudeDiverged,
   ReconstructionLauncher,
-  ModelDeparture,  ///< About a channel.
+  ModelDeparture,  ///< Per channel.
   ArchiveBacklog,
   ArchiveWrite,
   ArchiveDisk,
   ClockJump,
-  DataOutdated,  ///< About what is needed and ends.
+  DataOutdated,  ///< Per item of reference data, such as the orbit.
 };
 inline constexpr int kAlertCodes = static_cast<int>(AlertCode::DataOutdated) + 1;
 
@@ -76,7 +76,7 @@ constexpr std::string_view name_of(AlertCode code) {
   return kNames.at(static_cast<std::size_t>(code));
 }
 
-/// "channel.silent:north_in". @param about Empty: the spacecraft as a whole.
+/// Returns a key such as "channel.silent:north_in". @param about Empty for the whole spacecraft.
 inline std::string alert_key(AlertCode code, std::string_view about) {
   std::string key{name_of(code)};
   if (!about.empty()) {

@@ -17,7 +17,7 @@ ConditionChanges changes_of(std::optional<ConditionChange> change) {
   return change ? ConditionChanges{std::move(*change)} : ConditionChanges{};
 }
 
-/// At this instant: star fixes overruled what was given before.
+/// Returns whether star fixes overruled the former attitude at this instant.
 bool begins_anew(const AttitudeEstimate& estimate) {
   const auto& reasons = estimate.assessment.reasons;
   return std::any_of(reasons.begin(), reasons.end(), [&](const Reason& reason) {
@@ -26,7 +26,7 @@ bool begins_anew(const AttitudeEstimate& estimate) {
   });
 }
 
-/// How much of all chi-squares is nearer to the middle, in percent.
+/// Returns the percentage of chi-square values that lie closer to the median.
 double percent_nearer(const Innovations& innovations) {
   const double tail =
       chi_square_tail(innovations.squared, static_cast<double>(innovations.freedom));
@@ -40,7 +40,7 @@ AttitudeConditions::AttitudeConditions(const AlertLimits& limits, std::optional<
       diverged_percent_{limits.diverged_percent},
       diverged_s_{limits.diverged_s},
       kinds_{std::move(orbit), limits.silent_s},
-      // Of a band that one minute in a thousand leaves, two in a row do not by chance.
+      // Noise leaves the 99.9 % band in one window of a thousand, but not in two consecutive ones.
       diverged_{AlertCode::AttitudeDiverged,
                 "% of chi-square",
                 {.raise_s = limits.diverged_s, .clear_s = limits.diverged_s}},
@@ -81,7 +81,7 @@ std::optional<ConditionChange> AttitudeConditions::see_innovations(
 }
 
 ConditionChanges AttitudeConditions::see(const ReconstructedSeparation& separation) {
-  // That of `batch`, which rests on all samples together.
+  // Only `batch` counts, which uses all samples together.
   if (separation.solution.method != ReconstructionMethod::Batch || !separation.launcher ||
       !*separation.launcher) {
     return {};

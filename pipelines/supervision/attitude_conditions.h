@@ -1,6 +1,5 @@
 /// @file
-/// What is worth an alert in the samples and the products of a three-axis spacecraft, in telemetry
-/// time.
+/// The alert conditions for samples and products of a three-axis spacecraft, in telemetry time.
 
 #pragma once
 
@@ -17,10 +16,9 @@ namespace spindrift {
 
 class AttitudeConditions {
  public:
-  /// @param orbit Empty: nobody knows when the Earth hides the Sun.
+  /// @param orbit Orbit for the prediction of eclipses; empty if unknown.
   AttitudeConditions(const AlertLimits& limits, std::optional<Orbit> orbit);
 
-  /// A sample of that kind came.
   ConditionChanges see(SampleKind kind, TaiTime t) { return kinds_.see(kind, t); }
   ConditionChanges see(const AttitudeEstimate& estimate);
   ConditionChanges see(const ReconstructedSeparation& separation);
@@ -36,8 +34,8 @@ class AttitudeConditions {
     TaiTime t;
     Innovations innovations;
   };
-  std::deque<Recent> recent_;      ///< Of the last `diverged_s_`, since the filter began.
-  std::optional<TaiTime> judged_;  ///< When those were, last.
+  std::deque<Recent> recent_;      ///< Estimates of the last `diverged_s_` seconds.
+  std::optional<TaiTime> judged_;  ///< Time of the last test of `recent_`.
   ConditionWatch diverged_;
   ConditionWatch lost_;
   ConditionWatch launcher_;

@@ -17,7 +17,7 @@ namespace {
 constexpr double kToSpare_rad = 1.0 * kRadPerDeg;
 constexpr double kSigmasToSpare = 3.0;
 
-/// Slit 2 ends as far from the axis as it is canted, slit 1 at the axis.
+/// Slit 1 reaches to the spin axis; slit 2 ends at its cant angle from the axis.
 bool slit_sees(PulseChannel channel, const SunSensor& sensor, double sun_angle_rad,
                double to_spare_rad) {
   const double end_rad = channel == PulseChannel::Sun2 ? sensor.slit_cant_rad : 0.0;
@@ -66,7 +66,7 @@ ConditionChanges ChannelPresence::see(const Pulse& edge, const std::optional<Axi
   return changes;
 }
 
-/// What comes into view is given as many revolutions anew.
+/// Restarts the count when a channel comes into view.
 bool ChannelPresence::is_silent(PulseChannel channel, TaiTime t, const AxisSeen& axis) {
   if (missed(channel) <= limit_) {
     return false;

@@ -1,5 +1,5 @@
 /// @file
-/// Channels of a spinner that should give edges and do not.
+/// Detects channels of a spinner that should give edges and do not.
 
 #pragma once
 
@@ -15,16 +15,16 @@
 
 namespace spindrift {
 
-/// The axis in force.
+/// Holds the spin axis of the answer in force.
 struct AxisSeen {
   Eigen::Vector3d axis_icrf;  ///< Unit.
   double sigma_rad;
 };
 
-/// A channel is silent that gives no edge for so many of another one, while the axis in force has
-/// it cross the Earth's disc or see the Sun with a degree and three sigma to spare. Of a beam that
-/// the mission does not call healthy so many edges must have come, by either of its channels. Where
-/// the link is silent no other channel counts.
+/// Watches all channels. A channel is silent if it gives no edge during a number of edges of
+/// another channel, while by the axis in force it should cross the Earth's disc or see the Sun,
+/// with a margin of one degree and three sigma. A beam not marked healthy in the mission file is
+/// watched once that many edges of one of its channels have come.
 class ChannelPresence {
  public:
   ChannelPresence(SpinConfig config, Orbit orbit, int silent_revolutions);
@@ -40,13 +40,13 @@ class ChannelPresence {
   struct Channel {
     ConditionWatch watch;
     int edges = 0;
-    bool was_in_view = false;  ///< At its last edge, or when it was last looked for in vain.
-    std::array<int, kPulseChannels> of_others = {};  ///< Edges since then.
+    bool was_in_view = false;  ///< In view at its last edge or at the last check.
+    std::array<int, kPulseChannels> of_others = {};  ///< Edges of each other channel since then.
   };
   SpinConfig config_;
   Orbit orbit_;
   double limit_;
-  std::vector<Channel> channels_;  ///< By channel.
+  std::vector<Channel> channels_;  ///< Indexed by PulseChannel.
 };
 
 }  // namespace spindrift

@@ -1,5 +1,5 @@
 /// @file
-/// Whether a condition holds, of readings that come in order of their time.
+/// Decides whether a condition holds, from readings in time order.
 
 #pragma once
 
@@ -14,27 +14,27 @@
 
 namespace spindrift {
 
-/// What an alert rests on.
+/// Holds the facts on which an alert rests.
 struct Evidence {
   double value;
-  double limit;  ///< That `value` has reached.
+  double limit;  ///< Limit that `value` has reached.
   std::string_view unit;
-  TaiTime since;  ///< The condition holds.
-  TaiTime last;   ///< Of the reading that told.
+  TaiTime since;  ///< Time from which the condition holds.
+  TaiTime last;   ///< Time of the deciding reading.
   std::optional<double> sigma = {};
-  std::vector<std::string> sources = {};  ///< Of telemetry, where it is of several.
+  std::vector<std::string> sources = {};  ///< Telemetry sources involved, if several.
 };
 
 enum class Change { Raised, Cleared };
 
 struct ConditionChange {
   AlertCode code;
-  std::string about;  ///< The thing, where the key has one.
+  std::string about;  ///< Channel, source or item concerned; empty for the whole spacecraft.
   Change change;
   TaiTime t;
   Evidence evidence;
   AlertSeverity severity = AlertSeverity::Warning;
-  std::string who = {};  ///< Does it, where somebody does.
+  std::string who = {};  ///< Party that causes the condition, if known.
 };
 using ConditionChanges = std::vector<ConditionChange>;
 
@@ -44,14 +44,15 @@ inline void add(std::optional<ConditionChange> change, ConditionChanges& changes
   }
 }
 
-/// For how long a condition holds before it is raised, and is gone before it is cleared.
+/// How long a condition must hold before it is raised, and be absent before it is cleared.
 struct Holding {
   double raise_s = 0.0;
   double clear_s = 0.0;
 };
 
-/// From its limit on it is there, up to kClearShare of it it is gone, between them neither. What
-/// was not there to begin with is said to be cleared once: an alert of an earlier run may be open.
+/// Watches one condition with hysteresis: it holds from its limit on and is absent below
+/// kClearShare of the limit. An initially absent condition is reported as cleared once, as an
+/// earlier run may have raised it.
 class ConditionWatch {
  public:
   static constexpr double kClearShare = 0.8;
@@ -64,14 +65,14 @@ class ConditionWatch {
     double limit;
     std::optional<double> sigma = {};
   };
-  /// @param t A reading that is earlier than the one before is not looked at. Of two at one time
-  /// the later tells what is wrong: it may take the other's place.
+  /// @param t Readings earlier than the previous one are ignored. At the same time, only a reading
+  ///         that raises the condition can replace an earlier one.
   std::optional<ConditionChange> see(TaiTime t, const Reading& reading);
 
-  /// Of what must not be less than its limit.
+  /// Watches a value that must not fall below its limit.
   std::optional<ConditionChange> see_least(TaiTime t, const Reading& reading);
 
-  /// Of a condition that is there or not; evidence is for how long.
+  /// Watches a yes/no condition; its evidence is the time it has held.
   std::optional<ConditionChange> see(TaiTime t, bool is_there);
 
  private:
@@ -86,7 +87,7 @@ class ConditionWatch {
   std::optional<TaiTime> last_;
   std::optional<Change> said_;
   std::optional<Change> coming_;
-  TaiTime since_ = {};  ///< Of `coming_`.
+  TaiTime since_ = {};  ///< Start time of `coming_`.
 };
 
 }  // namespace spindrift

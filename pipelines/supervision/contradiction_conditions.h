@@ -1,5 +1,5 @@
 /// @file
-/// What is worth an alert in samples that contradict each other, in telemetry time.
+/// The alert conditions for samples that contradict each other, in telemetry time.
 
 #pragma once
 
@@ -14,23 +14,23 @@
 
 namespace spindrift {
 
-/// About each source that another one contradicts, but for the preferred one: nobody knows which of
-/// them is right.
+/// Watches each source that another contradicts, except the preferred one, because it is unknown
+/// which of them is right.
 class ContradictionConditions {
  public:
   explicit ContradictionConditions(const AlertLimits& limits)
       : limit_samples_{limits.contradicted_samples} {}
 
-  /// With the names of its senders.
+  /// Counts a contradiction, whose senders must be named.
   ConditionChanges see(const SampleContradiction& contradiction);
-  /// Something was computed of `t`.
+  /// Advances telemetry time to `t`.
   ConditionChanges see(TaiTime t);
 
  private:
   struct Source {
     explicit Source(const std::string& name)
         : watch{AlertCode::LinkContradiction, "samples", {}, name} {}
-    std::deque<TaiTime> last_minute;  ///< When it was contradicted.
+    std::deque<TaiTime> last_minute;  ///< Times of contradictions.
     ConditionWatch watch;
   };
 

@@ -10,7 +10,7 @@
 namespace spindrift {
 namespace {
 
-// One kind alone that goes on tells of the others.
+// All kinds are passed to TimeJump as one, so that a single continuing kind may move the time.
 constexpr std::size_t kAnyKind = 0;
 
 }  // namespace
@@ -26,7 +26,7 @@ KindPresence::KindPresence(std::optional<Orbit> orbit, double silent_s)
 }
 
 ConditionChanges KindPresence::see(SampleKind kind, TaiTime t) {
-  // What one sample alone says may be by a clock that nothing else agrees with.
+  // The time of one sample alone may come from a wrong clock that no other sample supports.
   const TaiTime reached = std::min(t, before_);
   before_ = t;
   if (newest_ > TaiTime::min() && span_between(newest_, t) > TimeJump::kFar) {
@@ -47,7 +47,7 @@ ConditionChanges KindPresence::see(SampleKind kind, TaiTime t) {
     if (channel.kind == kind) {
       channel.last = std::max(channel.last.value_or(t), t);
     }
-    // Asked early, so that a Sun that comes out again has half its time to be seen.
+    // Checked at half the limit, which leaves the other half for the Sun to reappear.
     if (channel.last && elapsed_s(*channel.last, newest_) >= 0.5 * silent_s_ &&
         is_hidden(channel.kind, newest_)) {
       channel.last = newest_;

@@ -1,5 +1,5 @@
 /// @file
-/// Sensors of a three-axis spacecraft that gave samples and give none.
+/// Detects sensors of a three-axis spacecraft that have stopped giving samples.
 
 #pragma once
 
@@ -14,8 +14,9 @@
 
 namespace spindrift {
 
-/// A kind is silent that has come, and gave nothing for so long of telemetry time while others
-/// came. Orbit states come as they like. Of a Sun that the Earth hides nothing is expected.
+/// Watches each sample kind. A kind that has come before is silent if no sample comes for a span of
+/// telemetry time while other kinds come. Orbit states are irregular and not watched, nor is an
+/// eclipsed Sun.
 class KindPresence {
  public:
   KindPresence(std::optional<Orbit> orbit, double silent_s);
@@ -26,7 +27,7 @@ class KindPresence {
   struct Channel {
     SampleKind kind;
     ConditionWatch watch;
-    std::optional<TaiTime> last = {};  ///< Its newest sample.
+    std::optional<TaiTime> last = {};  ///< Time of its newest sample.
   };
 
   bool is_hidden(SampleKind kind, TaiTime t);
@@ -34,8 +35,8 @@ class KindPresence {
   std::optional<Orbit> orbit_;
   ApparentSun sun_;
   double silent_s_;
-  TaiTime newest_ = TaiTime::min();  ///< That two samples one after the other have reached.
-  TaiTime before_ = TaiTime::min();  ///< Of the sample before.
+  TaiTime newest_ = TaiTime::min();  ///< Time that two consecutive samples have reached.
+  TaiTime before_ = TaiTime::min();  ///< Time of the previous sample.
   TimeJump jump_;
   std::vector<Channel> channels_;
 };

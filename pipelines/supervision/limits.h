@@ -1,6 +1,5 @@
 /// @file
-/// From where on a condition is worth an alert. The defaults are those of
-/// schemas/mission.schema.toml.
+/// The thresholds of alert conditions; defaults as in schemas/mission.schema.toml.
 
 #pragma once
 
@@ -11,7 +10,7 @@
 
 namespace spindrift {
 
-/// A share of the last revolutions.
+/// A limit on a share of the most recent revolutions.
 struct ShareLimit {
   double percent;
   int revolutions;
@@ -47,13 +46,13 @@ struct AlertLimits {
   friend bool operator==(const AlertLimits&, const AlertLimits&) = default;
 };
 
-/// The pass as planned.
+/// The planned contact of a pass.
 struct Contact {
   TaiTime from;
   TaiTime to;
 };
 
-/// Where axis and rate of a spinner should be.
+/// The axis and rate that a spinner should have.
 struct SpinTarget {
   Eigen::Vector3d axis_icrf;  ///< Unit.
   struct Rate {

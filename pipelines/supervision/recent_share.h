@@ -1,5 +1,5 @@
 /// @file
-/// What share of the last revolutions, or of their edges, is bad.
+/// Computes the share of bad items in the most recent revolutions or their edges.
 
 #pragma once
 
@@ -12,17 +12,17 @@
 
 namespace spindrift {
 
-/// What counts for a revolution comes before anything of a later one, or is left out. What has no
-/// revolution counts for the last one.
+/// Counts items by revolution. Items of a revolution that arrive after one of a later revolution
+/// count for the later one, as do items without a revolution.
 class RecentShare {
  public:
-  /// As many without a revolution, one edge of each channel, are a turn of their own.
+  /// This many items without a revolution, one edge of each channel, count as a revolution.
   static constexpr int kOfATurn = static_cast<int>(kPulseChannels);
 
   explicit RecentShare(int revolutions) : revolutions_{static_cast<std::size_t>(revolutions)} {}
 
-  /// @return the share in percent of the last revolutions before this one, where there are so many
-  ///         and this one is new.
+  /// @return Bad share of the previous revolutions in percent, if this revolution is new and the
+  ///         window is full.
   std::optional<double> count(std::int64_t revolution, bool is_bad) {
     std::optional<double> percent;
     if (counts_.empty() || revolution > counts_.back().revolution) {
@@ -34,7 +34,7 @@ class RecentShare {
     return percent;
   }
 
-  /// Of an edge that found no revolution: it is bad.
+  /// Counts an edge without a revolution as bad.
   std::optional<double> count_without_revolution() {
     std::optional<double> percent;
     if (counts_.empty() || counts_.back().without == kOfATurn) {
@@ -53,7 +53,7 @@ class RecentShare {
     std::int64_t revolution;
     int all = 0;
     int bad = 0;
-    int without = 0;  ///< Revolution; of the bad ones.
+    int without = 0;  ///< Bad items without a revolution.
   };
 
   std::optional<double> begin(std::int64_t revolution) {

@@ -1,5 +1,5 @@
 /// @file
-/// How much a count has risen lately.
+/// Computes how much a count rose in the last minute.
 
 #pragma once
 
@@ -11,10 +11,10 @@
 
 namespace spindrift {
 
-/// Of a count that was 0 before it was seen.
+/// Tracks a count that starts at 0.
 class RiseOfLastMinute {
  public:
-  /// @param t Later than before. @return 0 where it has fallen.
+  /// @param t Later than the previous one. @return Rise; 0 if the count has fallen.
   double see(TaiTime t, std::int64_t count) {
     while (!counts_.empty() && seconds_between(counts_.front().t, t) >= kMinute_s) {
       before_ = counts_.front().count;
@@ -31,7 +31,7 @@ class RiseOfLastMinute {
     std::int64_t count;
   };
   std::deque<Seen> counts_;
-  std::int64_t before_ = 0;  ///< As it was a minute ago.
+  std::int64_t before_ = 0;  ///< Count a minute ago.
 };
 
 }  // namespace spindrift

@@ -9,7 +9,7 @@
 namespace spindrift {
 namespace {
 
-// What a front-end sends again in a burst is late for a moment.
+// A burst that a front-end sends again is late only for a moment.
 constexpr Holding kNotForAMoment{.raise_s = 2.0, .clear_s = 2.0};
 constexpr double kDay_h = 24.0;
 
@@ -47,7 +47,7 @@ ConditionChanges ServiceConditions::see(const ServiceState& state) {
   return changes;
 }
 
-/// Outside a planned contact nothing is expected.
+/// No telemetry is expected outside a planned contact.
 void ServiceConditions::see_silence(const ServiceState& state, ConditionChanges& changes) {
   if (!state.silent_s) {
     return;

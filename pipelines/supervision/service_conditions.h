@@ -1,5 +1,5 @@
 /// @file
-/// What is worth an alert in the link of a spacecraft and in the service that supervises it.
+/// The alert conditions for a spacecraft's link and for the service that supervises it.
 
 #pragma once
 
@@ -14,32 +14,32 @@
 
 namespace spindrift {
 
-/// What came of one source of telemetry since the service started.
+/// Holds the counts of one telemetry source since the service started.
 struct SourceRecord {
-  std::int64_t missing = 0;   ///< By gaps in its sequence numbers, that last; of all spacecraft.
-  std::int64_t restarts = 0;  ///< Sessions that it began behind the first.
-  std::int64_t repeated = 0;  ///< Samples from before the session that brought them.
+  std::int64_t missing = 0;   ///< Lasting gaps in its sequence numbers, over all spacecraft.
+  std::int64_t restarts = 0;  ///< Sessions begun after the first one.
+  std::int64_t repeated = 0;  ///< Samples older than the session that delivered them.
 };
 
-/// As the service knows it at one moment; some telemetry of the spacecraft has come.
+/// Holds the state of the service at one moment, once telemetry of the spacecraft has come.
 struct ServiceState {
-  TaiTime t;                            ///< Wall clock, later than before.
-  TaiTime pass_t;                       ///< The clock that telemetry goes by, now.
-  std::optional<double> silent_s = {};  ///< Since a sample came; empty: some wait to be looked at.
-  std::optional<double> late_s = {};    ///< Of the last sample when it came; empty: it is recorded.
+  TaiTime t;                            ///< Wall-clock time, later than in the previous state.
+  TaiTime pass_t;                       ///< Present time on the clock that the telemetry follows.
+  std::optional<double> silent_s = {};  ///< Time since the last sample; empty while some wait.
+  std::optional<double> late_s = {};    ///< Delay of the last sample; empty if recorded.
   std::map<std::string, SourceRecord> sources = {};
-  std::int64_t received = 0;  ///< Of the spacecraft, since the service started.
-  std::int64_t rejected = 0;  ///< Of those.
-  /// Publishes results of the spacecraft, too; empty: none does.
+  std::int64_t received = 0;  ///< Samples of this spacecraft since the service started.
+  std::int64_t rejected = 0;  ///< Rejected samples among `received`.
+  /// Another service that publishes results of this spacecraft; empty if there is none.
   std::optional<std::string> other_service = {};
-  double backlog_s = 0.0;  ///< How long the oldest sample waits to be committed.
+  double backlog_s = 0.0;  ///< Time for which the oldest sample has waited to be committed.
   bool write_failed = false;
-  std::optional<double> free_gib = {};             ///< At the archive; empty: nobody knows.
-  double clock_step_s = 0.0;                       ///< Of the wall clock, since the state before.
-  std::map<std::string, TaiTime> data_until = {};  ///< By what they are; "orbit".
+  std::optional<double> free_gib = {};  ///< Free space of the archive; empty if unknown.
+  double clock_step_s = 0.0;            ///< Step of the wall clock since the previous state.
+  std::map<std::string, TaiTime> data_until = {};  ///< End of validity by item, such as "orbit".
 };
 
-/// Of one spacecraft; what concerns the whole service is raised for each.
+/// Watches one spacecraft; conditions of the whole service are raised for each spacecraft.
 class ServiceConditions {
  public:
   ServiceConditions(const AlertLimits& limits, std::optional<Contact> contact);

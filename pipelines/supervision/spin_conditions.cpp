@@ -11,9 +11,9 @@
 namespace spindrift {
 namespace {
 
-// One answer that is off may be the noise of its sigma.
+// Noise may put a single answer off; the condition must hold over several.
 constexpr Holding kSeveralAnswers{.raise_s = 10.0, .clear_s = 10.0};
-constexpr double kApartAtMost_s = 60.0;  // Answers that are compared.
+constexpr double kApartAtMost_s = 60.0;  // Longest time between compared answers.
 
 constexpr Holding as_long_again(double held_s) { return {.raise_s = held_s, .clear_s = held_s}; }
 
@@ -57,7 +57,7 @@ ConditionChanges SpinConditions::see(const PulseUse& use) {
     axis = AxisSeen{.axis_icrf = answer->axis_icrf,
                     .sigma_rad = std::sqrt(answer->covariance_rad2.trace())};
   }
-  // A copy is no edge more of its channel.
+  // A copy is not a further edge of its channel.
   const bool is_copy = use.rejected_by == Rejection::Copy;
   ConditionChanges changes = is_copy ? ConditionChanges{} : channels_.see(use.pulse, axis);
   add(interference_.see(use.pulse.t, use.rejected_by == Rejection::Interference), changes);
@@ -172,7 +172,7 @@ ConditionChanges SpinConditions::see(const BatchSolution& solution) {
   return changes;
 }
 
-/// Against its limit; where it has grown, against what it was.
+/// Compares the half-angle with its limit, or with the smallest one if it has grown significantly.
 ConditionWatch::Reading SpinConditions::reading_of(const Estimated& half_angle_rad) {
   ConditionWatch::Reading reading{.value = half_angle_rad.value * kDegPerRad,
                                   .limit = limits_.nutation_deg,

@@ -1,8 +1,8 @@
 /// @file
-/// What is worth an alert in the products of a spinner, in telemetry time.
+/// The alert conditions for products of a spinner, in telemetry time.
 ///
-/// Each condition reads one kind of product, or results only: results and details reach it by
-/// different ways, each in its own order.
+/// Each condition reads one kind of product or results only, because results and details arrive
+/// separately, each in its own order.
 
 #pragma once
 
@@ -20,17 +20,17 @@
 
 namespace spindrift {
 
-/// The answer in force is that of `sequential`; until there is one, that of `mean`.
+/// Watches the answer in force: that of `sequential`, or that of `mean` until it exists.
 class SpinConditions {
  public:
   SpinConditions(const SpinConfig& config, Orbit orbit, const AlertLimits& limits,
                  std::optional<SpinTarget> target);
 
-  /// For estimates from `t` on; the rate stays as it was.
+  /// Sets the target axis for estimates from `t` on; the target rate stays.
   void set_target(TaiTime t, const Eigen::Vector3d& axis_icrf);
-  /// The axis moves at `t`: its sigma is wide for a while.
+  /// Announces a manoeuvre at `t`, after which a large axis sigma is expected for a while.
   void note_manoeuvre(TaiTime t) { manoeuvres_.insert(t); }
-  /// Of the last estimate.
+  /// Returns the target as of the last estimate.
   const std::optional<SpinTarget>& target() const { return target_; }
 
   ConditionChanges see(const PulseUse& use);
@@ -47,7 +47,7 @@ class SpinConditions {
 
   AlertLimits limits_;
   std::optional<SpinTarget> target_;
-  std::multimap<TaiTime, Eigen::Vector3d> targets_;  ///< To come: axes.
+  std::multimap<TaiTime, Eigen::Vector3d> targets_;  ///< Future target axes, ICRF.
   ChannelPresence channels_;
   RecentShare irrational_;
   RecentShare left_out_;
@@ -62,12 +62,12 @@ class SpinConditions {
   ConditionWatch nutation_;
   ConditionWatch rate_;
   ConditionWatch lost_;
-  std::map<std::int64_t, TaiTime> t_sun1_;  ///< Of revolutions whose period is to come.
-  std::optional<TaiTime> first_;            ///< Estimate, or first since a manoeuvre.
-  std::set<TaiTime> manoeuvres_;            ///< To come.
+  std::map<std::int64_t, TaiTime> t_sun1_;  ///< Sun pulse of revolutions without a period yet.
+  std::optional<TaiTime> first_;            ///< First estimate since start or manoeuvre.
+  std::set<TaiTime> manoeuvres_;            ///< Times of future manoeuvres.
   std::optional<SpinEstimate> mean_;
   std::optional<SpinEstimate> sequential_;
-  std::optional<Estimated> least_nutation_rad_;  ///< Half-angle, of those found.
+  std::optional<Estimated> least_nutation_rad_;  ///< Smallest half-angle found.
 };
 
 }  // namespace spindrift

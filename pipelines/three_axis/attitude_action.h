@@ -1,5 +1,5 @@
 /// @file
-/// What an operator may say of a three-axis spacecraft's telemetry from some instant on.
+/// The operator actions that exclude or include telemetry of a three-axis spacecraft.
 
 #pragma once
 

@@ -18,34 +18,32 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-// Of the bias's prior, along one square root of a second: 1 % of it in a day. Ten minutes do not
-// show it, and a day does not hold the bias of its first hour for the present one.
+// Random walk of the gyro bias as a fraction of its prior sigma, 1 % in a day: invisible within ten
+// minutes, but enough for the filter to replace the bias of the first hour within a day.
 constexpr double kBiasWalk_sqrt_s = 3e-5;
-// Of a rate that nobody measures, about each axis: a body that a launcher has let go turns by
-// 10 deg/s at most.
+// Sigma per axis of an unmeasured rate: a launcher releases a body with at most 10 deg/s.
 constexpr double kUnknownRate_rad_s = 5.0 * kRadPerDeg;
-// So long a direction tells anything without a gyro.
+// Longest age at which a direction is still of use without a gyro.
 constexpr double kAtOnce_s = 1.0;
-// So many samples in a row that repeat are more than a sensor that is read more often than it
-// measures.
+// A shorter run of repeats occurs when a sensor is read more often than it measures.
 constexpr int kFrozenForLong = 5;
-// A sensor of which every tenth sample is bad does not come near the limit of the share by chance,
-// one that is rejected altogether reaches it at the tenth. What is left out says nothing of noise.
+// A sensor with one bad sample in ten stays clear of the share limit by chance, while one that is
+// rejected entirely reaches it at its tenth sample. Rejected samples do not count as noise.
 constexpr RecordRules kSampleRules{
     .recent = 20.0, .fewest_freedoms = 30.0, .most_freedoms = 900.0, .noise_from_share = 1.0};
 constexpr double kMany = 0.4;
 constexpr double kFewestSamples = 5.0;
-// At most ten estimates a second of telemetry time, however the times of samples jitter.
+// At most ten estimates per second of telemetry time, allowing for jitter of the sample times.
 constexpr double kShortest_s = 0.095;
-// A bias wanders in hours.
+// Estimates carry the bias at most once a second, because it drifts over hours.
 constexpr double kBetweenBiases_s = 1.0;
 
-/// Its trace is the mean square of the angle between two attitudes of which nothing is known.
+/// Its trace is the mean square of the rotation angle between two random attitudes.
 Matrix3d any_attitude_rad2() {
   return (std::numbers::pi * std::numbers::pi / 3.0 + 2.0) / 3.0 * Matrix3d::Identity();
 }
 
-/// About which axes a measurement speaks, ICRF.
+/// Returns the projector on the axes about which a measurement determines the attitude, ICRF.
 Matrix3d axes_of(const ObservedDirection& direction) {
   const Vector3d along = direction.ref.normalized();
   return Matrix3d::Identity() - along * along.transpose();
@@ -58,7 +56,7 @@ bool is_unknown(const Mekf& filter) {
 
 double square_of(const std::optional<double>& sigmas) { return sigmas ? *sigmas * *sigmas : 0.0; }
 
-/// How strong the measured field is is a degree of freedom more.
+/// The strength of a measured field adds one degree of freedom.
 template <class Observed>
 Observation observation_of(const Mekf& filter, const Observed& observed,
                            const std::optional<double>& stronger) {
@@ -77,7 +75,7 @@ Observation observation_of(const Mekf& filter, const Observed& observed,
   return observation;
 }
 
-/// Of a field, which has a length; that of the others is 1.
+/// Returns the field strength for a magnetometer sample, and 1 for the other sensors.
 double length_of(SampleKind kind, const ObservedDirection& direction) {
   return kind == SampleKind::Magnetometer ? direction.body.norm() : 1.0;
 }
@@ -161,7 +159,7 @@ void AttitudeEstimator::take_in_gyro(const GyroSample& sample, Products& out) {
     while (!waiting_.empty() && time_of(waiting_.front()) <= sample.t) {
       const Sample waiting = std::move(waiting_.front());
       waiting_.pop_front();
-      // Several may be of the instant of the sample, and the first of them has come there.
+      // The first of several samples at the gyro sample's time propagates to it.
       const double share = time_of(waiting) == sample.t
                                ? 1.0
                                : elapsed_s(*t_, time_of(waiting)) / elapsed_s(*t_, sample.t);
@@ -248,7 +246,7 @@ void AttitudeEstimator::take_in_waiting(Products& out) {
   }
 }
 
-/// No gyro sample is waited for any longer.
+/// Propagates to `t` without waiting any longer for a gyro sample.
 void AttitudeEstimator::give_way(TaiTime t, Products& out) {
   leave_out_suspect(out);
   take_in_waiting(out);
@@ -263,8 +261,8 @@ void AttitudeEstimator::settle(Products& out) {
   }
 }
 
-/// Along a part of the interval between two gyro samples. The error of each sample turns the body
-/// by half an interval to either side; where samples are missing, the rate may have changed unseen.
+/// Propagates along a part of the interval between two gyro samples. The error of a sample turns
+/// the body over half an interval on either side. In a gap the rate may also have changed unseen.
 void AttitudeEstimator::follow(const GyroSample& to, const Interval& interval) {
   const double dt_s = elapsed_s(*t_, to.t);
   const double noise_rad_s = config_.gyro->noise_rad_s;
@@ -277,7 +275,7 @@ void AttitudeEstimator::follow(const GyroSample& to, const Interval& interval) {
   turn(to, coasting_ ? coasted_rad2(interval.from, to.t) : turn_rad2);
 }
 
-/// The last rate is held. Without any, nothing that was known holds but directions of just now.
+/// Propagates with the last rate. Without any rate nothing is kept but the most recent directions.
 void AttitudeEstimator::coast(TaiTime t, Products& out) {
   if (t_ == t) {
     return;
@@ -296,7 +294,7 @@ void AttitudeEstimator::coast(TaiTime t, Products& out) {
   lose_where_unknown(out);
 }
 
-/// Variance that the turn from here to `t` adds where the gyro measured last at `measured`.
+/// Returns the variance added by the turn from `t_` to `t`; the last gyro sample is at `measured`.
 double AttitudeEstimator::coasted_rad2(TaiTime measured, TaiTime t) const {
   const double from_s = elapsed_s(measured, std::max(*t_, measured));
   const double to_s = elapsed_s(measured, t);
@@ -393,7 +391,7 @@ void AttitudeEstimator::take_in_direction(const SeenDirection& seen, Products& o
   const SensorHealth& star = sensors_.at(index_of(SampleKind::Star));
   if (!rate_rad_s_ && star.last_seen && star.rejected_in_a_row == 0 &&
       elapsed_s(*star.last_seen, seen.t) <= kAtOnce_s) {
-    return;  // Its attitude is the better one.
+    return;  // The star fix gives the better attitude.
   }
   if (const auto attitude = carried_.attitude()) {
     has_fixes_ = false;
@@ -401,7 +399,7 @@ void AttitudeEstimator::take_in_direction(const SeenDirection& seen, Products& o
   }
 }
 
-/// @return Whether the filter accepts it.
+/// @return True if the filter accepts the sample.
 template <class Observed>
 bool AttitudeEstimator::work_in(TaiTime t, SampleKind kind, const Observed& observed,
                                 const std::optional<double>& stronger, Products& out) {
@@ -446,8 +444,8 @@ bool AttitudeEstimator::work_in(TaiTime t, SampleKind kind, const Observed& obse
   return true;
 }
 
-/// One that star fixes made is past where they fit the attitude in force again, or neither before
-/// it is refuted.
+/// Drops a rival formed by star fixes once a fix fits the attitude in force, or fits neither
+/// attitude while the rival is not refuted.
 void AttitudeEstimator::ask_rival(const ObservedAttitude& fix, bool fits, bool fits_in_force) {
   if (fits_in_force) {
     rival_->star_fixes = 0;
@@ -461,7 +459,7 @@ void AttitudeEstimator::ask_rival(const ObservedAttitude& fix, bool fits, bool f
   }
 }
 
-/// One that was in force is forgotten when it is refuted.
+/// Drops a rival that was once in force as soon as it is refuted.
 void AttitudeEstimator::ask_rival(const ObservedDirection& direction, bool fits,
                                   bool fits_in_force) {
   rival_->against = std::clamp(rival_->against + (fits_in_force ? 1 : 0) - (fits ? 1 : 0),
@@ -474,7 +472,8 @@ void AttitudeEstimator::ask_rival(const ObservedDirection& direction, bool fits,
   }
 }
 
-/// For want of another sensor that decides: one that still holds the attitude would have by then.
+/// Lets the rival win when no other sensor decides. A sensor that still supports the attitude in
+/// force would have decided within the waiting time.
 bool AttitudeEstimator::rival_overrules() const {
   if (!rival_ || rival_->is_refuted() || rival_->star_fixes < RivalAttitude::kEnough) {
     return false;
@@ -483,7 +482,7 @@ bool AttitudeEstimator::rival_overrules() const {
          elapsed_s(rival_->since, *t_) >= RivalAttitude::kEnough * kHeld_s;
 }
 
-/// The one in force becomes the rival, unless nothing speaks for it any longer.
+/// Keeps the attitude that was in force as the new rival, unless nothing supports it any longer.
 void AttitudeEstimator::overrule(Products& out) {
   const RivalAttitude winner = *std::exchange(rival_, std::nullopt);
   const bool is_proven = winner.is_proven();
@@ -521,7 +520,7 @@ Mekf AttitudeEstimator::filter_at(const UncertainAttitude& attitude) const {
   return {attitude, config_.gyro ? config_.gyro->bias_sigma_rad_s : 0.0};
 }
 
-/// What was lost is forgotten where it agrees.
+/// Drops the rival, which is the lost attitude, if the new attitude agrees with it.
 void AttitudeEstimator::begin(const UncertainAttitude& attitude, Products& out) {
   if (rival_ && rival_->filter
                         .innovation(ObservedAttitude{
@@ -559,8 +558,7 @@ void AttitudeEstimator::lose_where_rejected(Products& out) {
   }
 }
 
-/// Star fixes that it may contradict are to know of it.
-
+/// Keeps a confirmed attitude as the rival, so that star fixes that contradict it are noticed.
 void AttitudeEstimator::lose(Products& out) {
   Assessment assessment{.quality = Quality::Lost, .reasons = {Reason{ReasonCode::AwaitingFix, {}}}};
   if (gyro_is_out()) {
@@ -616,7 +614,7 @@ double AttitudeEstimator::excess_noise() const {
   return most;
 }
 
-/// What it said until now is in another unit than what it says from now on.
+/// Discards the gyro state, which is in the former unit, when the detected unit changes.
 void AttitudeEstimator::forget_gyro() {
   gyro_ = GyroWatch{*config_.gyro};
   rate_rad_s_.reset();
@@ -628,7 +626,7 @@ bool AttitudeEstimator::gyro_is_out() const {
                       : gyro_.out_because().has_value();
 }
 
-/// More has spoken for it than the fix at which it began, and the gyro has carried it since.
+/// Returns whether samples besides the initial fix support the attitude and the gyro is not out.
 bool AttitudeEstimator::is_confirmed() const { return checks_ > 0.5 && !gyro_is_out(); }
 
 bool AttitudeEstimator::is_held() const {
@@ -639,8 +637,8 @@ bool AttitudeEstimator::is_held() const {
                      });
 }
 
-/// It is known that it is the sensor that is wrong: of a tracker, since others confirm what it has
-/// told itself before. Against what it never told it is one sensor's word against another's.
+/// Returns whether the sensor is known to be wrong. For a star tracker, other sensors must confirm
+/// an attitude that its own earlier fixes supported; else it would be one sensor against another.
 bool AttitudeEstimator::is_out(SampleKind kind) const {
   return frozen_.at(index_of(kind)).repeats() >= kFrozenForLong ||
          (kind == SampleKind::Star && has_fixes_ && rival_ && rival_->stands() &&
@@ -657,7 +655,7 @@ Reason AttitudeEstimator::why_no_gyro() const {
 Assessment AttitudeEstimator::assess() const {
   Assessment assessment{.quality = Quality::Ok};
   std::vector<Reason>& reasons = assessment.reasons;
-  std::vector<Reason> known;  // That leave no doubt about the attitude.
+  std::vector<Reason> known;  // Reasons that cast no doubt on the attitude.
   if (const auto factor = gyro_unit_.factor()) {
     reasons.push_back({ReasonCode::GyroUnit, {{"factor", *factor}}});
   }

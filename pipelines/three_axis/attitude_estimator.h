@@ -1,29 +1,33 @@
 /// @file
-/// Attitude and gyro bias from samples in order of time: begins, filters, gates, says how good it
-/// is, and begins anew (mekf.h).
+/// Estimates attitude and gyro bias from samples in time order with a Kalman filter (mekf.h). It
+/// initialises the filter, gates the samples, assesses the quality of the estimate and
+/// reinitialises after a loss of attitude.
 ///
-/// It begins at a star fix, or at two directions that agree (carried_directions.h); before that
-/// there is nothing. A star fix or a direction between two gyro samples is taken in when the second
-/// is there, as the rate changes evenly between them; where none comes the last rate is held, and
-/// the covariance grows by what the rate has shown of changing. Without any gyro two directions of
-/// within a second give the attitude of that instant, as a star fix does. An attitude that all
-/// sensors reject, or that nothing has held for long, is LOST. Then it begins at the next fix.
+/// The filter begins at a star fix, or at two directions that agree (carried_directions.h); no
+/// estimate exists before that. A star fix or direction between two gyro samples waits for the
+/// second of them, because the rate is interpolated linearly in between. If no gyro sample follows,
+/// the last rate is held and the covariance grows by the observed variability of the rate. Without
+/// any gyro, two directions within one second give the attitude of that instant, as a star fix
+/// does. An attitude is LOST when all sensors reject it, or when its standard deviation exceeds 1
+/// rad for lack of measurements. The filter then begins again at the next fix.
 ///
-/// Samples that repeat to the bit are left out (frozen_samples.h). Star fixes that the attitude
-/// rejects and that agree with each other make a rival (rival_attitude.h). Sun and field decide
-/// between the two; where they do not, the fixes overrule in the end, and whatever they say then is
-/// doubtful until Sun or field confirm it or the fixes return to where they were. An attitude that
-/// only the fix has spoken for at which it began gives way to the next ones at once.
+/// Samples that repeat bit for bit are left out (frozen_samples.h). Star fixes that the attitude
+/// rejects but that agree with each other form a rival attitude (rival_attitude.h). Sun and
+/// magnetic field decide between the two. Where they do not decide, the star fixes win in the end,
+/// and the estimate is DOUBTFUL until Sun or field confirm it or the fixes return to the former
+/// attitude. An attitude that only its first fix supports yields at once to star fixes that agree
+/// on another.
 ///
-/// Its quality is
-///     CONVERGING nothing speaks against it, but no ten fixes, or as much of directions about every
-///                axis, have checked it since it began; without a gyro it begins at each fix
-///     OK         all is well
-///     DOUBTFUL   a sensor's samples are rejected while another's agree, and nobody knows which is
-///                wrong, or scatter beyond their noise, and the covariance is raised by that; or
-///                the gyro is out, or was and nothing has checked since how the body turned
-///                meanwhile; or it is open by 10 deg
-///     LOST       it may point anywhere, and the covariance says so; said once
+/// The quality of the estimate is
+///     CONVERGING nothing contradicts the attitude, but since it began fewer than ten star fixes
+///                (or their equivalent in directions about every axis) have checked it; without a
+///                gyro the filter begins again at each fix
+///     OK         enough samples have checked the attitude and nothing contradicts it
+///     DOUBTFUL   samples of one sensor are rejected while those of another agree, and nobody knows
+///                which is wrong; or samples scatter beyond their noise and raise the covariance;
+///                or the gyro is out, or was out and nothing has yet checked how the body turned
+///                meanwhile; or the standard deviation exceeds 10 deg
+///     LOST       the attitude may be any, as the covariance states; reported once per loss
 
 #pragma once
 
@@ -48,12 +52,13 @@
 
 namespace spindrift {
 
-/// A direction that a sensor measures, with its reference in ICRF.
+/// Holds a direction measured by one sensor and its reference in ICRF.
 struct SeenDirection {
   TaiTime t;
   SampleKind kind;
   ObservedDirection direction;
-  /// Of a field: how much stronger it is than known, in standard deviations. Tested with it.
+  /// How far the measured field strength exceeds the model, in standard deviations; tested together
+  /// with the direction. Empty for sensors other than the magnetometer.
   std::optional<double> stronger = std::nullopt;
 };
 
@@ -61,33 +66,34 @@ class AttitudeEstimator {
  public:
   using Products = std::vector<ThreeAxisProduct>;
 
-  /// So long after a gyro sample the next one is expected.
+  /// Longest time after a gyro sample for which the next one is awaited.
   static constexpr double kGyroWait_s = 2.5;
-  /// So many rejected in a row, by all sensors together, and the attitude is lost.
+  /// Number of consecutive rejected samples, over all sensors, at which the attitude is lost.
   static constexpr int kLostInARow = 10;
-  /// So long a sensor holds the attitude that has accepted its last sample.
+  /// Time for which a sensor supports the attitude after the filter accepted its last sample.
   static constexpr double kHeld_s = 10.0;
-  /// So much must have been able to contradict the attitude: of star fixes, their number.
+  /// Number of star fixes, or their equivalent in directions about the least checked axis, that
+  /// must have been accepted before the attitude counts as checked.
   static constexpr double kEnoughToCheck = 10.0;
 
   explicit AttitudeEstimator(const ThreeAxisConfig& config);
 
-  // All samples not earlier than those before; the mission has their sensors.
+  // Precondition: samples arrive in time order, and the mission has the sensors they come from.
   void push(const GyroSample& sample, Products& out);
   void push(const StarFix& fix, Products& out);
   void push(const SeenDirection& seen, Products& out);
 
-  /// Nothing comes for now: what waits for a gyro sample is taken in without, and the newest
-  /// attitude is given.
+  /// Processes the waiting samples without a further gyro sample and emits the newest attitude.
+  /// Call this when no more samples are expected for now.
   void settle(Products& out);
 
-  /// A sample that something else than its innovation rules out.
+  /// Records a sample that was rejected by a test other than that of its innovation.
   void leave_out(const RejectedSample& rejected, Products& out);
-  /// One of a kind that is of use to something else.
+  /// Counts a sample as accepted that the filter itself does not process, such as an orbit state.
   void note_accepted(SampleKind kind, TaiTime t);
 
   const SensorHealths& sensors() const { return sensors_; }
-  /// Empty: it has not begun, or is lost.
+  /// Returns the filter; empty before the attitude has begun and after it was lost.
   const std::optional<Mekf>& filter() const { return filter_; }
   bool ever_began() const { return since_.has_value(); }
 
@@ -117,12 +123,12 @@ class AttitudeEstimator {
   bool rival_overrules() const;
   void overrule(Products& out);
 
-  /// Between two gyro samples.
+  /// Describes the interval between two consecutive gyro samples.
   struct Interval {
     TaiTime from;
     double length_s;
     bool is_gap;
-    double change_rad_s;  ///< Of the rate across it.
+    double change_rad_s;  ///< Norm of the change of rate across the interval.
   };
   void note_gap(double length_s);
   void follow(const GyroSample& to, const Interval& interval);
@@ -151,33 +157,32 @@ class AttitudeEstimator {
   ThreeAxisConfig config_;
   GyroWatch gyro_;
   GyroUnit gyro_unit_;
-  std::optional<GyroSample> suspect_;  ///< Waits for the next to tell what it is.
-  std::deque<Sample> waiting_;         ///< For the gyro sample behind them.
+  std::optional<GyroSample> suspect_;  ///< Outlier candidate; the next gyro sample decides.
+  std::deque<Sample> waiting_;         ///< Fixes and directions later than the last gyro sample.
 
-  std::optional<TaiTime> t_;                   ///< To which the body has been followed.
-  std::optional<Eigen::Vector3d> rate_rad_s_;  ///< As measured, there; empty: no gyro yet.
-  bool coasting_ = false;                      ///< That rate is an older one, held.
+  std::optional<TaiTime> t_;                   ///< Epoch to which the attitude is propagated.
+  std::optional<Eigen::Vector3d> rate_rad_s_;  ///< Measured rate at `t_`; empty before the first.
+  bool coasting_ = false;  ///< True while `rate_rad_s_` is an older rate that is held.
   std::optional<Mekf> filter_;
-  bool has_fixes_ = false;     ///< Star fixes have spoken for that.
-  CarriedDirections carried_;  ///< While there is no filter.
+  bool has_fixes_ = false;     ///< True once star fixes support the filter's attitude.
+  CarriedDirections carried_;  ///< Directions collected while there is no filter.
   std::optional<RivalAttitude> rival_;
 
-  /// By kind; that of the gyro is not used.
+  /// One watch per sample kind; the gyro's is unused (GyroWatch has its own).
   std::vector<FrozenSamples> frozen_{kSampleKinds, FrozenSamples::of_references()};
   SensorHealths sensors_;
-  // Since it began:
+  // The following members describe the time since the filter last began.
   Ledger ledger_;
   int rejected_in_a_row_ = 0;
-  Eigen::Matrix3d checked_ = Eigen::Matrix3d::Zero();  ///< About which axes, ICRF.
-  double checks_ = 0.0;                                ///< About the axis that is checked least.
-  std::int64_t unchecked_gaps_ =
-      0;                        ///< Of the gyro, in which the body may have turned and stopped.
-  double longest_gap_s_ = 0.0;  ///< Of those.
+  Eigen::Matrix3d checked_ = Eigen::Matrix3d::Zero();  ///< Sum of checked-axis projectors, ICRF.
+  double checks_ = 0.0;                                ///< Smallest eigenvalue of `checked_`.
+  std::int64_t unchecked_gaps_ = 0;  ///< Gyro gaps since the attitude was last checked.
+  double longest_gap_s_ = 0.0;       ///< Longest of the unchecked gaps.
   std::optional<TaiTime> since_;
   bool began_anew_ = false;
-  std::optional<TaiTime> given_;       ///< The last estimate.
-  std::optional<TaiTime> bias_given_;  ///< The last estimate with the bias of the gyro.
-  Innovations since_given_;            ///< Since that.
+  std::optional<TaiTime> given_;       ///< Epoch of the last estimate.
+  std::optional<TaiTime> bias_given_;  ///< Epoch of the last estimate with a gyro bias.
+  Innovations since_given_;            ///< Innovations since the last estimate.
 };
 
 }  // namespace spindrift

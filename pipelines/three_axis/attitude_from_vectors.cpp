@@ -11,10 +11,10 @@
 namespace spindrift {
 namespace {
 
-// Of the eigenvalues of the information: below it rounding decides.
+// Smallest ratio of the eigenvalues of the information matrix that exceeds rounding errors.
 constexpr double kFewestOfMost = 1e-14;
 
-/// @return The covariance.
+/// @return Covariance of the attitude, rad^2, body axes.
 Expected<Eigen::Matrix3d> observed(std::span<const ObservedDirection> directions) {
   Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
   for (const ObservedDirection& direction : directions) {
@@ -34,7 +34,7 @@ Expected<Eigen::Matrix3d> observed(std::span<const ObservedDirection> directions
          solver.eigenvectors().transpose();
 }
 
-/// Axes along `first` and across both.
+/// Returns orthonormal axes: along `first`, along the cross product, and completing the triad.
 Eigen::Matrix3d triad_axes(const Eigen::Vector3d& first, const Eigen::Vector3d& second) {
   Eigen::Matrix3d axes;
   axes.col(0) = first.normalized();

@@ -1,5 +1,5 @@
 /// @file
-/// Attitude from directions that are known in the body and in a reference frame.
+/// Estimates attitude from directions known both in the body and in a reference frame.
 
 #pragma once
 
@@ -11,25 +11,24 @@
 
 namespace spindrift {
 
-/// Directions need no unit length.
+/// Holds one direction in both frames; the vectors need not have unit length.
 struct ObservedDirection {
-  Eigen::Vector3d body;  ///< As measured.
-  Eigen::Vector3d ref;   ///< As known: ICRF, or another frame.
-  double sigma_rad;      ///< One standard deviation of `body` along each of two axes across it.
+  Eigen::Vector3d body;  ///< Measured direction, body axes.
+  Eigen::Vector3d ref;   ///< Reference direction, ICRF or another frame.
+  double sigma_rad;      ///< Standard deviation of `body` along each of two axes across it.
 };
 
-/// What a direction says of the attitude, 1/rad^2, body axes: nothing about itself.
+/// Returns the attitude information of one direction, 1/rad^2, body axes; zero along itself.
 Eigen::Matrix3d information_of(const ObservedDirection& direction);
 
-/// TRIAD (Liu 2019, eq. 10 to 12): `first` exactly, `second` as near as that leaves it; covariance
-/// by Shuster and Oh 1981.
-/// @return Unobservable where the two are so nearly in line that the turn about it is known to no
-///         better than 1 rad.
+/// Computes the attitude by TRIAD (Liu 2019, eq. 10 to 12): it fits `first` exactly and `second` as
+/// closely as that permits. The covariance follows Shuster and Oh 1981.
+/// @return Unobservable if they are so nearly collinear that the turn about them is open by 1 rad.
 Expected<UncertainAttitude> triad(const ObservedDirection& first, const ObservedDirection& second);
 
-/// The attitude of the least sum of squares (body - A ref)^2 / sigma^2 (Wahba's problem), by
-/// Davenport's q-method: the eigenvector of a 4 x 4 matrix, singular nowhere.
-/// @return Unobservable as `triad`; likewise for fewer than two directions.
+/// Solves Wahba's problem: minimises the sum of (body - A ref)^2 / sigma^2 by Davenport's q-method.
+/// The solution is an eigenvector of a 4 x 4 matrix and has no singular attitude.
+/// @return Unobservable for fewer than two directions, or if they are collinear as in `triad`.
 Expected<UncertainAttitude> q_method(std::span<const ObservedDirection> directions);
 
 }  // namespace spindrift

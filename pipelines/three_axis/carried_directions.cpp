@@ -14,7 +14,7 @@
 namespace spindrift {
 namespace {
 
-/// A chi-square, where the directions agree.
+/// Returns the chi-square of the misfits.
 double misfit_of(const std::vector<ObservedDirection>& directions,
                  const Eigen::Quaterniond& q_ref_body) {
   double squares = 0.0;
@@ -25,7 +25,7 @@ double misfit_of(const std::vector<ObservedDirection>& directions,
   return squares;
 }
 
-/// Two numbers each, less the three of an attitude.
+/// Each direction gives two numbers; the attitude uses up three of them.
 int freedom_of(std::size_t directions) { return 2 * static_cast<int>(directions) - 3; }
 
 }  // namespace

@@ -1,5 +1,5 @@
 /// @file
-/// Directions of the last seconds, carried along with the gyro until two of them give an attitude.
+/// Propagates the directions of the last seconds with the gyro until two of them give an attitude.
 
 #pragma once
 
@@ -16,31 +16,32 @@ namespace spindrift {
 
 class CarriedDirections {
  public:
-  /// Carried by a gyro, a direction older than that is forgotten.
+  /// Age beyond which a direction propagated with a gyro is dropped.
   static constexpr double kLongest_s = 5.0;
 
-  /// Takes the place of the one before of its sensor.
+  /// Adds a direction, which replaces the previous one of the same sensor.
   void add(SampleKind kind, TaiTime t, const ObservedDirection& direction);
 
-  /// The body turns until `t`.
-  /// @param longest_s A direction older than that is forgotten.
+  /// Propagates the directions to `t` by the rotation vector `turned_rad` of the body.
+  /// @param longest_s Age beyond which a direction is dropped.
   void turn(TaiTime t, const Eigen::Vector3d& turned_rad, const CarryError& error,
             double longest_s = kLongest_s);
 
   void forget() { directions_.clear(); }
 
-  /// @return Unobservable for fewer than two, nearly in line, or at another angle to each other
-  ///         than noise explains.
+  /// Estimates the attitude from the directions held.
+  /// @return Unobservable if there are fewer than two directions, if they are nearly collinear, or
+  ///         if the angle between them contradicts their references beyond the noise.
   Expected<UncertainAttitude> attitude() const;
 
  private:
   struct Carried {
     SampleKind kind;
     TaiTime t;
-    ObservedDirection direction;  ///< In the body as it stands now; its own error.
+    ObservedDirection direction;  ///< In present body axes; `sigma_rad` as measured.
     CarryError error;
   };
-  std::vector<Carried> directions_;  ///< One of a kind, in the order of kinds.
+  std::vector<Carried> directions_;  ///< At most one per kind, in the order of kinds.
 };
 
 }  // namespace spindrift

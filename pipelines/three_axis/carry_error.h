@@ -1,14 +1,14 @@
 /// @file
-/// What a direction or an attitude loses in being carried along with the gyro.
+/// The error that propagation with the gyro adds to a direction or an attitude.
 
 #pragma once
 
 namespace spindrift {
 
-/// About each axis; one standard deviation is the root of `variance_rad2()`.
+/// Holds the propagation error about each axis, with variance `variance_rad2()`.
 struct CarryError {
-  double noise_rad2 = 0.0;  ///< Of independent errors: their variances add.
-  double drift_rad = 0.0;   ///< Of the bias, unknown: its turns add.
+  double noise_rad2 = 0.0;  ///< Variance of independent errors, which adds up.
+  double drift_rad = 0.0;   ///< Drift by the unknown bias, whose turns add up linearly.
 
   void add(const CarryError& more) {
     noise_rad2 += more.noise_rad2;

@@ -1,5 +1,5 @@
 /// @file
-/// What the three-axis pipeline must know of a spacecraft: its sensors and its inertia.
+/// The sensors and the inertia of a spacecraft as the three-axis pipeline needs them.
 
 #pragma once
 
@@ -9,35 +9,35 @@
 
 namespace spindrift {
 
-/// Errors are one standard deviation per axis and sample.
+/// All noise values are one standard deviation per axis and sample.
 struct GyroSensor {
   double noise_rad_s;
   double bias_sigma_rad_s;            ///< One standard deviation of the bias.
-  std::optional<double> range_rad_s;  ///< Beyond it the gyro is saturated.
+  std::optional<double> range_rad_s;  ///< Rate beyond which the gyro saturates.
 };
 
 struct DigitalSunSensor {
   double noise_rad;
-  /// One standard deviation per axis of a constant misalignment, which a reconstruction by `batch`
-  /// then estimates; empty: none.
+  /// Standard deviation per axis of a constant misalignment, which the `batch` reconstruction
+  /// estimates; empty if the sensor counts as aligned.
   std::optional<double> misalignment_sigma_rad = std::nullopt;
 };
 
 struct StarTracker {
-  Eigen::Quaterniond q_body_sensor;  ///< v_body = q v_sensor q*, unit.
+  Eigen::Quaterniond q_body_sensor;  ///< Rotation v_body = q v_sensor q*; unit quaternion.
   double noise_rad;
 };
 
 struct Magnetometer {
-  double noise_nt;  ///< From the main field: with what crust and currents add to that.
+  double noise_nt;  ///< Relative to the main field, crust and currents included.
 };
 
 struct Inertia {
-  Eigen::Matrix3d kg_m2;  ///< About the centre of mass, body axes.
-  double sigma_fraction;  ///< One standard deviation of each moment, as a part of it.
+  Eigen::Matrix3d kg_m2;  ///< Tensor about the centre of mass, body axes.
+  double sigma_fraction;  ///< Relative standard deviation of each principal moment.
 };
 
-// A sensor that is empty is not on board.
+// An empty member means that the spacecraft lacks the sensor, or that the inertia is unknown.
 struct ThreeAxisConfig {
   std::optional<GyroSensor> gyro;
   std::optional<DigitalSunSensor> sun_sensor;

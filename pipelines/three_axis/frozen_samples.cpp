@@ -10,12 +10,12 @@ namespace spindrift {
 namespace {
 
 constexpr double kByChance = 1e-9;
-// A sensor may be so much quieter than stated.
+// Factor by which a sensor may be quieter than stated.
 constexpr double kQuieter = 3.0;
-// Of a step: so far off a multiple of it decimals may be.
+// Decimal rounding may put a change off a multiple of the step by this fraction of the step.
 constexpr double kRounding = 0.05;
 
-/// The greatest step of which both are multiples, by Euclid.
+/// Returns the greatest step of which both values are multiples, by Euclid's algorithm.
 double common_step(double a, double b) {
   while (true) {
     const double left = std::abs(std::remainder(std::max(a, b), std::min(a, b)));
@@ -47,7 +47,7 @@ void FrozenSamples::learn(const Values& earlier, const Values& later) {
 }
 
 int FrozenSamples::repeated(const Values& values, double noise) {
-  // A value that never changed is taken for as fine as the finest.
+  // A value that never changed is assumed to have the finest step of all values.
   const double finest = finest_step();
   Values steps = Values::Constant(values.size(), finest);
   if (steps_.size() > 0) {
@@ -78,7 +78,7 @@ int FrozenSamples::note(const Values& values, double noise) {
   return repeated(values, noise);
 }
 
-/// 0: none ever changed.
+/// Returns 0 if no value ever changed.
 double FrozenSamples::finest_step() const {
   double finest = 0.0;
   for (const double step : steps_) {
@@ -91,7 +91,7 @@ double FrozenSamples::finest_step() const {
 
 double FrozenSamples::step() const { return steps_.size() > 0 ? steps_.maxCoeff() : 0.0; }
 
-/// That a sample repeats the one before it is that two normal values fall on one step.
+/// Two samples repeat by chance if two normally distributed values fall on the same step.
 double FrozenSamples::longest_by_chance(const Values& steps, double noise) const {
   double chance = 1.0;
   for (const double step : steps) {

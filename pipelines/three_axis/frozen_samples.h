@@ -1,6 +1,5 @@
 /// @file
-/// Samples of one sensor that repeat: it is frozen, or its noise is below the step of the
-/// telemetry.
+/// Detects repeating samples, of a frozen sensor or of one with noise below the quantisation step.
 
 #pragma once
 
@@ -15,42 +14,42 @@ class FrozenSamples {
  public:
   using Values = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, 4, 1>;
 
-  /// While no rate has ever changed nobody knows the step: so many in a row are frozen.
+  /// Run of repeats that counts as frozen while no rate has ever changed and the step is unknown.
   static constexpr int kGyroInARow = 10;
 
-  /// Fewer than five bend the attitude by little, whatever the gyro did. One axis may be dead
-  /// alone.
+  /// Returns the detector for a gyro. Fewer than five repeats change the attitude little, whatever
+  /// the true rate was. Each axis is tested alone as well, because one axis can fail on its own.
   static FrozenSamples of_gyro() { return {{.known = 5, .unknown = kGyroInARow}, true}; }
-  /// Each by itself is an attitude, or a direction of one: the second of a row tells nothing new,
-  /// and two samples must show the step, which all values share. One value of a unit vector may
-  /// stand still by geometry: all of them together.
+  /// Returns the detector for star fixes and directions. Each sample is complete by itself, so that
+  /// even the second of a run adds nothing, and two samples suffice to show the step that all
+  /// values share. Only all values together are tested, as one may stand still by geometry.
   static FrozenSamples of_references() { return {{.known = 2, .unknown = 2}, false}; }
 
-  /// What the step of the telemetry is: of each rate of a gyro the least change between neighbours,
-  /// else the greatest of which all changes are multiples.
+  /// Learns the quantisation step from two consecutive samples. For a gyro it is the smallest
+  /// change on each axis, else the largest step that divides all changes.
   void learn(const Values& earlier, const Values& later);
 
-  /// The next sample.
-  /// @param noise One standard deviation of each value.
-  /// @return How many up to this one are the same, all values or one, where they are the fewest and
-  ///         more than noise makes once in a thousand million times; else 0.
+  /// Tests the next sample for repetition.
+  /// @param noise Standard deviation of each value.
+  /// @return Length of the run of equal samples, in all values or in one, that ends here; 0 if it
+  ///         is below the minimum or noise causes it with a probability above 1e-9.
   int repeated(const Values& values, double noise);
 
-  /// Likewise, and learns.
+  /// Calls `learn` with the previous sample and then `repeated`.
   int note(const Values& values, double noise);
 
-  /// Of the last sample.
+  /// Returns the result of `repeated` for the last sample.
   int repeats() const { return repeats_; }
-  /// Where it repeats: how many, and how many in a row are not too many.
+  /// Returns the run length of the last sample and the longest run that is still acceptable.
   FailedTest failed() const { return {static_cast<double>(repeats_), most_by_chance_}; }
 
-  /// Of the value where it is coarsest; 0: no value ever changed.
+  /// Returns the coarsest quantisation step of all values; 0 if no value ever changed.
   double step() const;
 
  private:
   struct Fewest {
-    int known;    ///< Where the step is.
-    int unknown;  ///< Where it is not.
+    int known;    ///< Minimum run when the step is known.
+    int unknown;  ///< Minimum run when the step is unknown.
   };
   FrozenSamples(const Fewest& fewest, bool is_gyro) : fewest_{fewest}, is_gyro_{is_gyro} {}
 
@@ -59,9 +58,9 @@ class FrozenSamples {
 
   Fewest fewest_;
   bool is_gyro_;
-  Values steps_;  ///< 0: it never changed.
+  Values steps_;  ///< Step of each value; 0 if it never changed.
   Values last_;
-  std::vector<int> in_a_row_;  ///< All values, then each.
+  std::vector<int> in_a_row_;  ///< Run length of all values together, then of each value.
   int repeats_ = 0;
   double most_by_chance_ = 0.0;
 };

@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::size_t kFewest = 20;
 
-/// Knows the step of the telemetry.
+/// Returns a detector that knows the quantisation step of the telemetry.
 FrozenSamples watch_of(std::span<const GyroSample> samples) {
   FrozenSamples watch = FrozenSamples::of_gyro();
   for (std::size_t i = 1; i < samples.size(); ++i) {
@@ -25,7 +25,7 @@ FrozenSamples watch_of(std::span<const GyroSample> samples) {
   return watch;
 }
 
-/// Of each row that repeats all but the first, by the whole row.
+/// Marks all but the first sample of each run of repeats, judged by the length of the whole run.
 std::vector<std::optional<FailedTest>> frozen(std::span<const GyroSample> samples,
                                               FrozenSamples watch, double noise_rad_s) {
   std::vector<std::optional<FailedTest>> failed(samples.size());
@@ -51,9 +51,9 @@ void leave_out_spikes(ScreenedGyro& gyro, double noise_rad_s) {
   gyro.usable = std::move(kept);
 }
 
-/// How many at an end are off: all that are the same, as those of a gyro that has just been
-/// switched on.
-/// @param left_out Receives them.
+/// Rejects outliers at one end and returns their number. Equal samples there are rejected together,
+/// as from a gyro that has just been switched on.
+/// @param left_out Receives the rejected samples.
 template <class Iterator>
 std::ptrdiff_t leave_out_at_end(Iterator first, Iterator last, double noise_rad_s,
                                 std::vector<RejectedSample>& left_out) {
@@ -83,7 +83,7 @@ void leave_out_outliers(ScreenedGyro& gyro, double noise_rad_s) {
   gyro.first_is_outlier = at_start > 0;
 }
 
-/// Only where the step before is as long as that behind: elsewhere the rate may do anything.
+/// Uses evenly spaced samples only, because the rate may not be linear across a gap.
 std::optional<double> noise_of(std::span<const GyroSample> samples, double noise_rad_s) {
   constexpr double kEven = 0.1;
   std::vector<double> deviations;

@@ -1,6 +1,6 @@
 /// @file
-/// Which gyro samples of a whole span tell a rate, by both sides of each and by what all of them
-/// show of their noise and of the step of the telemetry. As they come: gyro_watch.h.
+/// Screens the gyro samples of a whole span: each sample is tested against both neighbours, with
+/// the noise and quantisation step of all. For samples one by one see gyro_watch.h.
 
 #pragma once
 
@@ -16,15 +16,14 @@ namespace spindrift {
 
 struct ScreenedGyro {
   std::vector<GyroSample> usable;
-  /// Of a row that repeats all but the first. In order of time.
+  /// Rejected samples in time order. Of a run of repeats, all but the first are rejected.
   std::vector<RejectedSample> left_out;
   bool first_is_outlier = false;
-  /// How many times the stated noise they scatter by about the lines through their neighbours, by
-  /// the median; empty where there are too few.
+  /// Median scatter about lines through neighbours over the stated noise; empty if too few samples.
   std::optional<double> noise;
 };
 
-/// @param samples In order of time, each once.
+/// @param samples In time order, without duplicates.
 ScreenedGyro screened(std::span<const GyroSample> samples, const GyroSensor& sensor);
 
 }  // namespace spindrift

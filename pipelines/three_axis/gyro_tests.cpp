@@ -12,10 +12,10 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kClipped = 0.999;  // Of the range.
+constexpr double kClipped = 0.999;  // Fraction of the range.
 
-/// By how much the rate would change from `from` to `t`, about each axis, as it does between two
-/// samples beside. Not below zero.
+/// Returns the absolute change of rate per axis from `from` to `t`, extrapolated from the change
+/// between the adjacent samples `a` and `b`.
 Vector3d change_rad_s(const GyroSample& a, const GyroSample& b, TaiTime from, TaiTime t) {
   const double share = elapsed_s(from, t) / elapsed_s(a.t, b.t);
   return (share * (b.rate_body_rad_s - a.rate_body_rad_s)).cwiseAbs();

@@ -10,16 +10,16 @@
 namespace spindrift {
 namespace {
 
-// Shorter turns between two fixes are lost in their noise.
-constexpr double kSignificant = 20.0;  // Standard deviations of a fix.
-// What may be left of a turn that agrees: the rate's changes between the samples, and the noise of
-// two fixes and the bias, whose three axes are beyond so many sigmas once in a thousand times.
+// A shorter turn between two fixes is not significant against their noise.
+constexpr double kSignificant = 20.0;  // In standard deviations of a fix.
+// Tolerances for agreement of a turn: a fraction of it for rate changes between the samples, and
+// the noise of two fixes and of the bias, which three axes exceed with a probability of 0.001.
 constexpr double kLeft = 0.05;
 constexpr double kSigmas = 4.0;
-// More than that of a turn is another turn, whatever the bias; else rates that are too small in
-// another unit would agree with every slow turn.
+// A larger misfit, as a fraction of the turn, is a disagreement whatever the bias. Otherwise rates
+// that another unit makes too small would agree with every slow turn.
 constexpr double kAnother = 0.5;
-// Longer turns are not followed: what the bias adds would count.
+// Longer turns are not integrated, because the bias would dominate.
 constexpr double kLongest_s = 60.0;
 constexpr double kLongestStep_s = 2.5;
 constexpr int kEnough = 3;
@@ -77,7 +77,7 @@ void GyroUnit::turn_to(TaiTime t, const Eigen::Vector3d& rate_rad_s) {
   }
 }
 
-/// @return That of rad/s, or another that alone agrees; empty: none does.
+/// @return The factor of rad/s if it agrees, else another that agrees; empty if none does.
 std::optional<double> GyroUnit::factor_that_agrees(const Eigen::Quaterniond& seen,
                                                    double sigma_rad) const {
   const double seen_rad = rotation_vector_of(seen).norm();

@@ -1,6 +1,5 @@
 /// @file
-/// Whether the gyro's rates are in another unit than rad/s: degrees taken for radians, or turned
-/// into radians twice.
+/// Detects gyro rates in a wrong unit: degrees sent as radians, or converted to radians twice.
 
 #pragma once
 
@@ -15,26 +14,26 @@
 
 namespace spindrift {
 
-/// Compares turns between star fixes with those that the rates make as they are, and with those
-/// that they would make in another unit: it is the one that alone agreed three times since
-/// another did.
-/// Lengths of turns do not tell: a body that turns once between two fixes has turned by nothing.
+/// Compares the turn between two star fixes with the turn integrated from the rates, taken as they
+/// are and as if they were in another unit. A unit is adopted once it alone has agreed three times
+/// since the current unit last did. Rotation angles alone would not tell, because a body that makes
+/// one full turn between two fixes appears unturned.
 class GyroUnit {
  public:
-  /// @param bias_sigma_rad_s Of each axis.
+  /// @param bias_sigma_rad_s Standard deviation of the bias of each axis.
   explicit GyroUnit(double bias_sigma_rad_s) : bias_sigma_rad_s_{bias_sigma_rad_s} {}
 
-  /// Every sample, whatever is made of it, in order of time with the fixes.
+  /// Adds a sample; rejected ones must be added too, all in time order with the fixes.
   void note(const GyroSample& sample);
   void note(TaiTime t, const ObservedAttitude& fix);
 
-  /// So many times too large the rates are; empty: nothing says so.
+  /// Returns the factor by which the rates are too large; empty if they agree with rad/s.
   std::optional<double> factor() const {
     return factor_ == kFactors.front() ? std::nullopt : std::optional{factor_};
   }
 
  private:
-  /// Of rates that are so many times too large; rad/s first.
+  /// Factors by which rates in each candidate unit are too large; rad/s first.
   static constexpr std::array<double, 3> kFactors = {1.0, kDegPerRad, kRadPerDeg};
 
   void turn_to(TaiTime t, const Eigen::Vector3d& rate_rad_s);
@@ -44,12 +43,13 @@ class GyroUnit {
 
   double bias_sigma_rad_s_;
   std::optional<GyroSample> last_;
-  TaiTime reached_{};  ///< By `turned_`.
+  TaiTime reached_{};  ///< Epoch to which `turned_` is integrated.
   TaiTime fixed_{};
-  std::optional<Eigen::Quaterniond> fix_;                        ///< There; empty: none yet.
-  std::array<Eigen::Quaterniond, kFactors.size()> turned_ = {};  ///< Since, by each factor.
+  std::optional<Eigen::Quaterniond> fix_;  ///< Star fix at `fixed_`; empty if there is none yet.
+  std::array<Eigen::Quaterniond, kFactors.size()> turned_ =
+      {};  ///< Turns since `fix_`, per factor.
   double factor_ = kFactors.front();
-  int in_a_row_ = 0;  ///< That agree with another factor.
+  int in_a_row_ = 0;  ///< Consecutive fixes that agree with another factor.
 };
 
 }  // namespace spindrift

@@ -11,8 +11,8 @@ namespace spindrift {
 namespace {
 
 constexpr double kRecentInterval = 0.1;
-constexpr double kGap = 1.5;  // Usual intervals.
-// Of the noise, of each axis of a sample: it comes to the median within some ten samples.
+constexpr double kGap = 1.5;  // In usual intervals.
+// Step of the noise estimate per axis and sample; the estimate settles within some ten samples.
 constexpr double kRecentNoise = 0.05;
 
 }  // namespace
@@ -63,7 +63,7 @@ void GyroWatch::note_interval(double interval_s) {
       ((is_gap(interval_s) ? kGap * usual_interval_s_ : interval_s) - usual_interval_s_);
 }
 
-/// Of the median: as many deviations are above as below it.
+/// Tracks the median of the deviations: at the median, as many are above as below.
 void GyroWatch::note_noise(const GyroSample& sample) {
   const OffLine line = off_line(sample, *last_, *before_last_);
   for (const double off : line.off_rad_s) {

@@ -1,6 +1,6 @@
 /// @file
-/// Which gyro samples are measurements, as they come, and how the rate changes between them. All of
-/// a span together: gyro_screening.h.
+/// Judges gyro samples as they arrive and tracks how the rate changes between them.
+/// gyro_screening.h judges all samples of a span together.
 
 #pragma once
 
@@ -20,31 +20,31 @@ class GyroWatch {
   explicit GyroWatch(const GyroSensor& sensor)
       : sensor_{sensor}, noise_rad_s_{sensor.noise_rad_s}, wander_{sensor.noise_rad_s} {}
 
-  /// Once for each sample.
-  /// @param sample Later than the one before.
-  /// @return Why it is no measurement whatever comes; empty: it may be one.
+  /// Tests a sample by itself; must be called once for each sample.
+  /// @param sample Later than the previous one.
+  /// @return Reason why the sample is invalid whatever follows it; empty if it may be valid.
   std::optional<RejectedSample> judge(const GyroSample& sample);
 
-  /// How far it is off the line through the two before it; empty: there are none. One that stands
-  /// out is suspect: the next one must tell what it is.
+  /// Returns how far a sample is off the line through the previous two; empty if there are fewer
+  /// than two. A sample that stands out is a suspect until the next one confirms or refutes it.
   std::optional<GyroDeviation> deviation_from_line(const GyroSample& sample) const;
-  /// How far such a one is off from its neighbours.
+  /// Returns how far a suspect is off its neighbours on both sides.
   GyroDeviation deviation_from_both(const GyroSample& suspect, const GyroSample& next) const;
 
-  /// It is a measurement.
+  /// Adopts the sample as a valid measurement.
   void accept(const GyroSample& sample);
 
-  /// The last measurement; empty: none yet.
+  /// Returns the last valid measurement; empty if there is none yet.
   const std::optional<GyroSample>& last() const { return last_; }
 
-  /// Why the samples behind it are none; empty: there are no samples.
+  /// Returns why the most recent samples are invalid; empty if the last one was valid or none came.
   std::optional<Rejection> out_because() const { return out_because_; }
-  /// The first of those.
+  /// Returns the time of the first of these invalid samples.
   TaiTime out_since() const { return out_since_; }
 
   double wander_rad2_s3() const { return wander_.rad2_s3(); }
 
-  /// Whether samples are missing in an interval between two.
+  /// Returns whether samples are missing in an interval between two consecutive ones.
   bool is_gap(double interval_s) const;
 
  private:
@@ -60,7 +60,7 @@ class GyroWatch {
   TaiTime out_since_{};
   double intervals_ = 0.0;
   double usual_interval_s_ = 0.0;
-  double noise_rad_s_;  ///< That of the samples, where it is more than stated.
+  double noise_rad_s_;  ///< Estimated noise, at least the stated one.
   RateWander wander_;
 };
 

@@ -1,5 +1,5 @@
 /// @file
-/// What the magnetometer of a three-axis spacecraft measures.
+/// The measurement of a three-axis spacecraft's magnetometer.
 
 #pragma once
 

@@ -14,14 +14,14 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-/// A measurement seen from an attitude: what it says of the turn from there.
+/// Holds a measurement linearised at an attitude as a turn relative to it.
 template <int kSize>
 struct Seen {
   Eigen::Matrix<double, kSize, 1> turn_rad;
-  Eigen::Matrix<double, kSize, 3> axes;  ///< Rows: about which it says it.
+  Eigen::Matrix<double, kSize, 3> axes;  ///< Rows: body axes of the measured turn.
 };
 
-/// Of the turn across the direction.
+/// Measures the turn about two axes across the direction.
 Seen<2> seen_from(const Eigen::Quaterniond& q_icrf_body, const ObservedDirection& direction) {
   const Vector3d expected = (q_icrf_body.conjugate() * direction.ref).normalized();
   const Eigen::Quaterniond to_expected = shortest_turn(direction.body, expected);
@@ -40,7 +40,7 @@ Seen<3> seen_from(const Eigen::Quaterniond& q_icrf_body, const ObservedAttitude&
 
 }  // namespace
 
-/// The second term of Magnus's expansion is what an axis that moves adds.
+/// The cross product is the second term of the Magnus expansion and accounts for a moving axis.
 Vector3d turned_rad(const RateSpan& span, const Vector3d& bias_rad_s) {
   const Vector3d from_rad_s = span.from_rad_s - bias_rad_s;
   const Vector3d to_rad_s = span.to_rad_s - bias_rad_s;
@@ -55,7 +55,7 @@ Mekf::Mekf(const UncertainAttitude& attitude, double bias_sigma_rad_s)
       bias_sigma_rad_s * bias_sigma_rad_s * Matrix3d::Identity();
 }
 
-/// The turn of the error: turn' = R^T turn - J dt more.
+/// The error propagates as turn' = R^T turn - J dt more.
 void Mekf::propagate(const RateSpan& span, const SpanErrors& errors) {
   const Vector3d vector_rad = turned_rad(span, bias_rad_s_);
   const Eigen::Quaterniond q = quaternion_by(vector_rad);
@@ -89,8 +89,8 @@ Mekf::Innovation Mekf::innovation_of(const Observed& observed) const {
   return innovation;
 }
 
-/// Gauss and Newton's iteration of prior and measurement; each pass is a Kalman update from the
-/// prior, linearised at the end of the one before.
+/// Runs a Gauss-Newton iteration on prior and measurement. Each pass is a Kalman update from the
+/// prior, linearised at the result of the previous pass.
 template <int kSize, class Observed>
 void Mekf::work_in(const Observed& observed) {
   using Update = LinearUpdate<6, kSize>;
@@ -109,7 +109,7 @@ void Mekf::work_in(const Observed& observed) {
       break;
     }
   }
-  // Into the quaternion, and to the axes that it has then.
+  // Moves the turn into the quaternion and refers the covariance to the new body axes.
   const Matrix3d moved = right_jacobian(error.head<3>());
   covariance_ = update->left_of(covariance_);
   covariance_.topRows<3>() = moved * covariance_.topRows<3>();

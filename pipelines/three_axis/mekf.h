@@ -2,13 +2,13 @@
 /// Multiplicative extended Kalman filter of attitude and gyro bias (Lefferts, Markley and Shuster
 /// 1982).
 ///
-/// The state is the quaternion q_icrf_body and the bias of the gyro; its error has six components,
+/// The state is the quaternion q_icrf_body and the gyro bias; its error has six components,
 ///
 ///     q_true = q * quaternion_by(turn),    bias_true = bias + more,
 ///
-/// the turn in body axes; after each update it is moved into the quaternion. A gyro sample is the
-/// rate, the bias and an error that is independent from sample to sample; between samples the rate
-/// changes evenly. The bias wanders slowly. Misalignments of sensors are no states.
+/// with the turn in body axes, which each update moves into the quaternion. A gyro sample is the
+/// sum of the rate, the bias and an error that is independent from sample to sample. The rate is
+/// linear between samples, the bias a slow random walk. Misalignments are not estimated.
 
 #pragma once
 
@@ -21,37 +21,37 @@
 
 namespace spindrift {
 
-/// From one instant to another: rates as the gyro measures them at both ends.
+/// Holds the measured rates at both ends of a time step.
 struct RateSpan {
   double dt_s;
   Eigen::Vector3d from_rad_s;
   Eigen::Vector3d to_rad_s;
 };
 
-/// The turn of a body whose rate changes evenly, to the third order of its angle.
+/// Returns the rotation vector of a body whose rate changes linearly, to third order of its angle.
 Eigen::Vector3d turned_rad(const RateSpan& span, const Eigen::Vector3d& bias_rad_s);
 
-/// Errors of a span, each of one axis.
+/// Holds the process noise of a time step, per axis.
 struct SpanErrors {
   double turn_rad2;     ///< Variance of the turn.
-  double bias_rad2_s2;  ///< By which that of the bias grows.
+  double bias_rad2_s2;  ///< Growth of the variance of the bias.
 };
 
-/// A direct measurement of the attitude, by a star tracker: the same error about every axis.
+/// Holds an attitude measured by a star tracker, with an isotropic error.
 struct ObservedAttitude {
-  Eigen::Quaterniond q_icrf_body;  ///< Of either sign.
+  Eigen::Quaterniond q_icrf_body;  ///< Attitude; the sign is arbitrary.
   double sigma_rad;                ///< One standard deviation about each axis.
 };
 
 class Mekf {
  public:
-  /// @param bias_sigma_rad_s One standard deviation of the bias of each axis about 0.
+  /// @param bias_sigma_rad_s Standard deviation of the bias of each axis; its prior mean is 0.
   Mekf(const UncertainAttitude& attitude, double bias_sigma_rad_s);
 
   void propagate(const RateSpan& span, const SpanErrors& errors);
 
-  /// How far a measurement is from where the filter has it, of two degrees of freedom (about two
-  /// axes across the direction) or three (about the body's axes); rad.
+  /// Holds the difference between a measurement and the filter's prediction, rad. It has two
+  /// components for a direction (about axes across it), three for an attitude (body).
   struct Innovation {
     Residual residual;
     double nis;
@@ -59,8 +59,8 @@ class Mekf {
   Innovation innovation(const ObservedDirection& direction) const;
   Innovation innovation(const ObservedAttitude& attitude) const;
 
-  /// Linearised where it ends, so that a large correction counts no knowledge of what the
-  /// direction does not measure.
+  /// Updates the state. The measurement is linearised at the updated state, so that a large
+  /// correction does not claim knowledge of a turn that the direction does not measure.
   void update(const ObservedDirection& direction);
   void update(const ObservedAttitude& attitude);
 
@@ -68,7 +68,7 @@ class Mekf {
 
   const Eigen::Quaterniond& q_icrf_body() const { return q_icrf_body_; }
   const Eigen::Vector3d& bias_rad_s() const { return bias_rad_s_; }
-  /// Of turn and bias.
+  /// Covariance of turn (rad) and bias (rad/s), in this order.
   const Covariance& covariance() const { return covariance_; }
   Eigen::Matrix3d attitude_covariance_rad2() const { return covariance_.topLeftCorner<3, 3>(); }
 

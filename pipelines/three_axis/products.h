@@ -1,5 +1,5 @@
 /// @file
-/// What the three-axis pipeline gives: values to be stored and published, in the order they arise.
+/// The results of the three-axis pipeline, to be stored and published in order of computation.
 
 #pragma once
 
@@ -19,7 +19,7 @@
 
 namespace spindrift {
 
-/// At one instant they are taken in in this order.
+/// Samples of one instant are processed in the order of this enumeration.
 enum class SampleKind { OrbitState, Gyro, Star, Sun, Magnetometer };
 inline constexpr std::size_t kSampleKinds = 5;
 constexpr std::size_t index_of(SampleKind kind) { return static_cast<std::size_t>(kind); }
@@ -27,14 +27,13 @@ std::string_view name_of(SampleKind kind);
 constexpr SampleSource source_of(SampleKind kind) {
   return static_cast<SampleSource>(index_of(SampleSource::OrbitState) + index_of(kind));
 }
-/// @param source Of a sample of a three-axis spacecraft.
+/// @param source A source that belongs to a three-axis spacecraft.
 constexpr SampleKind kind_of(SampleSource source) {
   return static_cast<SampleKind>(index_of(source) - index_of(SampleSource::OrbitState));
 }
 
-/// What failed a test, and what it was held against: of Innovation the normalised square, of
-/// Saturated and Outlier rad/s, of Frozen how many samples repeat, of Unit how many times too large
-/// the rates are.
+/// Holds the tested value and its limit. Innovation: normalised square. Saturated and Outlier:
+/// rad/s. Frozen: number of repeats. Unit: factor by which the rates are too large.
 struct FailedTest {
   double value;
   double limit;
@@ -44,32 +43,32 @@ struct RejectedSample {
   TaiTime t;
   SampleKind kind;
   Rejection rejected_by;
-  std::optional<FailedTest> failed = {};  ///< Empty: the test has no number.
+  std::optional<FailedTest> failed = {};  ///< Empty if the test has no number.
 };
 
-/// Of the gyro, which no estimator expects: its residual is what the test found.
+/// Converts a rejected gyro sample, which no estimator predicts; the residual is the tested value.
 Observation observation_of(const RejectedSample& gyro);
 
-/// The record of one sensor in a pass.
+/// Holds the counts of one sensor in a pass.
 struct SensorHealth {
   std::int64_t accepted = 0;
   std::int64_t rejected = 0;
-  std::int64_t rejected_in_a_row = 0;  ///< Up to now.
-  std::optional<TaiTime> last_seen;    ///< The youngest sample, accepted or not.
+  std::int64_t rejected_in_a_row = 0;  ///< Current run of rejections.
+  std::optional<TaiTime> last_seen;    ///< Time of the newest sample, accepted or not.
 };
-using SensorHealths = std::array<SensorHealth, kSampleKinds>;  ///< By kind.
+using SensorHealths = std::array<SensorHealth, kSampleKinds>;  ///< Indexed by SampleKind.
 
-/// What made an attitude: the filter, or a reconstruction of the separation.
+/// The estimator that made an attitude: the filter, or a reconstruction of the separation.
 enum class AttitudeSource { Mekf, Batch, Sequential };
 std::string_view name_of(AttitudeSource source);
 
-/// Of the samples that the filter accepted, what they differed from where it had them.
+/// Accumulates the normalised innovations of the samples that the filter accepted.
 struct Innovations {
-  double squared = 0.0;      ///< Normalised, their sum: a chi-square when all is well.
-  std::int64_t freedom = 0;  ///< Of so many degrees of freedom.
+  double squared = 0.0;      ///< Sum of NIS; chi-square distributed if the filter is consistent.
+  std::int64_t freedom = 0;  ///< Degrees of freedom of `squared`.
 };
 
-/// What the gyro says more than the body turns, body axes.
+/// Holds the gyro bias, measured minus true rate, body axes.
 struct GyroBias {
   Eigen::Vector3d rad_s;
   Eigen::Matrix3d covariance_rad2_s2;
@@ -78,17 +77,17 @@ struct GyroBias {
 struct AttitudeEstimate {
   TaiTime t;
   Eigen::Quaterniond q_icrf_body;
-  std::optional<Eigen::Vector3d> rate_body_rad_s;  ///< Less the bias; empty: no gyro at `t`.
-  Eigen::Matrix3d covariance_rad2;                 ///< Of a small turn, body axes.
+  std::optional<Eigen::Vector3d> rate_body_rad_s;  ///< Bias removed; empty without gyro at `t`.
+  Eigen::Matrix3d covariance_rad2;                 ///< Covariance of a small turn, body axes.
   Assessment assessment;
   AttitudeSource source = AttitudeSource::Mekf;
-  Innovations innovations = {};            ///< Since the estimate before.
-  std::optional<GyroBias> gyro_bias = {};  ///< At most once a second.
+  Innovations innovations = {};            ///< Innovations since the previous estimate.
+  std::optional<GyroBias> gyro_bias = {};  ///< Present at most once a second.
 
-  double sigma_rad() const;  ///< Root of the trace.
+  double sigma_rad() const;  ///< Root of the trace of the covariance.
 };
 
-/// What a sample said to the filter, or to a reconstruction.
+/// Holds the observation that a sample gave to the filter or to a reconstruction.
 struct SampleObservation {
   AttitudeSource estimator;
   Observation said;

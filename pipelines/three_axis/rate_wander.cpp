@@ -8,11 +8,11 @@
 namespace spindrift {
 namespace {
 
-// Over which the rate's changes are taken: a body's rate is smooth within it, and its changes from
-// sample to sample would not add up to those of a gap.
+// Interval over which changes of rate are taken. The rate is smooth within it, and changes from one
+// sample to the next would not add up to the change across a gap.
 constexpr double kApart_s = 1.0;
 constexpr double kMemory_s = 10.0;
-// When nobody looks, at least: 1 deg in a minute.
+// Floor of the density, 1 deg in a minute.
 constexpr double kLeast_rad2_s3 = 1.4e-5 * kRadPerDeg * kRadPerDeg;
 
 }  // namespace

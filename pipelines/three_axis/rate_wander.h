@@ -1,5 +1,5 @@
 /// @file
-/// By how much the rate of a body wanders where nobody measures it.
+/// Estimates how much the rate of a body changes while it is not measured.
 
 #pragma once
 
@@ -14,11 +14,11 @@ class RateWander {
  public:
   explicit RateWander(double noise_rad_s) : noise_rad_s_{noise_rad_s} {}
 
-  /// A measurement; times go one way, forwards or backwards.
+  /// Adds a measured rate. The times must be monotonic, either rising or falling.
   void note(TaiTime t, const Eigen::Vector3d& rate_rad_s);
 
-  /// Spectral density of the rate's change, of each axis, rad^2/s^3, as it changes from second to
-  /// second beyond the noise, of late; at least 1 deg in a minute.
+  /// Returns the spectral density of the change of rate per axis, rad^2/s^3. It follows recent
+  /// changes over one second, less the noise, with a floor equivalent to 1 deg in a minute.
   double rad2_s3() const;
 
  private:
@@ -28,7 +28,7 @@ class RateWander {
   };
   double noise_rad_s_;
   std::optional<Rate> a_second_ago_;
-  double rad2_s3_ = 0.0;  ///< Less the noise; may be below zero by chance.
+  double rad2_s3_ = 0.0;  ///< Density with the noise subtracted; may be negative by chance.
 };
 
 }  // namespace spindrift

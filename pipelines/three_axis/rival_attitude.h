@@ -1,6 +1,6 @@
 /// @file
-/// A second attitude beside the one in force, where star fixes contradict that: either the tracker
-/// is wrong or the attitude. Its own fixes cannot tell; Sun and field can.
+/// A second attitude, kept when star fixes contradict the one in force: either the star tracker or
+/// the attitude is wrong. Star fixes alone cannot decide which; Sun and magnetic field can.
 
 #pragma once
 
@@ -10,22 +10,21 @@
 namespace spindrift {
 
 struct RivalAttitude {
-  /// So many samples do not agree by accident.
+  /// Number of samples beyond which an agreement is not accidental.
   static constexpr int kEnough = 3;
 
   Mekf filter;
   TaiTime since;
-  /// It was in force before star fixes overruled it; else they fit this one.
+  /// True if star fixes overruled this attitude; false if they formed it.
   bool was_in_force = false;
-  /// Star fixes have spoken for it, be it earlier.
+  /// True if star fixes have ever supported this attitude.
   bool has_fixes = true;
-  /// That fit this one and not the one in force.
+  /// Number of star fixes that fit this attitude and not the one in force.
   int star_fixes = 0;
-  /// Samples of other sensors that fit the one in force and not this one, less those that do the
-  /// opposite.
+  /// Samples of other sensors that fit only the attitude in force, minus those that fit only this.
   int against = 0;
 
-  /// Whether it is more than an outlier.
+  /// Returns whether this attitude is more than an outlier.
   bool stands() const { return was_in_force || star_fixes >= kEnough; }
   bool is_refuted() const { return against >= kEnough; }
   bool is_proven() const { return against <= -kEnough; }

@@ -1,5 +1,5 @@
 /// @file
-/// Which sensor gives such samples.
+/// Maps each sample type to its SampleKind.
 
 #pragma once
 

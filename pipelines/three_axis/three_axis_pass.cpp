@@ -11,7 +11,7 @@
 namespace spindrift {
 namespace {
 
-// Fewer may be left out by chance, or for what passes.
+// Fewer rejections may be due to chance or to a passing cause.
 constexpr std::int64_t kFewestLeftOut = 50;
 constexpr double kMostLeftOut = 0.9;
 
@@ -58,7 +58,7 @@ ThreeAxisOutput ThreeAxisPass::take(const OrderedSample& sample) {
   return out;
 }
 
-/// What has been computed stays as it is, whatever comes behind it.
+/// Reports late samples that contradict a processed one; the result computed from that one stands.
 void ThreeAxisPass::compare(const OrderedSample& again, ThreeAxisOutput& out) {
   const auto known = window_.find(again);
   if (!known.released) {
@@ -71,7 +71,7 @@ void ThreeAxisPass::compare(const OrderedSample& again, ThreeAxisOutput& out) {
   }
 }
 
-/// @return what counts of all that was said in the place of `due`; empty: nothing.
+/// @return The sample that counts among all those contending with `due`; empty if none does.
 std::optional<OrderedSample> ThreeAxisPass::settled(const OrderedSample& due,
                                                     ThreeAxisOutput& out) {
   const std::vector<OrderedSample> said = contested_.take(due);
@@ -135,7 +135,7 @@ void ThreeAxisPass::compute(const std::vector<OrderedSample>& in_order, ThreeAxi
   }
 }
 
-/// The newest one counts: those before it are behind the samples that come.
+/// Replaces the orbit by the newest state.
 void ThreeAxisPass::compute(const TimedOrbitState& state, ThreeAxisOutput& out) {
   const auto orbit = KeplerOrbit::through(state.t, state.state);
   if (!orbit) {
@@ -226,7 +226,8 @@ bool ThreeAxisPass::has_sensor(SampleKind kind) const {
   return true;
 }
 
-/// Where the field was compared on both sides. To the Sun a step of the orbit is nothing.
+/// Doubts estimates after an orbit step if the field was compared on both sides of it. Such a step
+/// does not matter for the direction to the Sun.
 void ThreeAxisPass::doubt_where_orbit_steps(ThreeAxisOutput& out) {
   if (orbit_steps_.empty() || !first_field_) {
     return;
@@ -244,7 +245,7 @@ void ThreeAxisPass::doubt_where_orbit_steps(ThreeAxisOutput& out) {
   }
 }
 
-/// Of each kind that one test leaves out almost altogether: that is no matter of single samples.
+/// Gives a notice for each kind of which one test rejects nearly all samples.
 void ThreeAxisPass::say_what_is_left_out(ThreeAxisOutput& out) {
   for (const ThreeAxisProduct& product : out.products) {
     const auto* const sample = std::get_if<RejectedSample>(&product);

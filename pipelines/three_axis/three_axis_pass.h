@@ -1,14 +1,14 @@
 /// @file
-/// The pass of one three-axis spacecraft: samples in, products out. The one composition of the
-/// three-axis pipeline, run alike live, offline and in replay.
+/// Processes the pass of one three-axis spacecraft from samples to products. Live, offline and
+/// replay processing all use this one composition of the three-axis pipeline.
 ///
-///     sample -> order of time -> gyro, star fix ------------------> attitude
-///                             -> sun vector, beside the ephemeris ->
-///                             -> field, beside the main field ------>
-///                             -> orbit state, where the mission has no orbit
+///     sample -> time order -> gyro, star fix -------------------> attitude
+///                          -> sun vector, with the ephemeris --->
+///                          -> field, with the main-field model ->
+///                          -> orbit state, if the mission has no orbit
 ///
-/// One star tracker a spacecraft. Without an orbit the Sun is where the Earth's centre sees it, off
-/// by an arc minute in the geostationary ring, no shadow is known, and no field.
+/// A spacecraft has one star tracker. Without an orbit the Sun is taken as seen from the Earth's
+/// centre, an error of one arc minute in geostationary orbit, with unknown eclipses and no field.
 
 #pragma once
 
@@ -43,14 +43,14 @@
 namespace spindrift {
 
 struct ThreeAxisOutput {
-  std::vector<ThreeAxisProduct> products;  ///< In the order they arose.
-  std::vector<Notice> notices;             ///< What a person should know; each said once a pass.
+  std::vector<ThreeAxisProduct> products;  ///< Products in order of their computation.
+  std::vector<Notice> notices;             ///< Operator notices, each given once per pass.
 };
 
-/// Any sample in its place: those of one kind and instant are one (Contested says which counts).
+/// Holds a sample to be ordered. Those of one kind and instant are equal; Contested selects one.
 struct OrderedSample {
   TaiTime t;
-  /// As SampleKind.
+  /// Alternatives in the order of SampleKind.
   std::variant<TimedOrbitState, GyroSample, StarFix, SunDirection, MagneticField> is;
 
   SampleKind kind() const { return static_cast<SampleKind>(is.index()); }
@@ -62,40 +62,40 @@ struct OrderedSample {
 inline Sender sender_of(const OrderedSample& sample) {
   return std::visit([](const auto& is) { return is.sender; }, sample.is);
 }
-/// Of two of one kind.
+/// Precondition: both samples are of the same kind.
 inline bool say_the_same(const OrderedSample& a, const OrderedSample& b) {
   return std::visit(
       [&]<class Value>(const Value& is) { return say_the_same(is, std::get<Value>(b.is)); }, a.is);
 }
-/// A second, as for pulses.
+/// Returns one second for every sample, as for pulses.
 std::chrono::nanoseconds reorder_horizon(const OrderedSample& sample);
 inline std::size_t kind_in_order(const OrderedSample& sample) { return index_of(sample.kind()); }
 
 class ThreeAxisPass {
  public:
-  /// @param orbit Of the mission file; empty: states on the way say it.
-  /// @param field The Earth's; empty: a magnetometer tells nothing.
+  /// @param orbit Orbit of the mission file; if empty, received orbit states give it.
+  /// @param field Main-field model; if empty, magnetometer samples are rejected.
   ThreeAxisPass(const ThreeAxisConfig& config, std::optional<Orbit> orbit,
                 std::optional<MainFieldModel> field = std::nullopt);
 
-  // What is no number, no unit vector or quaternion within 0.001, or no field, does not come here.
+  // Precondition: values are valid, vectors and quaternions of unit length within 0.001.
   ThreeAxisOutput push(const GyroSample& sample) { return take({sample.t, sample}); }
   ThreeAxisOutput push(const StarFix& fix) { return take({fix.t, fix}); }
   ThreeAxisOutput push(const SunDirection& sun) { return take({sun.t, sun}); }
   ThreeAxisOutput push(const MagneticField& field) { return take({field.t, field}); }
   ThreeAxisOutput push(const TimedOrbitState& state) { return take({state.t, state}); }
 
-  /// An operator's word on telemetry from `t` on: on what is not computed yet.
+  /// Applies an operator's action to telemetry from `t` on that is not yet processed.
   void act(TaiTime t, const AttitudeAction& action);
 
-  /// Nothing comes for now: what is held back for the order of time is computed, and what comes
-  /// from before that later is late.
+  /// Processes the samples held back for time ordering. Call this when the stream falls silent;
+  /// samples that arrive later with earlier times are then late.
   ThreeAxisOutput fall_silent();
 
-  /// The pass has ended: settles all that is still held.
+  /// Ends the pass and processes everything that is still held back.
   ThreeAxisOutput finish();
 
-  /// Up to now.
+  /// Returns the counts of each sensor up to now.
   const SensorHealths& sensors() const { return estimator_.sensors(); }
 
  private:
@@ -120,7 +120,7 @@ class ThreeAxisPass {
   std::optional<Orbit> orbit_;
   bool orbit_is_of_mission_;
   std::vector<OrbitStep> orbit_steps_;
-  std::optional<TaiTime> first_field_;  ///< That was compared with the Earth's along the orbit.
+  std::optional<TaiTime> first_field_;  ///< First field sample compared with the model.
   std::optional<TaiTime> last_field_;
   ApparentSun sun_;
   std::optional<MainFieldModel> field_;

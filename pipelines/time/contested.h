@@ -1,5 +1,5 @@
 /// @file
-/// Samples of one kind and instant that say different things, and which of them counts.
+/// Decides which of several contradicting samples of one kind and instant counts.
 
 #pragma once
 
@@ -16,8 +16,8 @@
 
 namespace spindrift {
 
-/// @param said All of one kind and instant, in the order in which they came. @return whether two of
-/// them say different things (say_the_same).
+/// Returns whether two of the samples contradict each other (say_the_same).
+/// @param said All samples of one kind and instant, in order of arrival.
 template <class Sample>
 bool is_contested(const std::vector<Sample>& said) {
   for (auto one = said.begin(); one != said.end(); ++one) {
@@ -29,9 +29,9 @@ bool is_contested(const std::vector<Sample>& said) {
   return false;
 }
 
-/// The first, if they say the same; otherwise the first that says what the preferred sender does.
-/// The order in which different ones came does not tell.
-/// @return empty: none counts.
+/// Returns the first sample if all agree, else the first that agrees with the preferred sender. The
+/// order of arrival does not decide between contradicting samples.
+/// @return Empty if none counts.
 template <class Sample>
 std::optional<Sample> one_that_counts(const std::vector<Sample>& said) {
   if (!is_contested(said)) {
@@ -47,8 +47,8 @@ std::optional<Sample> one_that_counts(const std::vector<Sample>& said) {
                        [&](const Sample& one) { return say_the_same(one, preferred.front()); });
 }
 
-/// `sample` beside those of its instant, unless its sender has said so before or too many have
-/// spoken, of whom the preferred one must be heard.
+/// Adds a sample to those of its instant, unless its sender has sent the same before or too many
+/// are held; a larger limit ensures that the preferred sender is heard.
 template <class Sample>
 void add_to(std::vector<Sample>& said, const Sample& sample) {
   const std::size_t most = sender_of(sample) == Sender::Preferred ? 32 : 16;
@@ -60,25 +60,25 @@ void add_to(std::vector<Sample>& said, const Sample& sample) {
   }
 }
 
-/// Of what waits for the order of time: what came again with another value. Nothing is decided
-/// before the turn of the sample has come.
-/// @tparam Sample As of BasicReorderWindow, with sender_of and say_the_same.
+/// Collects contradicting samples that wait in the reorder window. Nothing is decided before the
+/// sample is due.
+/// @tparam Sample As for BasicReorderWindow, with sender_of and say_the_same.
 template <class Sample>
 class Contested {
  public:
-  /// `again` is of the kind and instant of `held`.
+  /// Precondition: `again` has the kind and instant of `held`.
   void note(const Sample& held, const Sample& again) {
     const auto known = said_.find(held);
     if (known != said_.end()) {
       add_to(known->second, again);
     } else if (!say_the_same(held, again) ||
-               // It may be contradicted yet.
+               // Others may contradict it later.
                (sender_of(again) == Sender::Preferred && sender_of(held) != Sender::Preferred)) {
       said_.emplace(held, std::vector<Sample>{held, again});
     }
   }
 
-  /// All that was said in the place of `due`, whose turn has come, itself first.
+  /// Returns all samples contending with `due`, which is due now; `due` itself comes first.
   std::vector<Sample> take(const Sample& due) {
     const auto known = said_.empty() ? said_.end() : said_.find(due);
     if (known == said_.end()) {
@@ -93,8 +93,8 @@ class Contested {
   std::map<Sample, std::vector<Sample>> said_;
 };
 
-/// Of samples of one kind, in order of time, those that count.
-/// @param see `see(said, used)` is called with what is contested.
+/// Returns the samples that count among samples of one kind in time order.
+/// @param see Called as `see(said, used)` for each contested instant.
 template <class Sample, class See>
 std::vector<Sample> those_that_count(const std::vector<Sample>& samples, const See& see) {
   std::vector<Sample> counting;
@@ -115,13 +115,13 @@ std::vector<Sample> those_that_count(const std::vector<Sample>& samples, const S
   return counting;
 }
 
-/// What came first counts.
+/// Returns the senders of a late contradiction; the first sample counts.
 template <class Sample>
 std::vector<SampleContradiction::By> late_senders(const Sample& first, const Sample& late) {
   return {{.sender = sender_of(first), .used = true}, {.sender = sender_of(late), .used = false}};
 }
 
-/// Of what was said of one instant. @param used What counts of it; empty: none.
+/// Returns the senders of one instant. @param used The sample that counts; empty if none does.
 template <class Sample>
 std::vector<SampleContradiction::By> senders_of(const std::vector<Sample>& said,
                                                 const std::optional<Sample>& used) {

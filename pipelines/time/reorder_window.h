@@ -1,5 +1,5 @@
 /// @file
-/// Telemetry time orders the samples, whatever order they arrive in.
+/// Puts samples in telemetry time order, whatever their order of arrival.
 
 #pragma once
 
@@ -21,62 +21,61 @@
 
 namespace spindrift {
 
-/// Holds samples until nothing earlier is to be expected: until one arrives that is the sample's
-/// horizon of telemetry time younger.
+/// Holds each sample until no earlier one is expected, that is until a sample arrives that is later
+/// by the reorder horizon.
 ///
-/// Samples far ahead of the others do not advance time, however many, since a sender with a bad
-/// clock would make all true ones late. They are stray when time goes on without them for as long
-/// as they are waited for; when the stream goes on from them instead, the pass continues after a
-/// silence (TimeJump). Likewise a few samples far before all others are left out.
+/// Samples far ahead of the others do not advance time, however many, because a sender with a bad
+/// clock would make all true samples late. They are stray if time goes on without them for their
+/// reorder horizon. If the stream goes on from them instead, the pass continues after a silence
+/// (TimeJump). A few samples far before all others are left out as well.
 /// @tparam Sample Totally ordered, first by its time `t`; equal ones are duplicates.
-///         `reorder_horizon(sample)` says how long is waited for what precedes it, and
-///         `kind_in_order(sample)`, below 64, which of the kinds it is that may have clocks of
-///         their own.
+///         `reorder_horizon(sample)` gives the time to wait for earlier samples.
+///         `kind_in_order(sample)`, below 64, gives the kind; each kind may have its own clock.
 template <class Sample>
 class BasicReorderWindow {
  public:
-  /// Further than this ahead of all that came before is far.
+  /// Distance from all earlier samples above which a sample is far ahead.
   static constexpr std::chrono::nanoseconds kFarAhead = TimeJump::kFar;
-  /// Fewer are no stream by themselves.
+  /// Fewer samples do not form a stream.
   static constexpr std::size_t kEnoughToAccept = TimeJump::kFewest;
-  /// How long a released sample is known again: longer than any waits to be settled.
+  /// Time for which a released sample can be recognised as a duplicate; no sample waits longer.
   static constexpr std::chrono::nanoseconds kRemembered{std::chrono::minutes{10}};
 
-  /// No more than this are kept waiting to be accepted, and as many that are stray: what a jump of
-  /// time takes to be believed, at 3 kHz.
+  /// Largest number of samples held as far ahead, and as stray: those of a time jump until it is
+  /// accepted, at 3 kHz.
   static constexpr std::size_t kMostFarAhead = 65'536;
 
   enum class Verdict { Held, Duplicate, Late, OutOfTime };
 
-  /// Takes a sample in. Duplicate: it is held, or was released within kRemembered. Late: what comes
-  /// after it has been released already. OutOfTime: far ahead, as too many before it.
+  /// Adds a sample. Duplicate: it is held, or was released within kRemembered. Late: later samples
+  /// have been released. OutOfTime: it is far ahead, and too many others are too.
   Verdict add(const Sample& sample);
 
-  /// The one that `sample` is a duplicate of, and whether it was released; null: none is known.
+  /// The sample that another duplicates, and whether it was released; null if there is none.
   struct Known {
     const Sample* sample;
     bool released;
   };
   Known find(const Sample& sample) const;
 
-  /// Samples whose turn has come, in order.
+  /// Returns the samples that are due, in time order.
   std::vector<Sample> release();
 
-  /// The stream has fallen silent: all that are held in time, as if younger samples had come. Those
-  /// far ahead stay set aside. While nothing is accepted yet and too few are in time, none: nobody
-  /// can tell whose clock is right.
+  /// Releases all held samples that are in time, because the stream has fallen silent. Those far
+  /// ahead stay. Before any time is accepted, too few samples release nothing, because it is
+  /// unknown which clock is right.
   std::vector<Sample> fall_silent();
 
   struct Rest {
-    std::vector<Sample> in_time;      ///< In order.
+    std::vector<Sample> in_time;      ///< In time order.
     std::vector<Sample> out_of_time;  ///< Far ahead or far before, and too few to be accepted.
   };
-  /// All that are held: the pass has ended.
+  /// Ends the pass and returns all samples that are held.
   Rest release_all();
 
  private:
   bool is_far_ahead(const Sample& sample) const;
-  /// No time has been accepted that there were anything to say for.
+  /// Returns whether no time has been accepted yet.
   bool is_beginning() const { return released_.empty() && held_.size() < kEnoughToAccept; }
   bool is_first() const { return released_.empty() && held_.empty(); }
   TaiTime newest() const { return held_.empty() ? released_.back().t : held_.rbegin()->t; }
@@ -88,16 +87,15 @@ class BasicReorderWindow {
   void remember(const Sample& sample);
 
   std::set<Sample> held_;
-  std::map<Sample, TaiTime> far_ahead_;  ///< And how far time had come when each arrived.
-  std::set<Sample> stray_;               ///< Far ahead, and time has gone on without them.
+  std::map<Sample, TaiTime> far_ahead_;  ///< Each with the newest time at its arrival.
+  std::set<Sample> stray_;               ///< Samples far ahead that time went on without.
   TimeJump jump_;
-  std::vector<Sample> early_;    ///< Too few, and far before the first accepted ones.
-  std::vector<Sample> due_;      ///< Before a jump that was accepted.
-  std::deque<Sample> released_;  ///< In order; those remembered, at least the last one.
+  std::vector<Sample> early_;    ///< Too few samples, far before the first accepted ones.
+  std::vector<Sample> due_;      ///< Samples from before an accepted jump.
+  std::deque<Sample> released_;  ///< In time order; the remembered ones, at least the last one.
 };
 
-/// A duplicate changes nothing, since it is not among the samples that a restarted service reads
-/// back.
+/// Duplicates change no state, because a restarted service does not read them back.
 template <class Sample>
 typename BasicReorderWindow<Sample>::Verdict BasicReorderWindow<Sample>::add(const Sample& sample) {
   if (!released_.empty() && sample <= released_.back()) {
@@ -147,7 +145,7 @@ bool BasicReorderWindow<Sample>::is_far_ahead(const Sample& sample) const {
   return !is_first() && span_between(newest(), sample.t) > kFarAhead;
 }
 
-/// Those that came so long ago that nothing is waited for any more which would precede them.
+/// Moves samples far ahead to the stray ones when their reorder horizon has passed without a jump.
 template <class Sample>
 void BasicReorderWindow<Sample>::leave_stray_behind() {
   for (auto far = far_ahead_.begin(); far != far_ahead_.end();) {
@@ -161,7 +159,7 @@ void BasicReorderWindow<Sample>::leave_stray_behind() {
   }
 }
 
-/// Time has jumped: what was held before is due, or was never accepted itself.
+/// Accepts a jump: held samples become due, or are set aside as early if they were never accepted.
 template <class Sample>
 void BasicReorderWindow<Sample>::accept_jump() {
   if (is_beginning()) {
@@ -178,8 +176,8 @@ void BasicReorderWindow<Sample>::accept_jump() {
   jump_.accept();
 }
 
-/// Nothing is accepted yet, and the first few are far before enough others to be.
-/// @return Whether any were set aside.
+/// Sets aside the first few samples if nothing is accepted yet and enough others follow far behind.
+/// @return True if any were set aside.
 template <class Sample>
 bool BasicReorderWindow<Sample>::set_aside_early() {
   if (!released_.empty() || held_.size() <= kEnoughToAccept) {
@@ -208,7 +206,7 @@ std::vector<Sample> BasicReorderWindow<Sample>::release() {
     Sample due_by{};
     due_by.t = later_by(first.t, reorder_horizon(first));
     const auto younger = held_.lower_bound(due_by);
-    // A sample of a bad clock that was there first does not count either.
+    // An initial sample with a bad clock does not release others either.
     if (younger == held_.end() || span_between(first.t, younger->t) > kFarAhead) {
       if (set_aside_early()) {
         continue;
@@ -238,7 +236,7 @@ std::vector<Sample> BasicReorderWindow<Sample>::fall_silent() {
   return due;
 }
 
-/// @return The first of those that are far ahead of all before and no stream by themselves.
+/// @return First sample that is far ahead of its predecessors and too few to form a stream.
 template <class Sample>
 typename std::set<Sample>::const_iterator BasicReorderWindow<Sample>::end_in_time() const {
   std::size_t left = held_.size();
@@ -255,7 +253,7 @@ typename std::set<Sample>::const_iterator BasicReorderWindow<Sample>::end_in_tim
   return held_.end();
 }
 
-/// @return The kinds of those that are held from there on, as bits.
+/// @return Kinds of the held samples from `first` on, as bits.
 template <class Sample>
 std::uint64_t BasicReorderWindow<Sample>::kinds_from(
     typename std::set<Sample>::const_iterator first) const {

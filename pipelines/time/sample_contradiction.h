@@ -1,5 +1,5 @@
 /// @file
-/// That a sample came with more than one value.
+/// Reports that a sample came with more than one value.
 
 #pragma once
 
@@ -12,18 +12,18 @@
 
 namespace spindrift {
 
-/// Of one kind and instant.
+/// Holds the senders of contradicting samples of one kind and instant.
 struct SampleContradiction {
   struct By {
     Sender sender;
-    bool used;              ///< It is its value that counts.
-    std::string name = {};  ///< Whoever knows it fills it in.
+    bool used;              ///< True if its value counts.
+    std::string name = {};  ///< Filled in by the layer that knows it.
   };
 
   TaiTime t = {};
   std::string_view kind = {};
   std::vector<By> by = {};  ///< Each sender once.
-  /// What came first had been computed, and stays used; `by` has that sender and the late one.
+  /// True if the first value was processed and stays; `by` then has its sender and the late one.
   bool late = false;
 };
 

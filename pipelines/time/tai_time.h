@@ -1,5 +1,5 @@
 /// @file
-/// Instants. Everything in spindrift is stamped in TAI, integer nanoseconds; UTC is text.
+/// Instants. All times in spindrift are TAI in integer nanoseconds; UTC occurs only as text.
 
 #pragma once
 
@@ -8,10 +8,10 @@
 
 namespace spindrift {
 
-/// International Atomic Time since 1970-01-01T00:00:00 TAI.
+/// Measures International Atomic Time since 1970-01-01T00:00:00 TAI.
 ///
-/// A clock without `now()`: a pipeline can compare and subtract instants but cannot read the wall
-/// clock. (libstdc++ 12 has no `std::chrono::tai_clock`, whose epoch is 1958 besides.)
+/// It has no `now()`, so that pipelines can compare instants but not read the wall clock.
+/// (libstdc++ 12 lacks `std::chrono::tai_clock`, whose epoch is 1958.)
 struct TaiClock {
   using duration = std::chrono::nanoseconds;
   using rep = duration::rep;
@@ -28,13 +28,13 @@ constexpr TaiTime tai_from_ns(std::int64_t t_tai_ns) {
 }
 constexpr std::int64_t tai_ns(TaiTime t) { return t.time_since_epoch().count(); }
 
-/// `later - earlier` in seconds. Exact subtraction first: a double cannot hold the epoch's
-/// nanoseconds, but it holds any pass's.
+/// Returns `later - earlier` in seconds. The integers are subtracted first, because a double cannot
+/// hold nanoseconds since the epoch, only those of a pass.
 constexpr double seconds_between(TaiTime earlier, TaiTime later) {
   return static_cast<double>((later - earlier).count()) * 1e-9;
 }
 
-/// `t` moved by `offset_s` seconds, to the nearest nanosecond.
+/// Returns `t` moved by `offset_s` seconds, to the nearest nanosecond.
 constexpr TaiTime shifted(TaiTime t, double offset_s) {
   const double offset_ns = offset_s * 1e9;
   return t + std::chrono::nanoseconds{

@@ -1,5 +1,5 @@
 /// @file
-/// Whether the time of a stream has jumped ahead, or some of its stamps are stray.
+/// Decides whether the time of a stream has jumped ahead or some time stamps are stray.
 
 #pragma once
 
@@ -14,30 +14,29 @@
 
 namespace spindrift {
 
-/// Looks at samples in the order of their arrival. How many are ahead says nothing, since a sender
-/// with a bad clock stamps as many as it likes. Time has jumped when the stream goes on from there:
-/// nothing carries the time before it on any more, and samples that follow one another do so
-/// for kGoesOn. One kind alone moves no time where there are several, since the clock that stamps
-/// it may be wrong.
+/// Examines samples in order of arrival. The number of samples ahead proves nothing, because a
+/// sender with a bad clock can send any number. Time has jumped if no sample continues the former
+/// time any more and samples from ahead follow one another for kGoesOn. If there are several kinds,
+/// one kind alone cannot move the time, because its clock may be wrong.
 class TimeJump {
  public:
-  /// Further apart two samples do not follow one another.
+  /// Largest distance of two samples that follow one another.
   static constexpr std::chrono::nanoseconds kFar{std::chrono::minutes{1}};
-  /// A clock that is wrong for less than this of its own time moves nothing.
+  /// Span of its own time for which a wrong clock moves nothing.
   static constexpr std::chrono::nanoseconds kGoesOn{std::chrono::seconds{20}};
-  /// Fewer samples show nothing at all.
+  /// Fewer samples prove nothing.
   static constexpr std::size_t kFewest = 8;
 
-  /// A sample that carries time on: what came from ahead so far has not moved it.
+  /// Adds a sample that continues the former time, which invalidates all samples ahead so far.
   /// @param kind Below 64.
   void hear(std::size_t kind) {
     note(kind);
     ahead_ = {};
   }
-  /// One that says nothing of that.
+  /// Registers a kind without continuing the former time.
   void note(std::size_t kind) { heard_ |= bit_of(kind); }
 
-  /// A sample from ahead.
+  /// Adds a sample from ahead.
   void see(TaiTime t, std::size_t kind) {
     if (!holds(t)) {
       ahead_ = {.first = t, .last = t};
@@ -48,7 +47,7 @@ class TimeJump {
     ++ahead_.samples;
   }
 
-  /// Whether `t` follows, or is followed by, those from ahead that came in a row.
+  /// Returns whether `t` is near the run of samples from ahead.
   bool holds(TaiTime t) const {
     return ahead_.samples > 0 && span_between(ahead_.last, t) <= kFar &&
            span_between(t, ahead_.first) <= kFar;
@@ -57,15 +56,15 @@ class TimeJump {
   bool has_shown() const {
     return could_be() && span_between(ahead_.first, ahead_.last) >= kGoesOn;
   }
-  /// Where nothing comes any more that could speak against it.
+  /// Returns whether a jump is possible; sufficient once no further samples can contradict it.
   bool could_be() const { return is_enough(ahead_.samples, ahead_.kinds); }
 
-  /// Whether so many samples of these kinds, as bits, can be a stream by themselves.
+  /// Returns whether samples of these kinds (bits) can form a stream by themselves.
   bool is_enough(std::size_t samples, std::uint64_t kinds) const {
     return samples >= kFewest && !(std::has_single_bit(kinds) && (heard_ & ~kinds) != 0);
   }
 
-  /// The jump is accepted: those ahead are in time.
+  /// Accepts the jump: samples from ahead now continue the time.
   void accept() {
     heard_ |= ahead_.kinds;
     ahead_ = {};
@@ -81,8 +80,8 @@ class TimeJump {
     std::uint64_t kinds = 0;
   };
 
-  std::uint64_t heard_ = 0;  ///< Kinds of samples in time.
-  Ahead ahead_;              ///< That follow one another, with none in time between them.
+  std::uint64_t heard_ = 0;  ///< Kinds of samples in time, as bits.
+  Ahead ahead_;              ///< Run of samples ahead, with none in time between them.
 };
 
 }  // namespace spindrift

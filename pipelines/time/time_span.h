@@ -1,6 +1,6 @@
 /// @file
-/// Differences of instants that may lie anywhere in the range of TaiTime: telemetry can claim any
-/// time, and the difference of two claims can be more than 64 bits hold.
+/// Differences of arbitrary instants. Telemetry can claim any time, and the difference of two
+/// claims may exceed 64 bits.
 
 #pragma once
 
@@ -13,7 +13,7 @@
 
 namespace spindrift {
 
-/// `to - from`, or the longest span there is.
+/// Returns `to - from`, saturated at the longest span.
 constexpr std::chrono::nanoseconds span_between(TaiTime from, TaiTime to) {
   using Limits = std::numeric_limits<std::int64_t>;
   std::int64_t span_ns = 0;
@@ -27,7 +27,7 @@ constexpr double elapsed_s(TaiTime from, TaiTime to) {
   return static_cast<double>(span_between(from, to).count()) * 1e-9;
 }
 
-/// `t + span`, or the last (first) instant there is.
+/// Returns `t + span`, saturated at the first or last instant.
 constexpr TaiTime later_by(TaiTime t, std::chrono::nanoseconds span) {
   using Limits = std::numeric_limits<std::int64_t>;
   std::int64_t sum_ns = 0;
@@ -38,7 +38,7 @@ constexpr TaiTime later_by(TaiTime t, std::chrono::nanoseconds span) {
 }
 
 constexpr TaiTime later_by_s(TaiTime t, double span_s) {
-  constexpr double kMost_s = 9.2e9;  // What 64 bits hold, about.
+  constexpr double kMost_s = 9.2e9;  // About the range of 64-bit nanoseconds.
   const TaiTime zero = tai_from_ns(0);
   return later_by(t, shifted(zero, std::clamp(span_s, -kMost_s, kMost_s)) - zero);
 }

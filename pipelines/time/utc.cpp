@@ -21,7 +21,7 @@ using std::chrono::sys_days;
 using std::chrono::year;
 
 constexpr sys_days kUtcStart{year{1972} / 1 / 1};
-// 64-bit nanoseconds hold the difference of any two instants that are 292 years apart at most.
+// 64-bit nanoseconds hold the difference of any two instants up to 292 years apart.
 constexpr sys_days kFirstDay{year{1900} / 1 / 1};
 constexpr sys_days kLastDay{year{2189} / 12 / 31};
 constexpr std::string_view kCalendarMask = "dddd-dd-ddTdd:dd:dd";
@@ -29,7 +29,7 @@ constexpr std::string_view kOrdinalMask = "dddd-dddTdd:dd:dd";
 constexpr std::size_t kClockDigits = std::string_view{"dd:dd:dd"}.size();
 constexpr std::size_t kNanosecondDigits = 9;
 
-/// A day of the calendar and the time since it began; 86 400 s or more within a leap second.
+/// Holds a calendar day and the time since its start; 86 400 s or more within a leap second.
 struct CivilTime {
   sys_days day;
   seconds whole;
@@ -48,14 +48,14 @@ bool starts_with_mask(std::string_view text, std::string_view mask) {
                     [](char m, char c) { return m == 'd' ? is_digit(c) : m == c; });
 }
 
-/// The number at [begin, begin + count), which the mask has shown to be digits.
+/// Returns the number at [begin, begin + count), which the mask has verified to be digits.
 int number_at(std::string_view text, std::size_t begin, std::size_t count) {
   int number = 0;
   std::from_chars(text.data() + begin, text.data() + begin + count, number);
   return number;
 }
 
-/// `tail` is what follows the whole seconds: nothing, or a point and digits; then perhaps Z.
+/// Parses the text after the whole seconds: optionally a point with digits, then optionally Z.
 std::optional<nanoseconds> fraction_of(std::string_view tail) {
   if (tail.ends_with('Z')) {
     tail.remove_suffix(1);
@@ -171,7 +171,7 @@ std::string civil_text(const CivilTime& time, int decimals) {
   return text;
 }
 
-/// `since_epoch` counted in a scale whose days all have 86 400 s.
+/// Converts a time in a scale whose days all have 86 400 s.
 CivilTime civil_of(nanoseconds since_epoch) {
   const auto day = std::chrono::floor<days>(since_epoch);
   const auto whole = std::chrono::floor<seconds>(since_epoch);

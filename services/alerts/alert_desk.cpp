@@ -16,7 +16,7 @@
 namespace spindrift {
 namespace {
 
-/// Of a product that the conditions know; of any other none.
+/// Returns the changes by a product; none for a type that the conditions do not use.
 template <class Conditions>
 ConditionChanges changes_by_product(Conditions& conditions, const Product& product) {
   return std::visit(
@@ -32,7 +32,7 @@ ConditionChanges changes_by_product(Conditions& conditions, const Product& produ
       product);
 }
 
-/// By results, which come in order.
+/// Advances the conditions by the times of results, which come in order.
 ConditionChanges contradictions_by(ContradictionConditions& conditions, const Product& product) {
   if (const auto* const contradiction = std::get_if<SampleContradiction>(&product)) {
     return conditions.see(*contradiction);
@@ -41,7 +41,7 @@ ConditionChanges contradictions_by(ContradictionConditions& conditions, const Pr
     return conditions.see(attitude->t);
   }
   const auto* const axis = std::get_if<SpinEstimate>(&product);
-  // A solution of `batch` comes when it is made.
+  // Solutions of `batch` are excluded, since they come at any time.
   return axis != nullptr && axis->estimator != SpinEstimator::Batch ? conditions.see(axis->t)
                                                                     : ConditionChanges{};
 }
@@ -108,7 +108,7 @@ AlertDesk::Conditions AlertDesk::conditions_of(const Mission& mission) {
   return AttitudeConditions{mission.alerts, mission.orbit};
 }
 
-/// A run.
+/// Resets the conditions for a new run.
 void AlertDesk::begin(Supervised& supervised) {
   supervised.conditions = conditions_of(supervised.mission);
   supervised.contradictions = ContradictionConditions{supervised.mission.alerts};
@@ -117,7 +117,7 @@ void AlertDesk::begin(Supervised& supervised) {
   }
 }
 
-/// Samples that are left out have a negative arrival, and tell nothing of when it is.
+/// A negative arrival marks samples that are left out, whose times must not advance the conditions.
 /// @param samples TelemetrySamples or TelemetryValues.
 template <class Samples>
 ConditionChanges AlertDesk::changes_by(const Samples& samples, Supervised& supervised) {
@@ -129,7 +129,7 @@ ConditionChanges AlertDesk::changes_by(const Samples& samples, Supervised& super
     }
     using Value = std::remove_cvref_t<decltype(sample.value)>;
     if constexpr (requires { kind_of(sample.value); }) {
-      // Nothing is computed from a kind without a sensor, nor missed where it stays away.
+      // A kind without a sensor is not used, so it is not missed either.
       constexpr std::string_view kSensor = Telemetry<Value>::kSensor;
       if (attitude != nullptr && supervised.mission.tables.contains(std::string{kSensor})) {
         append(attitude->see(kind_of(sample.value), sample.value.t), all);
@@ -246,7 +246,7 @@ std::vector<ArchiveBatch> AlertDesk::see(const std::map<std::string, ServiceStat
   return batches;
 }
 
-/// Nobody computes these again, and a clock that is set back must not hide them.
+/// These alerts cannot be recomputed, so they must not be lost when the clock is set back.
 std::vector<Alert> AlertDesk::changed_by(const ServiceState& state, Desk& desk) {
   Supervised& supervised = *desk.supervised;
   std::vector<Alert> alerts;

@@ -1,5 +1,5 @@
 /// @file
-/// Supervises what a program computes: alerts go to the archive with the products they rest on.
+/// Derives alerts from computed products, to be archived with the products they rest on.
 
 #pragma once
 
@@ -29,58 +29,58 @@ struct OpenAlert {
   Alert alert;
 };
 
-/// Used by any thread.
+/// Safe to use from any thread.
 class AlertDesk {
  public:
-  /// @param mode Of the runs it sees: those of other programs through the same archive it does not.
-  /// @param models Of the spacecraft that are held against one.
+  /// @param mode Mode of its runs; it does not see runs of other programs through the archive.
+  /// @param models Ground models of the spacecraft that are compared with one.
   AlertDesk(const std::vector<Mission>& missions, RunMode mode, const GroundModels& models = {});
-  /// Supervises nothing: alerts that are taken up may be changed.
+  /// Supervises nothing: only alerts that are taken up can be changed.
   AlertDesk() = default;
 
-  /// Of the runs it sees.
+  /// Returns the mode of the supervised runs.
   RunMode mode() const { return mode_; }
 
-  /// An alert of before, as the archive has it, in the order in which they were raised.
+  /// Takes up an earlier alert from the archive; call it in the order of raising.
   void take_up(const std::string& spacecraft, const std::string& run_id, const Alert& alert);
 
-  /// The last run of a spacecraft, until the next begins: alerts of the service stand with it.
+  /// Sets the last run of a spacecraft, which gets the service's alerts until the next run begins.
   void take_up_run(const std::string& spacecraft, const std::string& run_id);
 
-  /// Of the samples and products of `batch` the alerts that they raise and clear, in the order of
-  /// computing. They are added to it or, since products would hold samples back, to the next batch
-  /// without samples; as what was taken back is.
+  /// Computes the alerts that the samples and products of `batch` raise and clear, in the order of
+  /// computing. They are added to `batch`, along with alerts taken back, or if it has samples to
+  /// the next batch without any, since products would hold samples back.
   void see(ArchiveBatch& batch);
 
-  /// Adds to `batch`, of the run that it sees, the alerts that these changes raise and clear.
+  /// Adds to `batch`, if of the supervised run, the alerts that the changes raise and clear.
   void tell(const ConditionChanges& changes, ArchiveBatch& batch);
 
-  /// Samples of before a restart, which do not come again. After the batch that says that the run
-  /// goes on.
+  /// Processes samples from before a restart, which do not come again. Call it after the batch that
+  /// continues the run.
   void go_on(const std::string& spacecraft, const std::string& run_id,
              const TelemetryValues& samples);
 
-  /// What was added to a batch, or given for one, that is not stored now: of the next one again.
+  /// Keeps the alerts of a batch that was not stored for the next batch.
   void take_back(const ArchiveBatch& batch);
-  /// Runs that have begun: nothing is given for a run that is not stored.
+  /// Notes the stored runs, since no alerts are returned for a run that is not stored.
   void note_stored(std::span<const ArchiveBatch> batches);
 
-  /// Alerts that the service itself raises and clears, and those whose shelving is over.
-  /// @param states Of the spacecraft of which telemetry has come. @param now Wall clock.
-  /// @return what is to be stored.
+  /// Computes alerts of the service itself, and those whose shelving is over.
+  /// @param states By spacecraft, of those with telemetry. @param now Wall clock.
+  /// @return The batches to store.
   std::vector<ArchiveBatch> see(const std::map<std::string, ServiceState>& states, TaiTime now);
 
-  /// The run of a spacecraft that is computed now, as far as the archive holds it; before it the
-  /// one that was taken up. Empty: none yet.
+  /// Returns the spacecraft's current run if it is stored, before that the one taken up; empty when
+  /// there is none yet.
   std::string run_of(const std::string& spacecraft) const;
 
-  /// Where the axis should be now; empty: nobody has said, or it is no spinner.
+  /// Returns the target of the axis now; empty when none was set or it is no spinner.
   std::optional<SpinTarget> target_of(const std::string& spacecraft) const;
 
-  /// Of all spacecraft.
+  /// Returns the open alerts of all spacecraft.
   std::vector<OpenAlert> open() const;
 
-  /// @return what is to be stored; InvalidInput where no such alert is open.
+  /// @return The batch to store; InvalidInput where no such alert is open.
   Expected<ArchiveBatch> acknowledge(const std::string& alert_id, TaiTime now,
                                      const std::string& by, const std::string& note);
   Expected<ArchiveBatch> shelve(const std::string& alert_id, TaiTime now, TaiTime until,
@@ -91,20 +91,19 @@ class AlertDesk {
   // NOLINTNEXTLINE(bugprone-exception-escape): its variant always holds a value.
   struct Supervised {
     Mission mission;
-    std::shared_ptr<const GroundModel> model;  ///< Null: there is none.
+    std::shared_ptr<const GroundModel> model;  ///< Null when there is no model.
     Conditions conditions;
     ContradictionConditions contradictions;
     std::optional<ModelComparison> comparison;
     ServiceConditions service;
-    std::string run_id = {};      ///< Empty: none yet.
-    std::string stored_run = {};  ///< Likewise; the last that the archive holds.
+    std::string run_id = {};      ///< Supervised run, empty before the first.
+    std::string stored_run = {};  ///< Latest stored run, empty before the first.
   };
   struct Desk {
     std::optional<Supervised> supervised = {};
     AlertBook book = {};
-    std::vector<Alert> waiting = {};  ///< Changes that are in the book and in no batch.
-    std::map<std::string, std::string> run_of =
-        {};  ///< By open alert, of those taken up and raised.
+    std::vector<Alert> waiting = {};                 ///< Changes not yet in any batch.
+    std::map<std::string, std::string> run_of = {};  ///< Run by open alert.
   };
 
   static Conditions conditions_of(const Mission& mission);
@@ -119,7 +118,7 @@ class AlertDesk {
 
   RunMode mode_ = RunMode::Process;
   mutable std::mutex mutex_;
-  std::map<std::string, Desk> desks_;  ///< By spacecraft.
+  std::map<std::string, Desk> desks_;  ///< Desks by spacecraft.
 };
 
 }  // namespace spindrift

@@ -1,5 +1,5 @@
 /// @file
-/// An alert as programs read it.
+/// An alert as JSON for other programs.
 
 #pragma once
 
@@ -11,7 +11,7 @@
 
 namespace spindrift {
 
-/// As the archive has it, but the evidence an object.
+/// Returns the archive's row with the evidence as a JSON object.
 inline nlohmann::json alert_json(const std::string& spacecraft, const std::string& run_id,
                                  const Alert& alert) {
   nlohmann::json object = json_of(alert);

@@ -1,5 +1,5 @@
 /// @file
-/// What an Alertmanager has to be told.
+/// Selects the alerts to send to an Alertmanager.
 
 #pragma once
 
@@ -16,20 +16,20 @@
 
 namespace spindrift {
 
-/// What is told and when: at least once, and again while it is open.
+/// Sends each open alert at least once, and repeats it while it is open.
 class FiringAlerts {
  public:
   static constexpr std::chrono::seconds kAgain{60};
-  /// An alert that is not told again for so long has ended.
+  /// An Alertmanager resolves alerts that are not repeated for so long.
   static constexpr std::chrono::minutes kEndsAfter{4};
 
-  /// @param service Its name, the same after a restart: a label.
+  /// @param service Name used as a label; it must not change with a restart.
   explicit FiringAlerts(std::string service) : service_{std::move(service)} {}
 
-  /// @param open All open alerts. @return an array for POST /api/v2/alerts; empty: nothing is due.
+  /// @param open All open alerts. @return An array for POST /api/v2/alerts; empty when none is due.
   nlohmann::json due(std::span<const OpenAlert> open, TaiTime now);
 
-  /// What `due` gave last is told.
+  /// Confirms that the last result of `due` was sent.
   void told(TaiTime now);
 
  private:
@@ -42,9 +42,9 @@ class FiringAlerts {
   nlohmann::json json_of(const OpenAlert& open, TaiTime now) const;
 
   std::string service_;
-  std::map<std::string, Told> told_;  ///< By alert_id, of those that are open there.
-  std::map<std::string, Told> due_;   ///< Likewise, of the last call of `due`.
-  std::vector<std::string> ended_;    ///< Likewise.
+  std::map<std::string, Told> told_;  ///< Sent and not ended, by alert_id.
+  std::map<std::string, Told> due_;   ///< From the last call of `due`, by alert_id.
+  std::vector<std::string> ended_;    ///< From the last call of `due`: their alert_id.
 };
 
 }  // namespace spindrift

@@ -1,5 +1,5 @@
 /// @file
-/// What an operator says about an alert.
+/// An operator's acknowledgement or shelving of an alert.
 
 #pragma once
 
@@ -15,11 +15,11 @@ struct OperatorWord {
   std::string alert_id;
   std::string by;
   std::string note;
-  int minutes = 0;  ///< Shelved for so long; 0: acknowledged.
+  int minutes = 0;  ///< Duration of shelving; 0 acknowledges.
 };
 
-/// Done to an alert of `desk`, from now on. @return what was stored and announced; InvalidInput
-/// where no such alert is open, or it has been done already; the archive's refusal.
+/// Applies it to an alert of `desk` from now on. @return What was stored and announced;
+/// InvalidInput when no such alert is open or it is in that state already; the archive's error.
 Expected<ArchiveBatch> take_word(const OperatorWord& word, AlertDesk& desk, Archive& archive);
 
 }  // namespace spindrift

@@ -10,7 +10,7 @@
 namespace spindrift {
 namespace {
 
-/// As ProductKind<Alert>::from_row wants it.
+/// Adapts a statement to the Row that ProductKind<Alert>::from_row needs.
 class NamedRow {
  public:
   explicit NamedRow(SQLite::Statement& row) : row_{row} {}

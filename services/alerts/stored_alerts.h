@@ -1,5 +1,5 @@
 /// @file
-/// The alerts that an archive holds.
+/// Reads the alerts of an archive.
 
 #pragma once
 
@@ -18,14 +18,14 @@ namespace spindrift {
 struct StoredAlert {
   std::string run_id;
   std::string spacecraft;
-  RunMode mode;  ///< Of its run.
-  Alert alert;   ///< Without its last change.
+  RunMode mode;  ///< Mode of the alert's run.
+  Alert alert;   ///< Without its latest transition.
 };
 
-/// Of each run in the order in which they were raised, run by run.
+/// Returns the alerts run by run, each run's in the order in which they were raised.
 std::vector<StoredAlert> alerts_in(SQLite::Database& archive);
 
-/// Likewise. @return As find_stored_passes.
+/// Opens the archive and reads its alerts. @return The errors of find_stored_passes.
 Expected<std::vector<StoredAlert>> find_alerts(const std::filesystem::path& archive);
 
 }  // namespace spindrift

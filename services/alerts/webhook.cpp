@@ -44,7 +44,7 @@ Expected<void> check(const std::string& url) {
   return {};
 }
 
-/// @return Unavailable when it is not taken.
+/// @return Unavailable when the server does not accept the body.
 Expected<void> post(const std::string& url, const std::string& body) {
   const std::unique_ptr<CURL, Cleanup> handle{curl_easy_init()};
   const std::unique_ptr<curl_slist, Cleanup> headers{
@@ -93,7 +93,7 @@ Webhook::~Webhook() = default;
 
 void Webhook::run(const std::stop_token& stop) {
   FiringAlerts firing{service_};
-  std::string failure;  // As last said.
+  std::string failure;  // Last logged failure.
   every(kPeriod, stop, [&] {
     const nlohmann::json due = firing.due(desk_.open(), tai_now());
     if (due.empty()) {

@@ -1,5 +1,5 @@
 /// @file
-/// Open alerts to an Alertmanager, on a thread of its own.
+/// Sends open alerts to an Alertmanager, on a thread of its own.
 
 #pragma once
 
@@ -17,9 +17,9 @@ namespace spindrift {
 
 class Webhook {
  public:
-  /// @param url "http://127.0.0.1:9093/api/v2/alerts". @param desk Outlives it.
-  /// @param service Its name, the same after a restart: an Alertmanager takes an alert with other
-  ///        labels for another one.
+  /// @param url As "http://127.0.0.1:9093/api/v2/alerts". @param desk Must outlive it.
+  /// @param service Name that stays the same after a restart, since an Alertmanager takes an alert
+  ///        with other labels for another alert.
   /// @return InvalidConfiguration for what is no http or https URL.
   static Expected<std::unique_ptr<Webhook>> start(const std::string& url, const AlertDesk& desk,
                                                   const std::string& service);
@@ -36,7 +36,7 @@ class Webhook {
   std::string url_;
   const AlertDesk& desk_;
   std::string service_;
-  std::jthread thread_;  // Last: it uses the others.
+  std::jthread thread_;  // Last member, since the thread uses the others.
 };
 
 }  // namespace spindrift

@@ -17,7 +17,7 @@ namespace {
 using std::chrono::steady_clock;
 
 constexpr std::chrono::seconds kRetryPause{1};
-// So often the file is looked at when there is nothing to store.
+// When there is nothing to store, the file is checked once per this period.
 constexpr std::chrono::seconds kLookPeriod{1};
 constexpr std::size_t kCommitsRemembered = 1000;
 
@@ -27,7 +27,7 @@ std::size_t row_count(std::span<const ArchiveBatch> batches) {
       [](std::size_t sum, const ArchiveBatch& batch) { return sum + spindrift::row_count(batch); });
 }
 
-// One file has one lock, whichever link it is reached by.
+// Links are resolved so that one file has one lock, whichever link it is reached by.
 Expected<std::filesystem::path> resolved(const std::filesystem::path& path) {
   if (path.empty()) {
     return no_archive_at(path, "must be the path of a file");
@@ -44,7 +44,7 @@ Expected<std::filesystem::path> resolved(const std::filesystem::path& path) {
     return Unexpected{{ErrorCode::Unavailable,
                        fmt::format("archive {}: {}", path.string(), unresolved.message())}};
   }
-  std::error_code unknown;  // What cannot be looked at is refused or cannot be locked.
+  std::error_code unknown;  // A path that cannot be examined fails later, at the lock.
   if (!std::filesystem::is_directory(real.parent_path(), unknown)) {
     return no_archive_at(path,
                          fmt::format("there is no directory {}", real.parent_path().string()));
@@ -60,7 +60,7 @@ Expected<std::unique_ptr<Archive>> Archive::open(const std::filesystem::path& pa
   if (!real) {
     return Unexpected{real.error()};
   }
-  // Before the lock, which would leave a file beside one that is not ours.
+  // Checked before the lock is taken, because taking it creates a file beside the archive.
   if (const auto ours = refuse_foreign_file(*real); !ours) {
     return Unexpected{ours.error()};
   }
@@ -86,7 +86,7 @@ Archive::Archive(std::string path, WriteLock lock, std::unique_ptr<Store> store,
       commit_durations_{kCommitsRemembered},
       writer_{[this] { run(); }} {}
 
-// Whoever wants to know what was not stored calls close() first.
+// A caller that needs to know what was not stored calls close() before.
 Archive::~Archive() { static_cast<void>(close()); }
 
 Expected<void> Archive::submit(ArchiveBatch batch) {
@@ -166,7 +166,7 @@ void Archive::run() {
   }
 }
 
-// Of a thread that ends too early: what is queued is not stored.
+// Called when the writer thread ends too early: what is queued is not stored.
 void Archive::give_up(const Error& error) {
   {
     const std::lock_guard lock{mutex_};
@@ -192,7 +192,6 @@ void Archive::store_what_comes() {
   end_ = store({});
 }
 
-// Tries until it succeeds or the archive is closed.
 bool Archive::store_patiently(std::span<const ArchiveBatch> batches) {
   auto stored = store(batches);
   while (!stored && !close_comes_first()) {
@@ -201,8 +200,9 @@ bool Archive::store_patiently(std::span<const ArchiveBatch> batches) {
   return stored.has_value();
 }
 
-// The last attempt. A bad row costs its own batch. Where writing itself fails, nothing later is
-// stored either: a result must not stand in the archive without the samples that it rests on.
+// Makes the last attempt, batch by batch, so that a bad row costs only its own batch. When writing
+// itself fails, no later batch is stored either: a result must not be in the archive without the
+// samples that it rests on.
 void Archive::store_singly(std::span<const ArchiveBatch> batches) {
   for (std::size_t i = 0; i < batches.size(); ++i) {
     const auto one = batches.subspan(i, 1);
@@ -244,12 +244,12 @@ Expected<void> Archive::put_right() {
   }
   auto place = store_->file().in_place();
   const bool is_news = !std::exchange(displaced_, !place);
-  // First it is said: whoever moves files about may not be done.
+  // The first time it is only reported, because whoever is moving files may not have finished.
   return place || (is_news && !is_closing()) ? place : put_back();
 }
 
-// By a copy, made at once, since what has no name ends with this process. An archive that is closed
-// must end somewhere: where the path is not free, as the copy.
+// Puts the archive back at its path by a copy. The copy is made at once, since a file without a
+// name ends with this process. On closing, if the path is not free, it stays where it is.
 Expected<void> Archive::put_back() {
   const ArchiveFile& file = store_->file();
   if (!copy_) {
@@ -338,7 +338,7 @@ void Archive::note_failure(const Error& error) {
   }
 }
 
-// Waits for the time of the next attempt, which a stopped archive only makes when it closes.
+// Waits until the next attempt is due. A stopped archive makes its next attempt when it is closed.
 bool Archive::close_comes_first() {
   std::unique_lock lock{mutex_};
   const auto closing = [this] { return state_ == State::Closing; };

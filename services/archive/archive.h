@@ -1,5 +1,5 @@
 /// @file
-/// The archive as a service sees it: batches go in, a thread of its own stores them.
+/// The archive as a service uses it: batches go in, and a thread of its own stores them.
 
 #pragma once
 
@@ -26,56 +26,52 @@
 
 namespace spindrift {
 
-/// What follows a write that failed for want of disk, I/O or the lock. Batches already accepted
-/// are kept in either case. A row that breaks a rule of the schema always stops.
+/// Says what follows a write that failed because of disk space, I/O or the lock. Batches that were
+/// accepted are kept in either case. A row that violates the schema always stops the archive.
 enum class OnWriteFailure {
-  Stop,   ///< Refuse what is submitted from now on; try once more when closing. For a file's run.
-  Retry,  ///< Let submitters wait, and try every second. For a pass that is under way.
+  Stop,   ///< For a run of files: refuses further batches, tries once more when closing.
+  Retry,  ///< For a pass under way: submitters wait, and writing is tried every second.
 };
 
-/// The callbacks run on the writer thread but for on_submit and on_refused, must not throw and must
-/// not call the archive.
+/// Options of an archive. The callbacks, except on_submit and on_refused, run on the writer thread.
+/// None may throw or call the archive.
 struct ArchiveOptions {
   OnWriteFailure on_write_failure = OnWriteFailure::Stop;
-  std::size_t queue_rows = 65536;  ///< Of samples, and as many of products.
-  /// Of what is submitted, by the thread that does, before it is queued: may add products to it.
+  std::size_t queue_rows = 65536;  ///< Limit for the rows of samples, and again for products.
+  /// Called with each batch before it is queued, on the submitting thread; may add products to it.
   std::function<void(ArchiveBatch&)> on_submit = [](auto& /*batch*/) {};
-  /// Of what was shown to on_submit and is not queued, since the archive closes.
+  /// Called with each batch that on_submit saw and that is not queued because the archive closes.
   std::function<void(const ArchiveBatch&)> on_refused = [](const auto& /*batch*/) {};
-  /// After each commit, with what it stored.
+  /// Called after each commit with the batches it stored.
   std::function<void(std::span<const ArchiveBatch>)> on_committed = [](const auto& /*stored*/) {};
-  /// When writing begins to fail, and whenever it fails for another reason than before.
+  /// Called when writing begins to fail, and when the reason of the failure changes.
   std::function<void(const Error&)> on_failure = [](const auto& /*error*/) {};
 };
 
 struct ArchiveStatistics {
-  std::uint64_t rows_committed = 0;     ///< As submitted: a pulse that was stored before counts.
-  std::uint64_t samples_committed = 0;  ///< The samples of telemetry among them.
+  std::uint64_t rows_committed = 0;     ///< Counts submitted rows, even of pulses stored before.
+  std::uint64_t samples_committed = 0;  ///< Samples of telemetry among those rows.
   std::size_t queued_batches = 0;
-  std::optional<double> commit_p99_ms;  ///< Whole transactions, the last 1000 of them.
-  DurationHistogram commits = {};       ///< All of them.
-  std::optional<Error> failure;         ///< Writing fails at present, or failed and stopped.
-  std::uint64_t failures = 0;           ///< Writes that failed.
+  std::optional<double> commit_p99_ms;  ///< Duration of the last 1000 transactions.
+  DurationHistogram commits = {};       ///< Durations of all transactions.
+  std::optional<Error> failure;         ///< Set while writing fails, or after it stopped.
+  std::uint64_t failures = 0;           ///< Number of failed writes.
 };
 
-/// One archive open for writing. What is queued goes into one transaction, and the next one begins
-/// as soon as it is committed: few batches are stored at once, many at the rate of the disk.
-/// Samples are stored in the order submitted, products in theirs and never before samples that were
-/// submitted before them; see batch_queue.h.
-///
-/// Before each commit, and once a second, it is looked whether the file is still the one at the
-/// path. One that was deleted, moved away or replaced is copied from the connection, which has it
-/// whole, and the copy goes on at its path as soon as nothing else stands there; nothing is stored
-/// until then. One that was truncated or overwritten is not written any more. Both are failures of
-/// writing.
-///
-/// `submit`, `flush` and `statistics` may be called from any thread; `close` from one, after which
-/// the others give errors.
+/// An archive open for writing. Everything queued goes into one transaction, and the next
+/// transaction begins as soon as it is committed. Samples are stored in the order submitted. So are
+/// products, and never before samples submitted before them (batch_queue.h). Before each commit,
+/// and once a second, the archive checks that its path still leads to its file. If the file was
+/// deleted, moved away or replaced, it is copied from the open connection, which still has all of
+/// it, and writing goes on in the copy as soon as the path is free; nothing is stored until then.
+/// If the file was truncated or overwritten, it is not written any more. Both count as failures of
+/// writing. `submit`, `flush` and `statistics` may be called from any thread. `close` may be called
+/// from one thread, after which the others return errors.
 class Archive {
  public:
-  /// @return Unavailable when another process (or this one) writes it, or it cannot be opened;
-  ///         InvalidConfiguration when the path cannot be that of a file, or the file is not an
-  ///         archive or has another schema than this program's.
+  /// @return Unavailable when a process (this one included) writes the archive already, or it
+  /// cannot be opened; InvalidConfiguration when the path cannot be that of a file, or the file is
+  /// not an archive or has another schema than this program's.
   static Expected<std::unique_ptr<Archive>> open(const std::filesystem::path& path,
                                                  ArchiveOptions options);
 
@@ -85,17 +81,16 @@ class Archive {
   Archive& operator=(Archive&&) = delete;
   ~Archive();
 
-  /// Takes `batch` over; waits while the queue is full and, with Retry, while writing fails.
-  /// @return the failure that stopped the archive, or Unavailable after `close`.
+  /// Takes over `batch`. Waits while the queue is full and, with Retry, while writing fails.
+  /// @return The failure that stopped the archive, or Unavailable after `close`.
   Expected<void> submit(ArchiveBatch batch);
 
-  /// Waits until everything submitted is committed and announced.
-  /// @return as `submit`.
+  /// Waits until everything submitted is committed and announced. @return Errors as `submit`.
   Expected<void> flush();
 
-  /// Stores what is still queued, trying once more what failed, and lets go of the file.
-  /// @return Unavailable with the number of rows that were accepted and could not be stored, or
-  ///         where they are when something else stands at the path; also when the file is damaged.
+  /// Stores what is still queued, with one more attempt for what failed, and releases the file.
+  /// @return Unavailable with the number of accepted rows that could not be stored, or with the
+  /// path where they are when another file is at the archive's path; also when the file is damaged.
   Expected<void> close();
 
   ArchiveStatistics statistics() const;
@@ -125,11 +120,10 @@ class Archive {
   std::optional<WriteLock> lock_;
   BatchQueue queue_;
 
-  // Of the writer thread.
-  std::unique_ptr<Store> store_;                 ///< Empty: to be opened again.
-  bool displaced_ = false;                       ///< Its file is not at the path, as was said.
-  std::optional<std::filesystem::path> copy_;    ///< With all that is committed, for the path.
-  std::optional<std::filesystem::path> refuge_;  ///< Where it ended instead of at the path.
+  std::unique_ptr<Store> store_;               ///< Null when it must be opened again.
+  bool displaced_ = false;                     ///< Reported: the file is not at its path.
+  std::optional<std::filesystem::path> copy_;  ///< Copy of all committed rows, not yet at the path.
+  std::optional<std::filesystem::path> refuge_;  ///< The copy, when the path stayed taken.
   Expected<void> end_;
   bool gave_up_ = false;
 

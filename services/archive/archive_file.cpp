@@ -26,7 +26,7 @@ Unexpected unavailable(const std::filesystem::path& path, const std::string& wha
   return Unexpected{{ErrorCode::Unavailable, fmt::format("archive {}: {}", path.string(), what)}};
 }
 
-/// By the kernel's list of locks: NUMBER: FLOCK ADVISORY WRITE PID DEVICE:INODE START END.
+/// Finds the holder in /proc/locks: NUMBER: FLOCK ADVISORY WRITE PID DEVICE:INODE START END.
 std::string holder_of(ino_t inode) {
   std::ifstream locks{"/proc/locks"};
   for (std::string line; std::getline(locks, line);) {
@@ -63,7 +63,8 @@ Expected<ArchiveFile> ArchiveFile::hold(const std::filesystem::path& path) {
   if (!status) {
     return Unexpected{status.error()};
   }
-  // A descriptor that gets no lock stays open: it may be this process that has SQLite's.
+  // The descriptor stays open even without the lock: if this process has the file open in SQLite,
+  // closing it would drop SQLite's locks.
   if (flock(file, LOCK_EX | LOCK_NB) != 0) {
     return errno == EWOULDBLOCK
                ? unavailable(path, fmt::format("its file is being written under another name, a "

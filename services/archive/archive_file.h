@@ -1,5 +1,5 @@
 /// @file
-/// The file that the connection of an archive has open, and whether its names still lead to it.
+/// Checks that the names of an archive's files still lead to the files that SQLite has open.
 
 #pragma once
 
@@ -15,16 +15,15 @@
 
 namespace spindrift {
 
-/// An open file outlives its name: what is deleted, moved away or replaced is still there for
-/// SQLite, which stores on and notices nothing, and gone for everybody else.
-///
-/// SQLite opens the file later and closes it earlier than this: to close any descriptor of a file
-/// drops the locks that SQLite has on it (https://www.sqlite.org/howtocorrupt.html section 2.2).
+/// Holds the file of an archive. An open file outlives its name: after it is deleted, moved away or
+/// replaced, SQLite keeps storing in it and notices nothing, while nobody else can reach it. SQLite
+/// must open the file after this object does and close it before: closing any descriptor drops
+/// SQLite's locks on the file (https://www.sqlite.org/howtocorrupt.html section 2.2).
 class ArchiveFile {
  public:
-  /// Keeps others from writing it by another of its names, a hard link or a new one.
-  /// @param path Where an empty file is made if there is none.
-  /// @return Unavailable, naming the holder, when somebody writes it.
+  /// Locks the file itself, so that others cannot write it under another name.
+  /// @param path An empty file is created there if there is none.
+  /// @return Unavailable, naming the holder, when the file is locked.
   static Expected<ArchiveFile> hold(const std::filesystem::path& path);
 
   ArchiveFile(ArchiveFile&& other) noexcept;
@@ -33,27 +32,26 @@ class ArchiveFile {
   ArchiveFile& operator=(const ArchiveFile&) = delete;
   ~ArchiveFile();
 
-  /// Once SQLite has made the log and the log's index beside it.
+  /// Notes the identity of the log and its index, once SQLite has created them.
   void note_log();
 
-  /// @return Unavailable, saying what happened, when one of the names leads to nothing or to
-  ///         something else.
+  /// @return Unavailable, with the reason, when a name leads to no file or to another file.
   Expected<void> in_place() const;
 
-  /// @param most_bytes More than which nobody has stored.
+  /// @param most_bytes Size above which the file cannot have grown by SQLite's writing.
   /// @return Unavailable, now and ever after, when the file itself was truncated or overwritten.
   Expected<void> undamaged(std::int64_t most_bytes);
 
-  /// One of its names where something else stands; not what a reader makes where the log or its
-  /// index is missing.
+  /// Returns a name that another file occupies. An empty log or an index that a reader creates in
+  /// place of a missing one does not count.
   std::optional<std::filesystem::path> in_the_way() const;
 
-  /// Removes what stands at the names of the log, if that is its own: it must not be taken for that
-  /// of another file. For one of which there is a copy.
+  /// Removes the log and its index if they are this archive's own, so that they are not taken for
+  /// those of another file. To be called only when there is a copy.
   void take_log_away() const;
 
-  /// Gives its names, and its permissions, to `copy`. Of `in_the_way` there is none.
-  /// @return Unavailable when something else has come to stand at the name.
+  /// Moves `copy` to the archive's name, if `in_the_way` is empty; keeps the permissions.
+  /// @return Unavailable when another file has appeared at the name.
   Expected<void> give_way_to(const std::filesystem::path& copy) const;
 
  private:
@@ -68,7 +66,7 @@ class ArchiveFile {
   static std::optional<Identity> identity_at(const std::filesystem::path& path);
 
   int file_;
-  std::array<Name, 3> names_;  ///< The archive, its log, the log's index.
+  std::array<Name, 3> names_;  ///< The archive, its log and the log's index.
   std::int64_t seen_bytes_ = 0;
   std::optional<Error> damage_;
 };

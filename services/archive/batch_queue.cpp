@@ -10,15 +10,15 @@ namespace {
 
 using std::chrono::steady_clock;
 
-// So many rows of samples press: a burst, more than come during a commit at any live rate.
+// Samples press (a burst) at this many rows: more than come during a commit at a live rate.
 constexpr std::size_t kPressing = 128;
-// So long do a few samples wait for others, and for products, to share a commit.
+// Time that a few samples wait for more samples or products, to share a commit.
 constexpr std::chrono::milliseconds kGathering{5};
-// Rows of products in one transaction: about as long do the next samples wait.
+// Rows of products in one transaction; the next samples wait about as long as it takes.
 constexpr std::int64_t kProductsAtOnce = 8192;
-// So many rows of details no longer wait for a commit that has no results to delay.
+// This many rows of details no longer wait for a commit without results.
 constexpr std::size_t kManyDetails = 8192;
-// Rows of samples for one of products while they press.
+// While samples press, one row of products is taken per this many rows of samples.
 constexpr std::int64_t kSamplesAProduct = 8;
 
 std::int64_t signed_size(std::size_t size) { return static_cast<std::int64_t>(size); }
@@ -52,8 +52,7 @@ bool BatchQueue::push(ArchiveBatch&& batch) {
   if (closed_) {
     return false;
   }
-  // Details that wait keep the writer asleep until they are due: news for it are samples and
-  // results.
+  // Waiting details do not wake the writer before they are due; samples and results do.
   const bool was_empty = is_empty() && (!are_details || details_.rows() == 0);
   if (are_details) {
     details_.push(std::move(batch), steady_clock::now());
@@ -99,7 +98,7 @@ std::vector<ArchiveBatch> BatchQueue::take(Instant deadline) {
   return taken;
 }
 
-// Samples wait a moment more for others.
+// With samples only, waits a moment longer, so that more of them share a commit.
 void BatchQueue::wait_for_work(std::unique_lock<std::mutex>& lock, Instant deadline) {
   const auto is_due = [this] { return closed_ || !is_empty() || is_detail_due(); };
   while (!is_due()) {

@@ -1,5 +1,5 @@
 /// @file
-/// Batches on their way to the writer thread: samples first, then results, then details.
+/// The queue of the writer thread: samples first, then results, then details.
 
 #pragma once
 
@@ -15,29 +15,28 @@
 
 namespace spindrift {
 
-/// Many submitters, one writer. Samples cannot be had again, products can be computed again: while
-/// samples press, most products wait, and their submitter with them. A batch with products never
-/// overtakes one that was pushed before it, so a product is never taken before its samples; but one
-/// with nothing else than details waits for company (detail_lane.h).
-///
-/// Bounded in rows, samples and products each for themselves: a full queue blocks `push`. After
-/// `close()` pushes are refused and what is queued can still be taken.
+/// Queue for many submitters and one writer. Samples cannot be had again, whereas products can be
+/// computed again: while samples press, most products wait, and their submitters with them. A batch
+/// with products never overtakes one pushed before it, so a product is never taken before its
+/// samples. A batch with details only waits for more details of its run (detail_lane.h).
+/// The rows of samples and of products are bounded separately: a full queue blocks `push`. After
+/// `close()` pushes are refused, and what is queued can still be taken.
 class BatchQueue {
  public:
   using Instant = DetailLane::Instant;
 
   explicit BatchQueue(std::size_t capacity_rows) : capacity_rows_{capacity_rows} {}
 
-  /// Waits for room. @return false when the queue is closed: `batch` is left as it was.
+  /// Waits for room, then queues `batch`.
+  /// @return False when the queue is closed; `batch` is then unchanged.
   bool push(ArchiveBatch&& batch);
 
-  /// Waits for at least one batch, and with samples only for a moment more: each commit costs a
-  /// sync, and products wait behind it. Takes all the samples, and products: many, or in a
-  /// burst of samples a small share; of details those that are due of one run. Empty only when
-  /// drained, or at `deadline`.
+  /// Waits for at least one batch, and with samples only for a moment more, since each commit costs
+  /// a sync and products wait behind it. Takes all samples; of the products many, or a small share
+  /// in a burst of samples; of the details those of one run that are due. Empty only when the queue
+  /// is drained or at `deadline`.
   std::vector<ArchiveBatch> take(Instant deadline = Instant::max());
 
-  /// Closed and empty: nothing is to come.
   bool is_drained() const;
 
   void close();
@@ -64,8 +63,8 @@ class BatchQueue {
   std::condition_variable filled_;
   Lane samples_;
   Lane products_;
-  DetailLane details_;          ///< In the bound of products.
-  std::int64_t owed_rows_ = 0;  ///< To products, while samples press.
+  DetailLane details_;          ///< Counts towards the bound of products.
+  std::int64_t owed_rows_ = 0;  ///< Rows of products that may be taken next.
   bool closed_ = false;
 };
 

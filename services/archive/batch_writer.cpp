@@ -20,9 +20,10 @@ namespace {
 
 std::int64_t as_signed(std::uint64_t value) { return static_cast<std::int64_t>(value); }
 
-/// What is stored already stays as it is, but for its place in the order of the run that takes it
-/// now (?4). What was left out, as its source's time is wrong, makes way for a sample that came
-/// (?5), and takes the place of none. With no run in ?4 nothing of what is stored changes.
+/// Inserts a sample. A stored sample stays as it is, except that it gets a place in the order of
+/// the run that takes it now (?4). A stored sample that was left out because its source's time was
+/// wrong is replaced by one that came now (?5), and replaces none itself. Without a run in ?4 no
+/// stored row changes.
 template <class Value>
 std::string insert_statement() {
   std::vector<std::string_view> names{"source", "session", "seq"};
@@ -161,7 +162,7 @@ void BatchWriter::insert(const ArchiveBatch& batch) {
   }
 }
 
-/// At last, so that the time in them is that of the commit, as near as a row can have it.
+/// Inserts announced products last, so that the time in them is as close to the commit as possible.
 void BatchWriter::insert_announced(std::span<const ArchiveBatch> batches) {
   const std::string now = utc_now();
   for (const ArchiveBatch& batch : batches) {
@@ -187,7 +188,7 @@ bool BatchWriter::is_live(const std::string& run_id) {
   return is_live_.emplace(run_id, live).first->second;
 }
 
-// Each batch has the counts as they have come to be: of many only the last are seen.
+// Each batch has cumulative counts, so only the last counts of a transaction are stored.
 void BatchWriter::insert_latest_counts(std::span<const ArchiveBatch> batches) {
   std::map<std::pair<std::string_view, std::string_view>, const SourceCount*> latest;
   for (const ArchiveBatch& batch : batches) {

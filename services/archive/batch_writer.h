@@ -1,5 +1,5 @@
 /// @file
-/// Values of the domain to rows of SQL: the one place that knows both.
+/// Writes values of the domain as rows of SQL.
 
 #pragma once
 
@@ -23,25 +23,24 @@
 
 namespace spindrift {
 
-/// Samples that come again with another value: what the table `contradiction` has. All of it throws
-/// SQLite::Exception.
+/// Writes contradicting samples (table `contradiction`). All of it throws SQLite::Exception.
 class ContradictionWriter {
  public:
   explicit ContradictionWriter(SQLite::Database& database);
 
-  /// Of a sample of an instant of which the archive has one. If they say different things, both
-  /// stand in the table from now on; so does what another source says of such an instant.
-  /// @return whether that is all: in the table of its kind nothing is to be changed.
+  /// Checks a sample for whose instant the archive has one. If the two differ, both go into the
+  /// table; so does what another source says about an instant that is already in it.
+  /// @return Whether the table of the sample's kind needs no change.
   template <class Value>
   bool see(const ArchiveBatch& batch, const TelemetrySample<Value>& sample);
 
-  /// What has been told of the samples seen since it was taken last.
+  /// Returns the notices on the samples seen since the last call.
   std::vector<RunNotice> take_notices() { return std::exchange(notices_, {}); }
-  /// A transaction has ended. What it has not stored is told again with its samples, but for the
-  /// warning.
+  /// Ends a transaction. If it was not stored, its notices are given again when its samples come
+  /// again, but without a second warning.
   void end_write(bool is_stored);
 
-  /// Which of the values count.
+  /// Marks which of the contradicting values are used.
   void settle(const std::string& run_id, const SampleContradiction& contradiction);
 
  private:
@@ -61,34 +60,34 @@ class ContradictionWriter {
   void say_once(const ArchiveBatch& batch, std::string_view code, const Entry& there,
                 const Entry& came, const char* what);
 
-  std::vector<SQLite::Statement> find_;       ///< In the order of the list of kinds.
-  std::vector<SQLite::Statement> take_over_;  ///< Likewise.
+  std::vector<SQLite::Statement> find_;  ///< One per kind of telemetry, in kTelemetryKind order.
+  std::vector<SQLite::Statement> take_over_;  ///< In the same order.
   SQLite::Statement find_first_arrival_;
-  std::pair<std::string, std::int64_t> first_arrival_;  ///< Of the run that was asked for last.
+  std::pair<std::string, std::int64_t> first_arrival_;  ///< Cached for the run asked for last.
   SQLite::Statement contested_;
   SQLite::Statement add_;
   SQLite::Statement use_none_;
   SQLite::Statement use_;
-  std::map<std::string, bool> said_;  ///< What has been warned of, by kind and run; kept or not.
-  std::vector<std::string> said_in_write_;  ///< Of those, what may yet be lost.
+  /// What was warned of, by code, kind and run; whether the notice is stored.
+  std::map<std::string, bool> said_;
+  std::vector<std::string> said_in_write_;  ///< Keys in the open transaction.
   std::vector<RunNotice> notices_;
 };
 
-/// The prepared statements of one connection. `database` must outlive it.
+/// Holds the prepared statements of one connection. `database` must outlive it.
 class BatchWriter {
  public:
   /// @throws SQLite::Exception
   explicit BatchWriter(SQLite::Database& database);
 
-  /// Stores all of `batches` in one transaction, or nothing.
-  /// @return InvalidInput when a row breaks a rule of the schema (a NaN, an unknown run);
-  ///         Unavailable when SQLite cannot write.
+  /// Stores all of `batches` in one transaction, or nothing. @return InvalidInput when a row
+  /// violates the schema (a NaN, an unknown run); Unavailable when SQLite cannot write.
   Expected<void> write(std::span<const ArchiveBatch> batches);
 
  private:
   void insert(const ArchiveBatch& batch);
   void insert(const ArchiveBatch& batch, const RunStart& start);
-  /// A sample: now, or before, to be left out then.
+  /// Whether a sample came now, or came before and was left out then.
   enum class Came { Now, Before };
   template <class Value>
   void insert(const ArchiveBatch& batch, const TelemetrySample<Value>& sample, Came came);
@@ -107,14 +106,14 @@ class BatchWriter {
   SQLite::Statement run_unfinished_;
   SQLite::Statement run_reach_;
   SQLite::Statement run_mode_;
-  std::vector<SQLite::Statement> samples_;  ///< In the order of the list of kinds.
+  std::vector<SQLite::Statement> samples_;  ///< One per kind of telemetry, in kTelemetryKind order.
   SQLite::Statement operator_action_;
   SQLite::Statement stream_silence_;
   SQLite::Statement rejected_input_;
   SQLite::Statement source_count_;
   ContradictionWriter contradictions_;
   ProductWriter products_;
-  std::unordered_map<std::string, bool> is_live_;  ///< Of runs that were looked up, by run_id.
+  std::unordered_map<std::string, bool> is_live_;  ///< Cached answers, by run_id.
 };
 
 }  // namespace spindrift

@@ -1,5 +1,5 @@
 /// @file
-/// Values of the domain as parameters of a statement.
+/// Binds values of the domain to the parameters of a statement.
 
 #pragma once
 
@@ -26,7 +26,7 @@ inline void bind(SQLite::Statement& statement, int index, double value) {
 inline void bind(SQLite::Statement& statement, int index, const std::string& value) {
   statement.bindNoCopy(index, value);
 }
-// A name_of(...): a literal, hence ended by a NUL and there for good.
+// The text must be a literal as given by a name_of(...): NUL-terminated and valid forever.
 inline void bind(SQLite::Statement& statement, int index, std::string_view literal) {
   statement.bindNoCopy(index, literal.data());
 }
@@ -42,10 +42,10 @@ void bind(SQLite::Statement& statement, int index, const std::optional<T>& value
   }
 }
 
-/// Text is bound without a copy, so `values` must outlive the call and no more.
+/// Executes a statement. Text is bound without a copy, so `values` must outlive the call.
 template <class... Values>
 void execute(SQLite::Statement& statement, const Values&... values) {
-  statement.tryReset();  // Its status is that of the last step, which was reported then.
+  statement.tryReset();  // Returns the status of the last step, reported then.
   int index = 0;
   (bind(statement, ++index, values), ...);
   statement.exec();

@@ -8,16 +8,17 @@
 namespace spindrift {
 namespace {
 
-// A page is written once however often it stands in the log.
+// A long log saves work, because a page is written once however often it is in the log.
 constexpr int kLongLog_frames = 32768;
-// What the writer carries over in about the time of a few commits.
+// Few enough frames for the writer to carry over in about the time of a few commits.
 constexpr int kFewFrames = 48;
 constexpr int kMostRounds = 20;
-// A log that grows faster than it is carried over has commits wait when it is so much longer.
+// When the log grows faster than it is carried over, commits wait above this length.
 constexpr int kTooLong_frames = 3 * kLongLog_frames;
 
-// Frames of the log that are in the file now. What keeps a checkpoint from succeeding, a reader or
-// the disk, is met again by the next; and the commits, which tell, meet the disk themselves.
+// Returns how many frames of the log are in the file now. Errors are ignored: a reader or a disk
+// failure that stops a checkpoint stops the next one too, and a disk failure also stops the
+// commits, which report it.
 int checkpoint(sqlite3* database) {
   int log_frames = 0;
   int carried_frames = 0;
@@ -26,8 +27,8 @@ int checkpoint(sqlite3* database) {
   return carried_frames;
 }
 
-// Of those checkpoints SQLite syncs only the one that reaches the end of the log. Were the sync of
-// all pages left to that one, the writer would wait for it.
+// Syncs the file. SQLite syncs only in the checkpoint that reaches the end of the log, which is the
+// writer's; without this the writer would wait for the sync of all pages.
 bool sync(sqlite3* database) {
   sqlite3_file* file = nullptr;
   sqlite3_file_control(database, "main", SQLITE_FCNTL_FILE_POINTER, &file);
@@ -40,7 +41,7 @@ Checkpointer::Checkpointer(SQLite::Database& writer)
     : writer_{writer},
       own_{writer.getFilename(), SQLite::OPEN_READWRITE},
       due_frames_{kLongLog_frames} {
-  // A connection has no log before it has read; without one a checkpoint does nothing.
+  // A connection has no log before its first read, and without one a checkpoint does nothing.
   own_.execAndGet("SELECT count(*) FROM sqlite_schema");
   thread_ = std::jthread{[this] {
     if (!contained("carrying over", [this] { run(); })) {
@@ -48,7 +49,7 @@ Checkpointer::Checkpointer(SQLite::Database& writer)
       state_.notify_one();
     }
   }};
-  // In place of SQLite's automatic checkpoint.
+  // Replaces SQLite's automatic checkpoint.
   sqlite3_wal_hook(writer_.getHandle(), &Checkpointer::on_commit, this);
 }
 
@@ -67,7 +68,7 @@ void Checkpointer::note_commit(sqlite3* writer, int log_frames) {
   log_frames_ = log_frames;
   const State state = state_;
   if (state == State::Done) {
-    // Where a reader still needs the log it does not begin anew, and grows by as much again.
+    // When a reader still needs the log, the log is not restarted and may grow by as much again.
     const bool all = checkpoint(writer) == log_frames;
     due_frames_ = (all ? 0 : log_frames) + kLongLog_frames;
     state_ = State::Idle;
@@ -89,7 +90,7 @@ void Checkpointer::run() {
     if (carry_over()) {
       state_.compare_exchange_strong(state, State::Done);
     } else {
-      // Which pages are lost is not known: the log, which has them all, is never begun anew.
+      // It is unknown which pages are lost. The log has them all, so it is never restarted.
       state_ = State::Stopped;
     }
     state_.notify_one();

@@ -1,5 +1,5 @@
 /// @file
-/// The write-ahead log carried into the database file beside the writing of it.
+/// Carries the write-ahead log over into the database file while commits go on.
 
 #pragma once
 
@@ -13,17 +13,16 @@ struct sqlite3;
 
 namespace spindrift {
 
-/// SQLite's own checkpoint holds up the commit that it comes after, for as long as all pages of the
-/// log take to write and sync: a fix would wait for it. Here a thread with a connection of its own
-/// does the bulk while commits go on, in rounds that grow shorter, and the writer no more than what
-/// was committed during the last of them, so that the log begins anew.
-///
-/// Before 3.51.3 SQLite damages a file when one connection begins the log anew while another starts
-/// a checkpoint (https://www.sqlite.org/wal.html#walresetbug). Every round here starts while frames
-/// are in the log that no checkpoint has carried over, and until one has, no log begins anew.
+/// Replaces SQLite's own checkpoint, which delays the commit it follows until all pages of the log
+/// are written and synced, and with it a fix. Here a thread with its own connection carries over
+/// the bulk while commits go on, in ever shorter rounds. The writer then only carries over what was
+/// committed during the last round, so that the log can restart.
+/// Before 3.51.3 SQLite damages a file when one connection restarts the log while another starts a
+/// checkpoint (https://www.sqlite.org/wal.html#walresetbug). Every round here starts while the log
+/// has frames that no checkpoint has carried over, and until one has, the log is not restarted.
 class Checkpointer {
  public:
-  /// @param writer The connection that commits, which no one else checkpoints; it outlives this.
+  /// @param writer The connection that commits. It outlives this; nobody else may checkpoint it.
   /// @throws SQLite::Exception
   explicit Checkpointer(SQLite::Database& writer);
   ~Checkpointer();
@@ -43,10 +42,10 @@ class Checkpointer {
 
   SQLite::Database& writer_;
   SQLite::Database own_;
-  int due_frames_;  // Of the writer's thread: how long the log may grow.
+  int due_frames_;  // Length that the log may reach; of the writer's thread.
   std::atomic<int> log_frames_ = 0;
   std::atomic<State> state_ = State::Idle;
-  std::jthread thread_;  // Last: it uses the others.
+  std::jthread thread_;  // Declared last because it uses the other members.
 };
 
 }  // namespace spindrift

@@ -35,17 +35,17 @@ void distrust(SQLite::Database& database) {
   sqlite3_db_config(database.getHandle(), SQLITE_DBCONFIG_DEFENSIVE, 1, nullptr);
 }
 
-// Nobody asks how much memory SQLite has, and the count of it has a mutex at every allocation. Only
-// before SQLite is first used; later nothing changes.
+// Turns off SQLite's count of its memory, which nobody reads and which takes a mutex at every
+// allocation. Works only before SQLite is first used; later it changes nothing.
 void do_not_count_memory() {
   static const int status = sqlite3_config(SQLITE_CONFIG_MEMSTATUS, 0);
   static_cast<void>(status);
 }
 
-// Through SQLite's own file, though without SQL, which would make files beside a database of
-// someone else's. Not by another descriptor: closing it would drop the POSIX locks that a
-// connection of this process holds on the file (https://www.sqlite.org/howtocorrupt.html
-// section 2.2).
+// Reads through SQLite's own file handle, because closing another descriptor would drop the POSIX
+// locks that a connection of this process holds on the file
+// (https://www.sqlite.org/howtocorrupt.html section 2.2). SQL is avoided because it would create
+// files beside a foreign database.
 Expected<std::string> header_of(const std::filesystem::path& path) {
   try {
     const SQLite::Database database{path.string(), SQLite::OPEN_READONLY};
@@ -62,7 +62,7 @@ Expected<std::string> header_of(const std::filesystem::path& path) {
   }
 }
 
-/// SQLite would tell little of these. Empty: there is something.
+/// Says why there is nothing to read, which SQLite would not; empty when there is something.
 std::string_view why_nothing_to_read(const std::filesystem::path& path) {
   std::error_code unknown;
   const std::filesystem::file_status status = std::filesystem::status(path, unknown);
@@ -80,7 +80,7 @@ bool is_empty_or_absent(const std::filesystem::path& path) {
   return absent || size == 0;
 }
 
-/// `path` as a URI of SQLite for a file that nobody changes meanwhile.
+/// Returns `path` as an SQLite URI for a file that nobody changes while it is read.
 std::string immutable_uri(const std::filesystem::path& path) {
   std::string uri = "file:";
   for (const char c : path.string()) {
@@ -122,7 +122,7 @@ Expected<void> refuse_no_file(const std::filesystem::path& path) {
         "SQLite takes this name for something else than a file; an archive is a file, of another "
         "name or with ./ before it");
   }
-  std::error_code unknown;  // What cannot be looked at cannot be opened: its caller finds out.
+  std::error_code unknown;  // The caller gets an error when it opens the file.
   const auto status = std::filesystem::status(path, unknown);
   if (std::filesystem::is_directory(status)) {
     return no_archive_at(path, "is a directory, must be a file");
@@ -180,14 +180,14 @@ Expected<SQLite::Database> open_for_writing(const std::filesystem::path& path) {
     return Unexpected{ours.error()};
   }
   try {
-    // Whoever has the connection uses it from one thread at a time: a mutex in every call of SQLite
-    // would be a sixth of the time that rows take.
+    // NOMUTEX, because each connection is used from one thread at a time, and a mutex in every call
+    // of SQLite would take a sixth of the time for a row.
     SQLite::Database database{path.string(),
                               SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE | SQLite::OPEN_NOMUTEX,
                               kBusyTimeout_ms};
     distrust(database);
-    // While the journal is still a rollback journal: so the application id of a new archive stands
-    // in the file itself, and not only in the WAL.
+    // Done before the switch to WAL, so that the application id of a new archive is in the file
+    // itself and not only in the log.
     make_schema(database);
     const std::string journal = database.execAndGet("PRAGMA journal_mode = WAL").getString();
     if (journal != "wal") {
@@ -196,7 +196,7 @@ Expected<SQLite::Database> open_for_writing(const std::filesystem::path& path) {
                                      "journal_mode {}",
                                      path.string(), journal)}};
     }
-    // The pages that a hundred spacecraft append to stay in memory.
+    // The cache holds the pages that a hundred spacecraft append to.
     database.exec(
         "PRAGMA synchronous = FULL; PRAGMA foreign_keys = ON; PRAGMA journal_size_limit = "
         "268435456; PRAGMA cache_size = -65536");
@@ -227,10 +227,10 @@ Expected<SQLite::Database> open_for_reading(const std::filesystem::path& path) {
   try {
     SQLite::Database database{path.string(), SQLite::OPEN_READONLY, kBusyTimeout_ms};
     distrust(database);
-    database.execAndGet("SELECT count(*) FROM sqlite_schema");  // Looks at the log, too.
+    database.execAndGet("SELECT count(*) FROM sqlite_schema");  // Also reads the log.
     return database;
   } catch (const SQLite::Exception& exception) {
-    // Beside the archive there is no index of its log, and none can be made.
+    // The index of the log is missing beside the archive and cannot be created.
     const int code = exception.getErrorCode();
     const bool cannot_index = code == SQLITE_CANTOPEN || code == SQLITE_READONLY;
     if (cannot_index && is_empty_or_absent(log_of(path))) {

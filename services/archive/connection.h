@@ -1,5 +1,5 @@
 /// @file
-/// Opening an archive's file, and SQLite's exceptions as errors.
+/// Opens the file of an archive, and converts SQLite's exceptions to errors.
 
 #pragma once
 
@@ -15,49 +15,48 @@
 
 namespace spindrift {
 
-/// Looks at the head of the file and touches nothing. A file that is absent or empty may become
-/// an archive.
-/// @return InvalidConfiguration when `path` is not an archive, or one with other tables than this
-///         program's, saying what to do.
+/// Checks the header of the file without changing anything. An absent or empty file is accepted,
+/// since it may become an archive. @return InvalidConfiguration, with advice, when `path` is not an
+/// archive or has another schema than this program's.
 Expected<void> refuse_foreign_file(const std::filesystem::path& path);
 
-/// What of the head of a file tells whether it is an archive.
+/// Length of the part of the header that identifies an archive.
 inline constexpr int kHeaderBytes = 72;
 
-/// Of this program's schema.
+/// Returns whether the header is that of an archive with this program's schema.
 bool is_header_of_archive(std::string_view header);
 
-/// InvalidConfiguration: `path` as it was given, and why no archive can be there.
+/// Returns InvalidConfiguration with `path` as given and why no archive can be there.
 Unexpected no_archive_at(const std::filesystem::path& path, std::string_view why);
 
-/// @return InvalidConfiguration for what is there and no file, and for a name that SQLite takes for
-///         something else: ":memory:", and "file:" as a URI.
+/// @return InvalidConfiguration when `path` exists and is not a regular file, or is a name that
+/// SQLite does not take for a file: ":memory:" or a URI with "file:".
 Expected<void> refuse_no_file(const std::filesystem::path& path);
 
-/// The one connection that writes: made if absent, WAL with a sync at every commit. Its caller
-/// holds the archive's WriteLock.
-/// @return InvalidConfiguration when the file is not an archive or has another schema, which leaves
-///         it untouched; Unavailable when it cannot be opened.
+/// Opens the one connection that writes; creates the file if absent. It uses WAL with a sync at
+/// every commit. The caller must hold the archive's WriteLock.
+/// @return InvalidConfiguration when the file is not an archive or has another schema (the file is
+/// then untouched); Unavailable when it cannot be opened.
 Expected<SQLite::Database> open_for_writing(const std::filesystem::path& path);
 
-/// A connection that cannot write, for one thread. Where no file may be made beside an archive that
-/// nobody writes, it is read as one that does not change.
+/// Opens a connection that cannot write, for use by one thread. When nobody writes the archive and
+/// no file may be created beside it, the archive is read as immutable.
 /// @return InvalidConfiguration when there is no such file, it is not an archive or has another
-///         schema; Unavailable when it cannot be opened.
+/// schema; Unavailable when it cannot be opened.
 Expected<SQLite::Database> open_for_reading(const std::filesystem::path& path);
 
-/// Likewise, for an archive that nobody writes: leaves nothing beside it, as an ordinary connection
-/// that may not tidy up would. What is read while somebody begins to write may be half old.
+/// Opens an archive that nobody writes for reading, with errors as open_for_reading. It creates no
+/// files beside it, which a read-only connection could not remove. If somebody starts to write
+/// meanwhile, the data read may be inconsistent.
 Expected<SQLite::Database> open_at_rest(const std::filesystem::path& path);
 
-/// Where SQLite keeps what is committed and not yet in the archive's file.
 std::filesystem::path log_of(const std::filesystem::path& archive);
 
-/// InvalidInput when a row breaks a rule of the schema and trying again is no use; Unavailable
+/// Returns InvalidInput when a row violates the schema and a retry is useless, and Unavailable
 /// otherwise (disk full, I/O error, busy).
 Error archive_error(const std::string& path, const SQLite::Exception& exception);
 
-/// What `read` finds in an archive, by a connection of its own.
+/// Returns the result of `read`, called with a connection of its own.
 /// @param read Takes an SQLite::Database&; may throw SQLite::Exception.
 /// @return As open_for_reading; Unavailable when reading fails.
 template <class Read>

@@ -68,7 +68,7 @@ bool ContradictionWriter::see(const ArchiveBatch& batch, const TelemetrySample<V
       .arrival = stored.arrival};
   find.reset();
   if (stored.arrival < 0) {
-    return false;  // Left out since the time of its source is wrong: that was of another instant.
+    return false;  // Left out because its source's time is wrong, so its real instant is another.
   }
   const Entry came{
       .kind = there.kind, .t = there.t, .origin = sample.origin, .arrival = sample.arrival};
@@ -137,8 +137,8 @@ std::int64_t ContradictionWriter::first_arrival(const std::string& run_id) {
   return first_arrival_.second;
 }
 
-/// What came first stays used, until the pass says something else. What an earlier run took has not
-/// come in this one: its pass cannot know of it.
+/// Adds both values. The first one stays used until the pass decides otherwise. A sample that an
+/// earlier run took counts as not come in this run, because its pass cannot know it.
 void ContradictionWriter::add_both(const ArchiveBatch& batch, const Entry& there,
                                    const std::string& there_value, const Entry& came,
                                    const std::string& came_value) {
@@ -161,7 +161,7 @@ void ContradictionWriter::say_rounded(const ArchiveBatch& batch, const Entry& th
            "sample, and what came first is used");
 }
 
-/// @param what With {0} and {1} for the two sources.
+/// @param what Format string with {0} and {1} for the two sources.
 void ContradictionWriter::say_once(const ArchiveBatch& batch, std::string_view code,
                                    const Entry& there, const Entry& came, const char* what) {
   const auto [said, is_first] =

@@ -7,7 +7,7 @@
 namespace spindrift {
 namespace {
 
-// Some ten revolutions: more share a page no better, and take longer than a commit should.
+// About ten revolutions; more share pages no better, and their commit takes too long.
 constexpr std::size_t kEnough = 64;
 constexpr std::chrono::seconds kLongest{1};
 

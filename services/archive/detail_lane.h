@@ -1,5 +1,5 @@
 /// @file
-/// What results rest on, on its way to the writer thread: it waits for company of its own run.
+/// The queue of details (the data that results rest on), which wait for more of their own run.
 
 #pragma once
 
@@ -17,22 +17,24 @@
 
 namespace spindrift {
 
-/// Nobody waits for details, and those of one table and run stand in the same pages, which each
-/// commit that changes them puts into the log as a whole. So they are stored many revolutions at a
-/// time, one table at a time since results wait for a commit that has begun, and little more than a
-/// second late; a service that is killed makes them again from the samples.
+/// Collects details, for which nobody waits. The details of one table and run share pages, and each
+/// commit that changes a page puts the whole page into the log. They are therefore stored many
+/// revolutions at a time and little more than a second late, and one table at a time, since results
+/// wait for a commit that has begun. If the service is killed, they are made again from the
+/// samples.
 class DetailLane {
  public:
   using Instant = std::chrono::steady_clock::time_point;
 
-  /// @param batch With details only, of one table.
+  /// @param batch Holds only details of one table.
   void push(ArchiveBatch batch, Instant now);
 
-  /// Of the run and table that have waited longest, if due: the oldest, until they have `rows`.
+  /// Takes details of the run and table due first, oldest first, until they have `rows` rows.
   std::vector<ArchiveBatch> take_due(Instant now, std::size_t rows);
   std::vector<ArchiveBatch> take_all(const std::string& run_id);
 
-  /// When the next are. Empty: there are none. Asked at every push and commit.
+  /// Returns when the next details are due; empty when there are none. Must be cheap, as it is
+  /// called at every push and commit.
   std::optional<Instant> next_due() const;
 
   std::size_t rows() const { return rows_; }
@@ -44,14 +46,13 @@ class DetailLane {
     std::size_t rows;
     Instant since;
   };
-  /// Of a run and a kind of product.
   using Groups = std::map<std::pair<std::string, std::size_t>, Waiting>;
 
   static Instant due(const Waiting& waiting);
   void move(Groups::iterator group, std::size_t rows, std::vector<ArchiveBatch>& taken);
 
   Groups waiting_;
-  std::set<std::pair<Instant, const Groups::key_type*>> by_due_;  ///< All of `waiting_`.
+  std::set<std::pair<Instant, const Groups::key_type*>> by_due_;  ///< Every group of `waiting_`.
   std::size_t rows_ = 0;
 };
 

@@ -1,5 +1,5 @@
 /// @file
-/// By what the newest run of a spacecraft was made.
+/// Describes how the newest run of a spacecraft was made.
 
 #pragma once
 
@@ -17,20 +17,20 @@ namespace spindrift {
 
 struct LastRun {
   std::string run_id;
-  std::vector<std::string> telemetry;  ///< As RunStart.
+  std::vector<std::string> telemetry;  ///< As RunStart::telemetry.
   std::string software_version;
   std::string config_sha256;
-  std::optional<std::string> orbit_sha256;  ///< Empty: the mission names no file.
-  std::optional<TaiTime> last_sample;       ///< Empty: none came.
+  std::optional<std::string> orbit_sha256;  ///< Empty when the mission names no orbit file.
+  std::optional<TaiTime> last_sample;       ///< Empty when no sample came.
 };
 
-/// @param mode Of the runs to look at.
-/// @return none when there is none; errors as find_stored_passes.
+/// Finds the newest run of the spacecraft in this mode.
+/// @return Empty when there is none; errors as find_stored_passes.
 Expected<std::optional<LastRun>> find_last_run(const std::filesystem::path& archive,
                                                const std::string& spacecraft_id, RunMode mode);
 
-/// Where the newest run of the spacecraft begins, whatever its mode: counts up from run to run.
-/// @return none when there is none; errors as find_stored_passes.
+/// Returns the first arrival number of the spacecraft's newest run in any mode.
+/// @return Empty when there is none; errors as find_stored_passes.
 Expected<std::optional<std::int64_t>> find_last_first_arrival(const std::filesystem::path& archive,
                                                               const std::string& spacecraft_id);
 

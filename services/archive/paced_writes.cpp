@@ -19,7 +19,7 @@ Pace& of_this_thread() {
   return pace;
 }
 
-// What fails here is left to the sync that follows all of them.
+// Errors are ignored here, because the sync after all pages reports them.
 void bring_to_disk(int file) {
   constexpr unsigned kThoseWrittenSoFar =
       SYNC_FILE_RANGE_WAIT_BEFORE | SYNC_FILE_RANGE_WRITE | SYNC_FILE_RANGE_WAIT_AFTER;
@@ -35,7 +35,7 @@ ssize_t write_page(int file, const void* bytes, size_t count, off64_t offset) {
   return written;
 }
 
-// Takes the place of the call in SQLite, once for the process.
+// Replaces SQLite's call of pwrite64, once per process.
 bool take_place() {
   sqlite3_vfs* const vfs = sqlite3_vfs_find(nullptr);
   return vfs->xSetSystemCall(vfs, "pwrite64", reinterpret_cast<sqlite3_syscall_ptr>(&write_page)) ==

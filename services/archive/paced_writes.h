@@ -1,14 +1,13 @@
 /// @file
-/// Pages that a checkpoint writes, brought to the disk a few at a time.
+/// Brings the pages of a checkpoint to the disk a few at a time.
 
 #pragma once
 
 namespace spindrift {
 
-/// SQLite writes all pages of a checkpoint into the cache of the system and has them synced at
-/// once; a commit whose own sync comes meanwhile waits until the disk has them all. In the thread
-/// that holds one of these the disk gets them as they are written, and a commit waits for a few of
-/// them.
+/// While one of these exists in a thread, the pages that it writes go to the disk as they are
+/// written. SQLite alone writes all pages of a checkpoint into the system's cache and then syncs
+/// them at once, so that a commit's sync meanwhile waits for all; here it waits for a few.
 class PacedWrites {
  public:
   PacedWrites();

@@ -55,7 +55,7 @@ std::string insertion() {
   std::string values = kOfSpacecraft<Table> ? "?, ?" : "?";
   std::string changes;
   const auto add = [&](std::string_view column) {
-    // "limit" is a word of SQL.
+    // Column names are quoted because "limit" is a keyword of SQL.
     names += fmt::format(R"(, "{}")", column);
     values += ", ?";
     if (!is_of_key<Table>(column)) {
@@ -64,7 +64,7 @@ std::string insertion() {
     }
   };
   if constexpr (kSaysWhenAnnounced<Table>) {
-    names += ", announced_utc";  // One that takes the place of another was announced with that.
+    names += ", announced_utc";  // A replacing product keeps the first value.
     values += ", ?";
   }
   with_columns<Table>([&](const auto&... column) { (add(column.name), ...); });
@@ -76,7 +76,7 @@ std::string insertion() {
   return sql;
 }
 
-/// Its rows of a kind of product, for one connection.
+/// Writes the rows that one kind of product has in one table.
 template <class Kind, class Table>
 class TableWriter {
  public:
@@ -176,8 +176,8 @@ std::string since() {
   return sql;
 }
 
-/// The first revolution that has anything from ?2 on. One without sun1 is known by its edges and
-/// its fix only.
+/// Selects the first revolution with any row from time ?2 on. All tables are searched, because a
+/// revolution without sun1 appears only with its edges and its fix.
 std::string first_revolution() {
   std::string revolutions;
   for_each_product_kind([&]<class Kind>() {
@@ -194,7 +194,7 @@ std::string first_revolution() {
 template <class Kind, class Table>
 std::string withdrawal() {
   if constexpr (kOfLatest<Table>) {
-    // All of it with the product that it is of, whatever times its rows have.
+    // All rows are deleted with their product, whatever times they have themselves.
     return fmt::format("DELETE FROM {} WHERE run_id = ?1 AND EXISTS (SELECT 1 {})", Table::kName,
                        since<MainTable<Kind>>());
   } else if constexpr (kHasTime<Table>) {
@@ -238,7 +238,7 @@ void ProductWriter::insert(const RunOfProducts& run,
 }
 
 void ProductWriter::withdraw(const std::string& run_id, TaiTime from) {
-  // What hangs on others goes before they do.
+  // Rows that depend on other rows are deleted before those.
   for (const bool hangs_on_others : {true, false}) {
     for_each_product_kind([&]<class Kind>() {
       if constexpr (!kStays<Kind>) {

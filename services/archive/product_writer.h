@@ -1,5 +1,5 @@
 /// @file
-/// Products to rows of SQL, as services/products says: the one place that writes them.
+/// Writes products as rows of SQL, as services/products describes them.
 
 #pragma once
 
@@ -20,7 +20,7 @@ struct RunOfProducts {
   bool stores_residuals;
 };
 
-/// The prepared statements of one connection. All of it throws SQLite::Exception.
+/// Holds the prepared statements of one connection. All functions throw SQLite::Exception.
 class ProductWriter {
  public:
   /// `database` must outlive it.
@@ -31,16 +31,16 @@ class ProductWriter {
   ProductWriter(ProductWriter&&) = delete;
   ProductWriter& operator=(ProductWriter&&) = delete;
 
-  /// Whether a row of it has announced_utc.
+  /// Returns whether the product has a table with the column announced_utc.
   static bool says_when_announced(const Product& product);
 
-  /// In place of one with its key.
-  /// @param announced_utc Where it says that; empty: it is not announced for now.
+  /// Stores a product, replacing one with the same key.
+  /// @param announced_utc Value of the column announced_utc, if any; empty: not announced so far.
   void insert(const RunOfProducts& run, const std::optional<std::string>& announced_utc,
               const Product& product);
 
-  /// Those of a run from a time on, but those that stay (kStays). A product without a time has that
-  /// of its revolution, which those tables tell that have both.
+  /// Deletes the products of a run from a time on, except kinds that stay (kStays). A product
+  /// without a time is deleted by its revolution, whose time comes from the tables that have both.
   void withdraw(const std::string& run_id, TaiTime from);
 
  private:

@@ -1,5 +1,5 @@
 /// @file
-/// How long something took lately.
+/// Statistics of how long something took lately.
 
 #pragma once
 
@@ -9,15 +9,15 @@
 
 namespace spindrift {
 
-/// The last `capacity` durations, the oldest forgotten first.
+/// Keeps the last `capacity` durations.
 class RecentDurations {
  public:
   explicit RecentDurations(std::size_t capacity) : capacity_{capacity} {}
 
   void add(double duration_ms);
 
-  /// Nearest rank: the smallest duration that so many of a hundred do not exceed, ms. Empty before
-  /// the first.
+  /// Returns the nearest-rank percentile, ms: the smallest duration that `percent` % of the
+  /// durations do not exceed. Empty before the first.
   std::optional<double> percentile_ms(std::size_t percent) const;
 
  private:

@@ -1,5 +1,5 @@
 /// @file
-/// What the archive is given to store: values of the domain, never rows.
+/// Values of the domain that the archive stores.
 
 #pragma once
 
@@ -20,83 +20,80 @@
 
 namespace spindrift {
 
-/// How the samples of a run come.
 enum class RunMode { Live, Process, Replay };
 
-/// As in the archive.
 constexpr std::string_view name_of(RunMode mode) {
   constexpr std::array<std::string_view, 3> kNames = {"live", "process", "replay"};
   return kNames.at(static_cast<std::size_t>(mode));
 }
 
-/// Where a run came from: enough to do it again.
+/// Describes how a run was made, so that it can be repeated.
 struct RunStart {
   SpacecraftKind spacecraft_kind;
   RunMode mode;
   std::string software_version;
   std::string config_toml;
   std::string config_sha256;
-  std::string config_path = {};             ///< Absolute. An orbit file is relative to it.
-  std::optional<std::string> orbit_sha256;  ///< Of the mission's orbit file, if it names one.
-  std::optional<std::string> telemetry_sha256 = {};  ///< Of all bytes of its files.
-  std::optional<std::string> label = {};             ///< That somebody gave it.
+  std::string config_path = {};             ///< Absolute; an orbit file is relative to it.
+  std::optional<std::string> orbit_sha256;  ///< Empty when the mission names no orbit file.
+  std::optional<std::string> telemetry_sha256 = {};  ///< Digest of all bytes of the files.
+  std::optional<std::string> label = {};             ///< Label that the user gave the run.
   std::vector<std::string> telemetry;                ///< File paths, or DDS domain and partition.
   std::string started_utc;                           ///< ISO 8601, ending in Z.
-  std::int64_t first_arrival = 0;  ///< Later than that of any sample of an earlier run.
+  std::int64_t first_arrival = 0;  ///< Higher than any arrival number of an earlier run.
 };
 
-/// How far the samples of a run reach.
 struct RunReach {
   TaiTime first;
   TaiTime last;
-  /// Of the ten-second spans of the planned contact, those in which samples came; empty: none is
-  /// planned.
+  /// Share of the planned contact's ten-second spans with samples; empty without a contact.
   std::optional<double> contact_share = {};
 };
 
-/// A run that goes on. What it has stored from `t` on is withdrawn, to be made again.
+/// Marks that a run is continued. Its products from `t` on are withdrawn and will be made again.
 struct Continuation {
   TaiTime t;
 };
 
-/// How the samples of one source came in, all its sessions together, since the run began.
+/// Counts of the samples of one source since the run began, summed over its sessions.
 struct SourceCount {
   std::string source;
   std::int64_t received = 0;
-  std::int64_t gaps = 0;  ///< Samples that are missing.
+  std::int64_t gaps = 0;  ///< Number of missing samples.
   std::int64_t duplicates = 0;
   std::int64_t disordered = 0;
 };
 
-/// The unit of submission: stored as a whole or not at all, in the order of the members.
-///
-/// A run's first batch carries `start`, its last one `finished_utc`. A sample that the archive
-/// already holds is not stored again, unless it says something else (table contradiction); a
-/// product with the key of an earlier one of its run, and a source's count, take its place. Only an
-/// edge that is late is not said to be so when something else has become of it: it arrived twice.
+/// The unit of submission. It is stored as a whole or not at all, in the order of the members.
+/// The first batch of a run carries `start`, its last one `finished_utc`. A sample that the archive
+/// already holds is not stored again, unless it has another value (table contradiction). A product
+/// replaces an earlier one of its run with the same key, and a source's count replaces the earlier
+/// count. Only an edge rejected as late does not replace the row of an edge with another outcome:
+/// the edge arrived twice.
 struct ArchiveBatch {
   std::string run_id;  ///< Unique over all archives that may ever be merged.
   std::string spacecraft_id;
   std::optional<RunStart> start = {};
   std::optional<Continuation> continuation = {};
-  std::optional<RunReach> reach = {};  ///< Where it is news.
-  /// With their order of arrival in the run; negative: the run leaves the sample out.
+  std::optional<RunReach> reach = {};  ///< Set when it has changed.
+  /// Samples with their order of arrival in the run; negative when the run leaves the sample out.
   TelemetrySamples samples = {};
-  std::vector<OperatorAction> actions = {};  ///< Of this run, or still in force; likewise.
-  /// Of the sources that give a sample this one stands beside it; empty: the first that did.
+  /// Operator actions of this run, and earlier ones that are still in force.
+  std::vector<OperatorAction> actions = {};
+  /// Source stored with a sample that several sources give; empty: the first of them.
   std::string preferred_source = {};
-  TelemetryValues moved = {};  ///< Stored already, and now of the run in this order of arrival.
-  std::vector<std::int64_t> silences = {};  ///< Each before the sample of that arrival.
+  TelemetryValues moved = {};  ///< Stored samples that the run takes now, with their new arrival.
+  std::vector<std::int64_t> silences = {};  ///< Each is the arrival of the sample after it.
   std::vector<RejectedInput> rejected = {};
   std::vector<Product> products = {};
-  bool stores_residuals = true;  ///< What measurements say to the estimators, of the products.
+  bool stores_residuals = true;  ///< Whether products store residuals in the estimators.
   std::vector<SourceCount> source_counts = {};
   std::optional<std::string> finished_utc = {};  ///< ISO 8601, ending in Z.
-  /// Not stored: when the last sample came that the products rest on. Empty: they waited for none.
+  /// Arrival of the last sample that the products rest on; not stored. Empty: there is none.
   std::optional<std::chrono::steady_clock::time_point> came = {};
 };
 
-/// Rows that `batch` asks for, those the archive already holds included.
+/// Returns the number of rows in `batch`, including those that the archive already holds.
 inline std::size_t row_count(const ArchiveBatch& batch) {
   return count_of(batch.samples) + count_of(batch.moved) + batch.rejected.size() +
          batch.products.size() + batch.source_counts.size() + batch.silences.size() +

@@ -1,5 +1,5 @@
 /// @file
-/// The archive's tables and views: made once, when the file is new.
+/// The tables and views of an archive, created when the file is new.
 
 #pragma once
 
@@ -9,17 +9,17 @@
 
 namespace spindrift {
 
-/// Stands in the header of every archive: "spdr".
+/// Application id in the header of every archive: "spdr".
 inline constexpr std::int32_t kArchiveApplicationId = 0x73706472;
 
-/// PRAGMA user_version of the archives of this program. Whoever changes a table or view raises it.
+/// PRAGMA user_version of the archives, to be raised with every change of a table or view.
 inline constexpr int kArchiveSchemaVersion = 30;
 
-/// Makes `database` an archive, all of it or nothing, unless it is one already.
+/// Creates tables and views in `database` in one transaction, unless it is an archive already.
 /// @throws SQLite::Exception
 void make_schema(SQLite::Database& database);
 
-/// Writes the leap seconds this program knows, for the views in UTC.
+/// Writes the leap seconds that this program knows; the views use them for UTC.
 /// @throws SQLite::Exception
 void refresh_leap_seconds(SQLite::Database& database);
 

@@ -75,7 +75,7 @@ Expected<std::filesystem::path> Store::copy() {
   }
 }
 
-// SQLite would carry the log over, and remove what stands at its name.
+// On closing SQLite would otherwise carry the log over and remove the file at the log's name.
 void Store::leave_alone_when_closed() {
   sqlite3_db_config(database_.getHandle(), SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE, 1, nullptr);
 }

@@ -1,5 +1,5 @@
 /// @file
-/// An archive's file, open for writing, and all that hangs on the connection.
+/// The file of an archive, open for writing, with everything that uses the connection.
 
 #pragma once
 
@@ -18,23 +18,22 @@
 
 namespace spindrift {
 
-/// Of the writer thread.
+/// Owns the connection that writes an archive; used by the writer thread only.
 class Store {
  public:
-  /// @return as ArchiveFile::hold and open_for_writing.
+  /// @return Errors as ArchiveFile::hold and open_for_writing.
   static Expected<std::unique_ptr<Store>> open(const std::filesystem::path& path);
 
-  /// @return as BatchWriter::write.
+  /// @return Errors as BatchWriter::write.
   Expected<void> write(std::span<const ArchiveBatch> batches) { return writer_.write(batches); }
 
   const ArchiveFile& file() const { return file_; }
 
-  /// As ArchiveFile::undamaged. What is damaged is not written any more, nor when it is closed.
+  /// Checks as ArchiveFile::undamaged. A damaged file is not written, not even on closing.
   Expected<void> undamaged();
 
-  /// All that is committed as a new file beside the archive, whatever has become of its names. What
-  /// has a copy is left alone when it is closed.
-  /// @return where it is.
+  /// Copies all that is committed into a new file beside the archive, even if the archive's name is
+  /// gone. After that, closing leaves the log alone. @return Path of the copy.
   Expected<std::filesystem::path> copy();
 
  private:
@@ -42,7 +41,7 @@ class Store {
   Store(ArchiveFile file, SQLite::Database database);
   void leave_alone_when_closed();
 
-  // Destroyed from the last to the first.
+  // The order matters: members are destroyed from the last to the first.
   ArchiveFile file_;
   SQLite::Database database_;
   Checkpointer checkpointer_;

@@ -21,14 +21,14 @@
 namespace spindrift {
 namespace {
 
-/// Without its edges yet.
+/// Finds the run, or the newest one with revolutions; its edges are not read yet.
 std::optional<StoredEdges> find_run(SQLite::Database& database, const std::string& spacecraft_id,
                                     const std::optional<std::string>& run_id) {
   SQLite::Statement query{
       database,
       "SELECT run_id, config_sha256, orbit_sha256 FROM run WHERE spacecraft_id = ?1 AND "
       "ifnull(run_id = ?2, 1)"
-      // Without sun1 a run has no rows in `revolution`.
+      // Table `revolution` will not do: without sun1 a run has no rows there.
       " AND EXISTS (SELECT 1 FROM pulse_use AS one WHERE one.run_id = run.run_id"
       "  AND revolution IS NOT NULL)"
       " ORDER BY first_arrival DESC, started_utc DESC LIMIT 1"};
@@ -48,14 +48,14 @@ std::optional<StoredEdges> find_run(SQLite::Database& database, const std::strin
       .pass = {}};
 }
 
-/// From the columns 0 and 1.
+/// Reads right ascension and declination from the columns 0 and 1.
 Eigen::Vector3d axis_of(SQLite::Statement& row) {
   return direction_icrf({.ra_rad = row.getColumn(0).getDouble() * kRadPerDeg,
                          .dec_rad = row.getColumn(1).getDouble() * kRadPerDeg});
 }
 
-/// Its own first, then those of the other candidates.
-/// @param fix A row of spin_fix.
+/// Selects the axis of a fix first, then those of its other candidates.
+/// @param fix Name of a row set with the columns of spin_fix.
 std::string select_axes_of(const char* fix) {
   return fmt::format(
       " SELECT c.ra_deg, c.dec_deg FROM {} JOIN spin_fix_candidate AS c"
@@ -74,7 +74,7 @@ PulseUse use_of(SQLite::Statement& row) {
   return use;
 }
 
-/// The run has come so far: an action of then has been done.
+/// Returns whether the run has reached `t`, so that an action from `t` on has been applied.
 bool has_come_to(SQLite::Database& database, const std::string& run_id, TaiTime t) {
   SQLite::Statement query{
       database,
@@ -87,8 +87,8 @@ bool has_come_to(SQLite::Database& database, const std::string& run_id, TaiTime 
   return query.getColumn(0).getInt() != 0;
 }
 
-/// What SpinPass makes of a choice: at the first fix from then on that left one, the candidate
-/// nearest to it. Empty: there was nothing to choose.
+/// Returns the prior that SpinPass makes of the choice: at the first unambiguous fix from then on
+/// with alternates, the candidate nearest to it. Empty when there is none.
 std::optional<SpinPrior> chosen_root(SQLite::Database& database, const std::string& run_id,
                                      const ChooseRoot& choice, TaiTime from, TaiTime to) {
   SQLite::Statement query{
@@ -119,7 +119,7 @@ bool is_of_prior(const SpinAction& action) {
   return std::holds_alternative<SetPrior>(action) || std::holds_alternative<ChooseRoot>(action);
 }
 
-/// Each holds until the next.
+/// Each prior holds until the next one.
 void read_told_prior(SQLite::Database& database, const std::multimap<TaiTime, SpinAction>& of_prior,
                      StoredEdges& stored) {
   for (auto said = of_prior.begin(); said != of_prior.end(); ++said) {
@@ -147,7 +147,6 @@ void read_actions(SQLite::Database& database, StoredEdges& stored) {
   read_told_prior(database, of_prior, stored);
 }
 
-/// In order of time.
 void read_uses(SQLite::Database& database, StoredEdges& stored) {
   SQLite::Statement query{database,
                           "SELECT t_tai_ns, channel, revolution, rejected_by FROM pulse_use"

@@ -1,5 +1,5 @@
 /// @file
-/// What the archive holds of a run for the estimator `batch`.
+/// Reads what the estimator `batch` needs of a run from the archive.
 
 #pragma once
 
@@ -14,14 +14,14 @@ namespace spindrift {
 
 struct StoredEdges {
   std::string run_id;
-  std::string config_sha256;                ///< Of the mission file of the run.
-  std::optional<std::string> orbit_sha256;  ///< Of its orbit file, if it had one.
-  std::optional<SpinPrior> told_prior;      ///< By an operator, in the place of the mission's.
+  std::string config_sha256;                ///< Digest of the run's mission file.
+  std::optional<std::string> orbit_sha256;  ///< Empty when the run had no orbit file.
+  std::optional<SpinPrior> told_prior;  ///< Prior given by an operator, instead of the mission's.
   PassEdges pass;
 };
 
-/// @param run_id Empty: the newest of the spacecraft that has revolutions.
-/// @return InvalidInput where there is no such run; otherwise as find_stored_passes.
+/// Reads the edges of a run. @param run_id Empty for the spacecraft's newest run with revolutions.
+/// @return InvalidConfiguration when there is no such run; otherwise errors as find_stored_passes.
 Expected<StoredEdges> read_edges(const std::filesystem::path& archive,
                                  const std::string& spacecraft_id,
                                  const std::optional<std::string>& run_id);

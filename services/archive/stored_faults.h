@@ -1,5 +1,5 @@
 /// @file
-/// What failed to compute of a run, and what contradicts itself in its samples.
+/// Reads which computations of a run failed, and which of its samples contradict each other.
 
 #pragma once
 
@@ -14,12 +14,11 @@
 
 namespace spindrift {
 
-/// In order of time.
-/// @return As find_stored_passes.
+/// Returns the faults of a run in order of time; errors as find_stored_passes.
 Expected<std::vector<RunFault>> find_faults(const std::filesystem::path& archive,
                                             const std::string& run_id);
 
-/// How many instants of a run have more than one value, by kind of sample. @return Likewise.
+/// Counts a run's instants with several values, by kind; errors as find_stored_passes.
 Expected<std::map<std::string, std::int64_t>> count_contradictions(
     const std::filesystem::path& archive, const std::string& run_id);
 

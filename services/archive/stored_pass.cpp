@@ -20,16 +20,16 @@ std::optional<TaiTime> time_of(const SQLite::Column& column) {
 
 constexpr const char* kFindRuns =
     "SELECT run_id, first_arrival, first_tai_ns, next_arrival, ifnull("
-    // Each of these tables is filled in order, and one may be behind the others: detail_lane.h.
+    // Each of these tables is filled in order, but one may be behind the others (detail_lane.h).
     " min((SELECT t_tai_ns FROM revolution AS last WHERE last.run_id = same.run_id"
     "   ORDER BY revolution DESC LIMIT 1),"
     "  (SELECT t_tai_ns FROM revolution AS last WHERE last.run_id = same.run_id AND revolution <="
     "   (SELECT max(revolution) FROM spin_measurement AS one WHERE one.run_id = same.run_id)"
     "   ORDER BY revolution DESC LIMIT 1),"
-    // One that no revolution had a place for may have any time.
+    // An edge without a revolution may have any time, so it does not count.
     "  (SELECT t_tai_ns FROM pulse_use AS one WHERE one.run_id = same.run_id"
     "   AND revolution IS NOT NULL ORDER BY t_tai_ns DESC LIMIT 1)),"
-    // Stored in one lane with all else that such a pass makes.
+    // A three-axis pass writes everything else in the same lane as this.
     "  (SELECT t_tai_ns FROM attitude AS last WHERE last.run_id = same.run_id AND source = 'mekf'"
     "   ORDER BY t_tai_ns DESC LIMIT 1)),"
     " (SELECT ifnull(sum(samples), 0) FROM rejected_input WHERE rejected_input.run_id = "
@@ -122,7 +122,6 @@ void bind_extent(SQLite::Statement& query, const std::string& spacecraft_id,
   }
 }
 
-/// What came again with another value.
 template <class Value>
 void read_contradicting(const SQLite::Database& database, SenderNames& senders, StoredPass& pass) {
   SQLite::Statement query{database,
@@ -164,7 +163,7 @@ LeftOut& left_out_of(StoredPass& pass, Origin origin) {
              : pass.left_out.emplace_back(LeftOut{.last = std::move(origin), .values = {}});
 }
 
-/// Negative arrivals: the latest first.
+/// Reads the samples left out. Their arrivals are negative, so the query gives the latest first.
 template <class Value>
 void read_left_out(const SQLite::Database& database, const std::string& spacecraft_id,
                    SenderNames& senders, StoredPass& pass) {

@@ -1,5 +1,5 @@
 /// @file
-/// What the archive holds of a run that may go on: its telemetry in the order of arrival.
+/// Reads the telemetry of a run that may be continued, in order of arrival.
 
 #pragma once
 
@@ -21,59 +21,62 @@
 
 namespace spindrift {
 
-/// What a run left out of one session.
+/// Holds the samples of one session that a run left out.
 struct LeftOut {
-  Origin last;             ///< With its highest seq.
-  TelemetryValues values;  ///< Each kind in order of arrival.
+  Origin last;             ///< Origin with the highest seq.
+  TelemetryValues values;  ///< Samples of each kind in order of arrival.
 };
 
-/// How many samples the stored reconstruction of the separation by a method rests on.
+/// Number of samples that each stored reconstruction of the separation rests on, by method.
 using Reconstructed = std::map<std::string, std::int64_t, std::less<>>;
 
 struct StoredPass {
-  /// No more of what it left out, the newest, come back.
+  /// At most this many of the samples left out, the newest ones, are read back.
   static constexpr std::int64_t kMostLeftOut = 1'000'000;
 
   std::string run_id;
   std::int64_t first_arrival;
-  std::optional<std::int64_t> next_arrival;  ///< Of the next run; empty: it is the newest.
-  std::optional<TaiTime> earliest;           ///< Of its samples; empty: it has none.
-  /// What the pass made of earlier times is stored: the last revolution of which all is began then,
-  /// or the last attitude is of then. Empty: there is none.
+  /// First arrival of the next run; empty for the newest run.
+  std::optional<std::int64_t> next_arrival;
+  std::optional<TaiTime> earliest;  ///< Time of the earliest sample; empty without samples.
+  /// Products of times before this are all stored. It is the start of the last revolution whose
+  /// products are complete, or the time of the last attitude; empty when there is none.
   std::optional<TaiTime> last_made;
   std::int64_t rejected_inputs;
   std::vector<SourceCount> source_counts;
-  std::vector<TaiTime> batches = {};  ///< Of its solutions of `batch`, in order.
+  std::vector<TaiTime> batches = {};  ///< Times of the `batch` solutions, in order.
   Reconstructed reconstructed = {};
-  LastOrigins last_origins = {};            ///< Of its samples, as they arrived first.
-  TelemetryValues values = {};              ///< Each kind in order of arrival.
-  std::vector<LeftOut> left_out = {};       ///< Of the newest run: it may become of it yet.
-  std::vector<std::int64_t> silences = {};  ///< Each before the sample of that arrival.
+  LastOrigins last_origins = {};  ///< For each kind of sample, the highest seq of each session.
+  TelemetryValues values = {};    ///< Samples of each kind in order of arrival.
+  /// Samples that the newest run left out; it may still take them.
+  std::vector<LeftOut> left_out = {};
+  std::vector<std::int64_t> silences = {};  ///< Each is the arrival of the sample after it.
 };
 
-/// Of the runs of `spacecraft_id` that were made as `start` says (same mode, telemetry, program,
-/// mission file and orbit) those that are not finished, and the newest in any case; oldest first.
-/// Reads by a connection of its own.
-/// @param senders Give the samples the numbers of their sources.
-/// @return none when there is none; as open_for_reading; Unavailable when reading fails.
+/// Finds the runs of `spacecraft_id` that agree with `start` (mode, telemetry, program, mission
+/// file and orbit) and are not finished, and the newest such run in any case; oldest first. Uses
+/// its own connection. @param senders Gives the samples the numbers of their sources. @return Empty
+/// when there is no such run; errors as open_for_reading; Unavailable when reading fails.
 Expected<std::vector<StoredPass>> find_stored_passes(const std::filesystem::path& archive,
                                                      const std::string& spacecraft_id,
                                                      const RunStart& start, SenderNames& senders);
 
-/// What operators have said of the telemetry of a spacecraft to runs of the mode of `start`, in
-/// order of arrival. What is of another kind of spacecraft is left out: the mission has changed.
-/// @return as find_stored_passes.
+/// Finds the operator actions on a spacecraft's runs in the mode of `start`, in order of arrival.
+/// Actions for another kind of spacecraft are left out, because the mission has changed since.
+/// @return Errors as find_stored_passes.
 Expected<std::vector<OperatorAction>> find_stored_actions(const std::filesystem::path& archive,
                                                           const std::string& spacecraft_id,
                                                           const RunStart& start);
 
-/// To the run of a spacecraft of that kind and those before it, likewise. @throws SQLite::Exception
+/// Reads the operator actions on a run and on the runs before it in the same mode, in order of
+/// arrival. Actions for another kind of spacecraft than `kind` are left out.
+/// @throws SQLite::Exception
 std::vector<OperatorAction> read_actions_of_run(SQLite::Database& database,
                                                 const std::string& run_id, SpacecraftKind kind);
 
-/// Edges in the run's pulses and coded frames, each sample once. Of the newest runs: a sample
-/// belongs to the run that took it last.
-/// @return as find_stored_passes.
+/// Counts the edges in the run's pulses and coded frames, each sample once. A sample belongs to the
+/// run that took it last, so only the newest runs have all of theirs.
+/// @return Errors as find_stored_passes.
 Expected<std::int64_t> count_stored_edges(const std::filesystem::path& archive,
                                           const std::string& run_id);
 

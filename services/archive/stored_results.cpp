@@ -16,14 +16,13 @@
 namespace spindrift {
 namespace {
 
-/// What tells an announced product from others.
 struct Identity {
   std::pair<std::size_t, std::string> instance;
   std::int64_t number;
   bool is_settled;
 };
 
-/// Empty: it is not announced.
+/// Returns the identity of a product; empty when it is not announced.
 std::optional<Identity> identity_of(const Product& product) {
   return std::visit(
       [&]<class Kind>(const Kind& value) -> std::optional<Identity> {
@@ -40,7 +39,7 @@ std::optional<Identity> identity_of(const Product& product) {
       product);
 }
 
-/// A row whose columns are those of `Table`, in their order.
+/// A row of a query with the columns of `Table` in their order.
 template <class Table>
 class StoredRow {
  public:
@@ -58,7 +57,7 @@ class StoredRow {
   SQLite::Statement& row_;
 };
 
-/// Calls `see` with each row of `Table` of a run, in the order of its key, that meets `condition`.
+/// Calls `see` with each row of `Table` of a run that meets `condition`, in order of the key.
 template <class Table, class See>
 void for_each_stored(const SQLite::Database& database, const std::string& run_id,
                      const std::string& condition, const See& see) {

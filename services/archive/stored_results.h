@@ -1,5 +1,5 @@
 /// @file
-/// What the archive holds of the results of a run that goes on: those that have been announced.
+/// Reads the announced results of a run that is continued.
 
 #pragma once
 
@@ -16,30 +16,29 @@
 
 namespace spindrift {
 
-/// Only what is announced: see is_announced of each kind of product.
+/// Holds the announced products of a run (see is_announced of each kind of product).
 class StoredResults {
  public:
-  /// The last one of each instance on the bus; of a fix with its best alternate only.
+  /// Returns each instance's last product; of a fix's alternates only the best.
   std::vector<Product> in_force() const;
 
-  /// Whether it has been given before, were it with other numbers. A fix that is no longer
-  /// AMBIGUOUS has not.
+  /// Returns whether this product was given before, even if with other numbers. A fix that is
+  /// resolved now and was AMBIGUOUS before counts as new.
   bool hold(const Product& product) const;
 
-  /// Those of an instance in the order of their numbers.
+  /// Adds a product. Those of one instance must come in the order of their numbers.
   void add(Product product);
 
  private:
   struct Given {
     Product last;
-    std::vector<std::int64_t> settled = {};  ///< In order; so are the others.
+    std::vector<std::int64_t> settled = {};  ///< Sorted, as `open` is.
     std::vector<std::int64_t> open = {};
   };
-  /// By kind and instance.
   std::map<std::pair<std::size_t, std::string>, Given> given_;
 };
 
-/// @return as find_stored_passes.
+/// @return Errors as find_stored_passes.
 Expected<StoredResults> find_stored_results(const std::filesystem::path& archive,
                                             const std::string& run_id);
 

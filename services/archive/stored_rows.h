@@ -1,5 +1,5 @@
 /// @file
-/// Samples of telemetry out of rows of the archive.
+/// Converts rows of the archive to samples of telemetry.
 
 #pragma once
 
@@ -24,7 +24,7 @@
 
 namespace spindrift {
 
-/// @name A column into a member; the schema allows no other values
+/// @name Read a column into a member; the schema allows no other values
 /// @{
 inline void read_member(const SQLite::Column& column, double& member) {
   member = column.getDouble();
@@ -37,7 +37,7 @@ inline void read_member(const SQLite::Column& column, PulseChannel& member) {
 }
 /// @}
 
-/// For `read_arrived`, in their order.
+/// Returns the columns that `read_arrived` expects, in that order.
 template <class Value>
 std::string arrived_columns() {
   std::string columns = "arrival, t_tai_ns";
@@ -56,11 +56,11 @@ Arrived<Value> read_arrived(SQLite::Statement& row) {
   return arrived;
 }
 
-/// Behind those columns: whose it is, where that matters.
+/// Column of the source, after those of arrived_columns, for kinds that need it.
 template <class Value>
 inline constexpr std::string_view kSourceColumn = HasSender<Value> ? ", source" : "";
 
-/// From a row with these.
+/// Reads the sender from a row that ends in kSourceColumn.
 template <class Value>
 void read_sender(const SQLite::Statement& row, SenderNames& senders, Value& value) {
   if constexpr (HasSender<Value>) {
@@ -68,14 +68,14 @@ void read_sender(const SQLite::Statement& row, SenderNames& senders, Value& valu
   }
 }
 
-/// The kind as in the table `contradiction`: the last part of its topic.
+/// Returns the kind as in the table `contradiction`: the last part of its topic.
 template <class Value>
 constexpr std::string_view contradiction_kind() {
   constexpr std::string_view kTopic = Telemetry<Value>::kTopic;
   return kTopic.substr(kTopic.rfind('/') + 1);
 }
 
-/// From arrival, t_tai_ns, source and value of that table.
+/// Reads a sample from arrival, t_tai_ns, source and value of the table `contradiction`.
 template <class Value>
 Arrived<Value> read_contradicting(const SQLite::Statement& row, SenderNames& senders) {
   Arrived<Value> arrived{.arrival = row.getColumn(0).getInt64(), .value = {}};
@@ -85,9 +85,10 @@ Arrived<Value> read_contradicting(const SQLite::Statement& row, SenderNames& sen
   return arrived;
 }
 
-/// Of a spacecraft in order of time, whatever run took them, both ends included; without those that
-/// a run left out since the time of their source was wrong. Of those that contradict each other
-/// what counts, whenever they came: what was said since a run took the sample of the instant.
+/// Reads the samples of a spacecraft between two times, both included, from all runs and in order
+/// of time, without samples left out because their source's time was wrong. Of contradicting
+/// samples the one that counts is returned; contradictions count from the run that took the sample
+/// of that instant on.
 template <class Value>
 std::vector<Value> read_between(const SQLite::Database& database, const std::string& spacecraft_id,
                                 TaiTime from, TaiTime to, SenderNames& senders) {
@@ -131,9 +132,9 @@ std::vector<Value> read_between(const SQLite::Database& database, const std::str
   return values;
 }
 
-/// All kinds likewise, arrived in order of time.
-/// @param preferred_source Empty: none.
-/// @return As open_for_reading; Unavailable when reading fails.
+/// Reads the samples of all kinds as read_between does, each kind in order of time.
+/// @param preferred_source Empty when there is none.
+/// @return Errors as open_for_reading; Unavailable when reading fails.
 Expected<TelemetryValues> find_telemetry(const std::filesystem::path& archive,
                                          const std::string& spacecraft_id,
                                          const std::string& preferred_source, TaiTime from,

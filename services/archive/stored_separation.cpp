@@ -18,7 +18,7 @@ namespace {
 
 Exclusions<SampleKind> read_exclusions(SQLite::Database& database,
                                        const std::string& spacecraft_id) {
-  // A run that only reconstructs has no samples of its own.
+  // The run must have samples: a run that only reconstructs has none of its own.
   SQLite::Statement query{database,
                           "SELECT run_id FROM run WHERE spacecraft_id = ? AND first_tai_ns IS NOT "
                           "NULL ORDER BY first_arrival DESC, started_utc DESC LIMIT 1"};

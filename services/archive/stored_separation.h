@@ -1,5 +1,5 @@
 /// @file
-/// What the archive holds that a separation can be reconstructed from.
+/// Reads what the archive holds for the reconstruction of a separation.
 
 #pragma once
 
@@ -14,16 +14,15 @@
 
 namespace spindrift {
 
-/// Of a run.
 struct StoredMission {
   std::string run_id;
   std::string config_toml;
   std::filesystem::path config_path;
-  std::optional<std::string> orbit_sha256;  ///< Of the orbit file, where it names one.
+  std::optional<std::string> orbit_sha256;  ///< Empty when the mission names no orbit file.
 };
 
-/// That of the newest run of a three-axis spacecraft.
-/// @return InvalidConfiguration where there is none; as open_for_reading.
+/// Returns the mission of the newest run of a three-axis spacecraft.
+/// @return InvalidConfiguration when there is none; errors as open_for_reading.
 Expected<StoredMission> find_stored_mission(const std::filesystem::path& archive);
 
 struct SeparationSamples {
@@ -33,11 +32,10 @@ struct SeparationSamples {
   std::vector<TimedOrbitState> orbit_states;
 };
 
-/// Of a spacecraft from a time on, in order of time, whatever run took them, but for those that a
-/// run left out since the time of their source was wrong, and for what an operator had the newest
-/// run that took samples leave out.
-/// @param preferred_source As read_between.
-/// @return As open_for_reading; Unavailable when reading fails.
+/// Reads the samples of a spacecraft from a time on, from all runs and in order of time. Samples
+/// left out because their source's time was wrong are omitted, and so are those that operators
+/// excluded in the newest run with samples. @param preferred_source Empty when there is none.
+/// @return Errors as open_for_reading; Unavailable when reading fails.
 Expected<SeparationSamples> find_separation_samples(const std::filesystem::path& archive,
                                                     const std::string& spacecraft_id,
                                                     const std::string& preferred_source,

@@ -1,5 +1,5 @@
 /// @file
-/// From the processor to the archive.
+/// Passes batches from the processor to the archive.
 
 #pragma once
 
@@ -10,7 +10,8 @@
 
 namespace spindrift {
 
-/// Stops at the first batch that is refused. @return as Archive::submit.
+/// Submits the batches in order and stops at the first that is refused.
+/// @return Errors as Archive::submit.
 inline Expected<void> submit_all(Archive& archive, std::vector<ArchiveBatch> batches) {
   for (ArchiveBatch& batch : batches) {
     if (auto taken = archive.submit(std::move(batch)); !taken) {

@@ -11,7 +11,6 @@ namespace spindrift {
 
 namespace {
 
-/// Empty where the view has none.
 std::optional<Quality> quality_named(const std::string& name) {
   for (int i = 0; i < kQualities; ++i) {
     if (const auto quality = static_cast<Quality>(i); name_of(quality) == name) {
@@ -47,7 +46,7 @@ PassVerdict verdict_of(SQLite::Statement& query, const std::string& run_id) {
 
 std::vector<PassVerdict> verdicts_in(SQLite::Database& archive,
                                      const std::vector<std::string>& run_ids) {
-  // Pages that one verdict reads serve the next until the transaction ends.
+  // In one transaction the pages read for one verdict are cached for the next.
   const SQLite::Transaction moment{archive};
   SQLite::Statement query{
       archive,

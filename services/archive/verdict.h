@@ -1,5 +1,5 @@
 /// @file
-/// What the archive's views say of a run: their rules are the only ones.
+/// Reads the judgement on a run from the archive's views, which alone define its rules.
 
 #pragma once
 
@@ -16,21 +16,21 @@ namespace spindrift {
 
 /// Two estimators whose axes differ by more than their sigmas explain.
 struct Disagreement {
-  std::string one;  ///< Estimators, as in spin_estimate.
+  std::string one;  ///< Name of an estimator as in spin_estimate.
   std::string other;
   double apart_deg;
-  double apart_sigmas;  ///< The larger of the two, for they share their edges.
+  double apart_sigmas;  ///< In units of the larger sigma, as both use the same edges.
 };
 
-/// In the order of `run_ids`, all of one moment of the archive. Throws SQLite::Exception.
+/// Returns the verdicts in the order of `run_ids`, all from the same state of the archive.
+/// @throws SQLite::Exception
 std::vector<PassVerdict> verdicts_in(SQLite::Database& archive,
                                      const std::vector<std::string>& run_ids);
-/// Of what is stored. @return As find_stored_passes.
+/// Returns the verdict on what is stored of a run; errors as find_stored_passes.
 Expected<PassVerdict> find_verdict(const std::filesystem::path& archive, const std::string& run_id);
 
-/// Which estimators of a run give axes that their sigmas do not explain: those that the view
-/// spin_comparison flags. Of the last estimates that are stored.
-/// @return As find_stored_passes.
+/// Returns the estimators of a run whose axes differ by more than their sigmas explain, as the view
+/// spin_comparison flags them from the last stored estimates; errors as find_stored_passes.
 Expected<std::vector<Disagreement>> find_disagreements(const std::filesystem::path& archive,
                                                        const std::string& run_id);
 

@@ -41,7 +41,7 @@ std::string this_process() {
 }
 
 Unexpected failure(const std::filesystem::path& lock, int error) {
-  // Where no file can be made is no place for an archive.
+  // A place where no file can be created is no place for an archive.
   const bool no_place = error == ENOENT || error == EACCES || error == EROFS || error == EPERM;
   return Unexpected{{no_place ? ErrorCode::InvalidConfiguration : ErrorCode::Unavailable,
                      fmt::format("cannot lock {}: {}", shown(lock.string()),
@@ -79,7 +79,7 @@ Expected<WriteLock> WriteLock::acquire(const std::filesystem::path& archive) {
 
 WriteLock::WriteLock(WriteLock&& other) noexcept : file_{std::exchange(other.file_, kNoLockFile)} {}
 
-// The file stays: whoever removed it could take the name from under the next holder.
+// The lock file is not removed: removing it could take the name from under the next holder.
 WriteLock::~WriteLock() {
   if (file_ != kNoLockFile) {
     close(file_);

@@ -1,5 +1,5 @@
 /// @file
-/// The right to write an archive: one holder at a time, on this host, whatever the process.
+/// The right to write an archive: one holder at a time on this host, across processes.
 
 #pragma once
 
@@ -10,10 +10,10 @@
 namespace spindrift {
 
 /// A lock on the file ARCHIVE.lock, which names the holder for people. The kernel drops the lock
-/// with its process, so the file that a killed holder leaves behind blocks nobody.
+/// with its process, so the lock file of a killed process blocks nobody.
 class WriteLock {
  public:
-  /// @return Unavailable, naming the holder (pid, command, host, since) when there is one.
+  /// @return Unavailable, naming the holder (pid, command, host, since), when there is one.
   static Expected<WriteLock> acquire(const std::filesystem::path& archive);
 
   WriteLock(WriteLock&& other) noexcept;

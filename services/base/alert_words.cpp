@@ -70,7 +70,7 @@ constexpr std::array<Words, kAlertCodes> kWords{{
     {DataOutdated, "what the service needs ends", "get it anew"},
 }};
 
-/// What may end of that which the service needs.
+/// Data of limited validity that the service needs.
 struct Ending {
   std::string_view about;
   std::string_view what;
@@ -83,7 +83,7 @@ constexpr std::array<Ending, 3> kEndings{{
      "install a program with the next generation of it"},
 }};
 
-/// Null: the change is of something else.
+/// Returns null for a change of any other kind.
 const Ending* ending_of(const ConditionChange& change) {
   const auto* const found = std::find_if(kEndings.begin(), kEndings.end(), [&](const Ending& one) {
     return one.about == change.about;
@@ -99,7 +99,7 @@ std::string value_text(const ConditionChange& change) {
                        duration_text(std::abs(evidence.value) * kHour_s), is_over ? " ago" : "");
   }
   if (evidence.limit <= 0.0) {
-    return {};  // Of what is raised at once because it is there, the value says nothing.
+    return {};  // The alert is raised by mere presence, so the value says nothing.
   }
   const std::string sigma =
       evidence.sigma ? fmt::format(" (sigma {:.3g})", *evidence.sigma) : std::string{};
@@ -120,7 +120,7 @@ std::string sentence_of(const ConditionChange& change) {
     return fmt::format("over at {}", format_utc(change.t));
   }
   const std::string who = change.who.empty() ? "" : fmt::format(" ({})", shown(change.who));
-  // The value of a departure is that of its first instant.
+  // The value of a departure was measured at its first instant.
   const TaiTime t = change.code == ModelDeparture ? change.evidence.since : change.t;
   return fmt::format("{}{}{} at {}: {}", words.what, who, value_text(change), format_utc(t),
                      what_to_do(change));

@@ -1,5 +1,5 @@
 /// @file
-/// What an alert says to people, and its evidence for programs.
+/// Words of an alert for people, and its evidence as JSON.
 
 #pragma once
 
@@ -10,11 +10,11 @@
 
 namespace spindrift {
 
-/// "sigma of the answer in force: 1.4 deg, limit 1 at 2026-11-20T03:00:00.000Z: wait ...": what,
-/// value, limit, UTC and what to do. The key stands beside it.
+/// Returns what, value, limit, UTC and advice, without the key: "sigma of the answer in force: 1.4
+/// deg, limit 1 at 2026-11-20T03:00:00.000Z: wait ...".
 std::string sentence_of(const ConditionChange& change);
 
-/// A JSON object.
+/// Returns a JSON object.
 std::string evidence_json(const Evidence& evidence, std::string_view config_sha256);
 
 }  // namespace spindrift

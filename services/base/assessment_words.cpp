@@ -79,7 +79,7 @@ constexpr std::array<Pattern<ReasonCode>, kReasonCodes> kReasonPatterns{{
 }};
 static_assert(are_by_code(kReasonPatterns));
 
-/// What `decimals` of a pattern are: those that the sigma of the reason leaves.
+/// Returns the decimals for `decimals` of a pattern, from the sigma among the reason's values.
 std::optional<NamedValue> decimals_of(const Reason& reason) {
   constexpr int kLeast = 3;
   for (const auto& [name, value] : reason.values) {
@@ -91,7 +91,7 @@ std::optional<NamedValue> decimals_of(const Reason& reason) {
   return std::nullopt;
 }
 
-/// `s` and `es` of a pattern: what a word for `count` of a thing ends in.
+/// Returns the plural endings `s` and `es` of a pattern, empty for a `count` of one.
 std::vector<NamedValue> endings_of(const Reason& reason) {
   for (const auto& [name, value] : reason.values) {
     const auto* const count = std::get_if<std::int64_t>(&value);

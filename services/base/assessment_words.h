@@ -1,5 +1,5 @@
 /// @file
-/// The status of an answer: quality and reasons as a sentence for people.
+/// The assessment of an estimate, quality and reasons, as a sentence for people.
 
 #pragma once
 
@@ -9,7 +9,7 @@
 
 namespace spindrift {
 
-/// "OK, 600 revolutions, 2 edges gated": the name of the quality first.
+/// Returns for example "OK, 600 revolutions, 2 edges gated", the name of the quality first.
 std::string sentence_of(const Assessment& assessment);
 
 }  // namespace spindrift

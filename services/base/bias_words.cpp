@@ -10,7 +10,7 @@
 namespace spindrift {
 namespace {
 
-// By SensorBias.
+// In the order of SensorBias.
 constexpr std::array<std::string_view, kSensorBiases> kBiasWords{
     "sun angle",
     "separation of the sun slits",
@@ -26,7 +26,7 @@ constexpr std::array<std::string_view, kSensorBiases> kBiasWords{
 std::vector<std::string_view> words_of(const BiasSet& biases) {
   std::vector<std::string_view> words;
   for (std::size_t i = 0; i < kSensorBiases; ++i) {
-    // Coning has two unknowns of one name, one after the other.
+    // Coning has two successive unknowns of the same name.
     if (biases[i] && (words.empty() || words.back() != kBiasWords.at(i))) {
       words.push_back(kBiasWords.at(i));
     }

@@ -1,5 +1,5 @@
 /// @file
-/// The biases of the sensors of a spinner in words.
+/// The sensor biases of a spinner in words.
 
 #pragma once
 
@@ -9,8 +9,8 @@
 
 namespace spindrift {
 
-/// That the edges leave a direction of the biases open.
-/// @param direction Those that take part in it.
+/// States that the edges leave a direction of the biases undetermined.
+/// @param direction Biases that take part in the direction.
 std::string undetermined_sentence(const BiasSet& direction);
 
 }  // namespace spindrift

@@ -1,5 +1,5 @@
 /// @file
-/// Where two threads meet, and the only place: a queue that makes its producer wait when full.
+/// The queue through which threads exchange data; a full queue blocks its producers.
 
 #pragma once
 
@@ -14,21 +14,21 @@
 
 namespace spindrift {
 
-/// Many producers, one consumer. Nothing is ever dropped: a full queue blocks `push`, so pressure
-/// goes back to whoever produces. After `close()` pushes are refused and what is queued can still
-/// be taken.
+/// A queue for many producers and one consumer. Nothing is ever dropped: a full queue blocks
+/// `push`, which slows down the producers. After `close()` pushes are refused, while queued items
+/// can still be taken.
 template <class T>
 class BoundedQueue {
  public:
   using Weigh = std::function<std::size_t(const T&)>;
 
-  /// @param capacity In what `weigh` gives: items, unless told otherwise.
+  /// @param capacity Sum of the weights by `weigh`, by default the number of items.
   explicit BoundedQueue(
       std::size_t capacity, Weigh weigh = [](const T& /*item*/) { return std::size_t{1}; })
       : capacity_{capacity}, weigh_{std::move(weigh)} {}
 
-  /// Waits until less than the capacity is queued. @return false when the queue is closed: `item`
-  /// was not taken.
+  /// Waits until less than the capacity is queued. @return False when the queue is closed, and
+  /// `item` was not taken.
   bool push(T item) {
     const std::size_t weight = weigh_(item);
     std::unique_lock lock{mutex_};
@@ -43,7 +43,7 @@ class BoundedQueue {
     return true;
   }
 
-  /// Likewise, whatever is queued: for the few that somebody waits for.
+  /// Pushes without waiting for room, for the few items that somebody waits for.
   bool push_at_once(T item) {
     const std::size_t weight = weigh_(item);
     {
@@ -65,14 +65,14 @@ class BoundedQueue {
     return take_first(lock);
   }
 
-  /// As `take`, but waits no longer than until `deadline`; then empty, too.
+  /// Works as `take`, but returns empty at `deadline` at the latest.
   std::optional<T> take_until(std::chrono::steady_clock::time_point deadline) {
     std::unique_lock lock{mutex_};
     filled_.wait_until(lock, deadline, [this] { return closed_ || !items_.empty(); });
     return take_first(lock);
   }
 
-  /// Closed and empty: nothing is to come.
+  /// Returns whether the queue is closed and empty, so that no item will come.
   bool is_drained() const {
     const std::lock_guard lock{mutex_};
     return closed_ && items_.empty();
@@ -111,7 +111,7 @@ class BoundedQueue {
   std::condition_variable room_;
   std::condition_variable filled_;
   std::deque<T> items_;
-  std::size_t queued_ = 0;  ///< By weight.
+  std::size_t queued_ = 0;  ///< Sum of weights.
   bool closed_ = false;
 };
 

@@ -1,5 +1,5 @@
 /// @file
-/// An exception ends at the edge of its thread.
+/// Turns exceptions that escape the work of a thread into errors.
 
 #pragma once
 
@@ -13,9 +13,9 @@
 
 namespace spindrift {
 
-/// What `work` gives, an Expected<void> or nothing; an exception that escapes it as a failure.
-/// Uncaught it would end the process from within a thread, and with it all that is accepted and not
-/// yet stored. @param doing What the thread does, for the message. @return Unavailable.
+/// Returns what `work` returns (an Expected<void> or nothing), and an escaping exception as an
+/// error. Uncaught it would end the process, and lose all that is accepted but not yet stored.
+/// @param doing What the thread does, for the message. @return Unavailable.
 template <class Work>
 Expected<void> contained(std::string_view doing, const Work& work) {
   const auto failed = [doing](std::string_view why) {

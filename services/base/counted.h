@@ -1,5 +1,5 @@
 /// @file
-/// So many of a thing.
+/// Formats a count with its noun.
 
 #pragma once
 
@@ -10,7 +10,7 @@
 
 namespace spindrift {
 
-/// "1 star fix", "2 star fixes". @param plural Ends in "s", "xes" where one ends in "x".
+/// Returns "1 star fix", "2 star fixes". @param plural Ends in "s", with "xes" for one in "x".
 template <class Count>
 std::string counted(Count count, std::string_view plural) {
   if (count == 1) {

@@ -1,5 +1,5 @@
 /// @file
-/// How many digits of a value its sigma leaves to be shown.
+/// Rounds a value to the digits that its sigma justifies.
 
 #pragma once
 
@@ -11,7 +11,7 @@
 
 namespace spindrift {
 
-/// So many decimals that a sigma shows two digits, `least` of them at least.
+/// Returns the number of decimals, at least `least`, that show two digits of a sigma.
 inline int decimals_for(double sigma, int least) {
   constexpr int kMost = 12;
   return sigma > 0.0 && std::isfinite(sigma)
@@ -20,18 +20,18 @@ inline int decimals_for(double sigma, int least) {
              : least;
 }
 
-/// A sigma, or another small value, by itself.
+/// Formats a sigma, or another small value, to its own digits.
 inline std::string to_its_digits(double sigma, int least) {
   return fmt::format("{:.{}f}", sigma, decimals_for(sigma, least));
 }
 
-/// "0.2003 +/- 0.0012", to the digits that sigma leaves.
+/// Returns "0.2003 +/- 0.0012", to the digits that sigma justifies.
 inline std::string with_sigma(double value, double sigma, int least) {
   const int decimals = decimals_for(sigma, least);
   return fmt::format("{:.{}f} +/- {:.{}f}", value, decimals, sigma, decimals);
 }
 
-/// Likewise with the sign of the value.
+/// Works as `with_sigma` and also shows the sign of a positive value.
 inline std::string signed_with_sigma(double value, double sigma, int least) {
   return (std::signbit(value) ? "" : "+") + with_sigma(value, sigma, least);
 }

@@ -1,5 +1,5 @@
 /// @file
-/// Radians of the pipelines in the units of people: degrees and turns per minute.
+/// Converts radians of the pipelines to degrees and turns per minute for people.
 
 #pragma once
 
@@ -14,13 +14,13 @@ namespace spindrift {
 
 inline constexpr double kRpmPerHourPerRad_s2 = kRpmPerRad_s * kHour_s;
 
-/// Right ascension in [0, 360), declination in [-90, 90].
+/// A direction with right ascension in [0, 360) and declination in [-90, 90].
 struct PlaceDeg {
   double ra_deg;
   double dec_deg;
 };
 
-/// `direction_icrf` needs no unit length.
+/// @param direction_icrf Need not have unit length.
 inline PlaceDeg place_deg(const Eigen::Vector3d& direction_icrf) {
   const RaDec place = ra_dec_of(direction_icrf);
   const double ra_deg = place.ra_rad * kDegPerRad;
@@ -28,7 +28,7 @@ inline PlaceDeg place_deg(const Eigen::Vector3d& direction_icrf) {
   return {.ra_deg = ra_deg == 360.0 ? 0.0 : ra_deg, .dec_deg = place.dec_rad * kDegPerRad};
 }
 
-/// 1-sigma, both axes together: square root of the trace.
+/// Returns the 1-sigma of both axes together: the square root of the trace.
 inline double sigma_deg(const Eigen::Matrix2d& covariance_rad2) {
   return std::sqrt(covariance_rad2.trace()) * kDegPerRad;
 }

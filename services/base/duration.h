@@ -1,5 +1,5 @@
 /// @file
-/// How long, as people say it.
+/// Formats durations for people.
 
 #pragma once
 
@@ -7,8 +7,8 @@
 
 namespace spindrift {
 
-/// "3 days 11 h", "5 h 20 min", "12 min 5 s", "8 s", "0.4 s": two units at most, rounded to the
-/// smaller.
+/// Returns "3 days 11 h", "5 h 20 min", "12 min 5 s", "8 s" or "0.4 s": at most two units, rounded
+/// to the smaller.
 /// @param seconds Not negative, finite.
 std::string duration_text(double seconds);
 

@@ -1,5 +1,5 @@
 /// @file
-/// How long something takes, of all times so far.
+/// A histogram of durations since the start.
 
 #pragma once
 
@@ -9,7 +9,7 @@
 
 namespace spindrift {
 
-/// Counts durations by bounds that suit commits and latencies, in seconds.
+/// Counts durations up to bounds, in seconds, that suit commits and latencies.
 class DurationHistogram {
  public:
   static constexpr std::array<double, 15> kBounds_s = {
@@ -23,7 +23,7 @@ class DurationHistogram {
     sum_s_ += duration_s;
   }
 
-  /// How many were not above each bound.
+  /// Returns for each bound how many durations were not above it.
   const std::array<std::uint64_t, kBounds_s.size()>& counts() const { return counts_; }
   std::uint64_t count() const { return count_; }
   double sum_s() const { return sum_s_; }

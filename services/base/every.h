@@ -1,5 +1,5 @@
 /// @file
-/// Work that is done again and again until its thread is told to stop.
+/// Repeats work until its thread is told to stop.
 
 #pragma once
 
@@ -10,7 +10,7 @@
 
 namespace spindrift {
 
-/// At once, and `period` after it was done each time. A stop ends the wait.
+/// Does the work at once, and again `period` after each completion. A stop request ends the wait.
 template <class Work>
 void every(std::chrono::milliseconds period, const std::stop_token& stop, const Work& work) {
   std::mutex mutex;

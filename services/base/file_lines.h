@@ -1,5 +1,5 @@
 /// @file
-/// The lines of a text file one by one.
+/// Reads a text file line by line.
 
 #pragma once
 
@@ -16,11 +16,11 @@ namespace spindrift {
 
 struct FileLine {
   std::int64_t number;    ///< From 1.
-  std::string_view text;  ///< Without its end, CR LF or LF; good until the next line is read.
-  bool too_long;          ///< Only the beginning of the line stands in `text`.
+  std::string_view text;  ///< Without CR LF or LF; valid until the next line is read.
+  bool too_long;          ///< `text` has only the beginning of the line.
 };
 
-/// In constant memory. Empty lines and a byte order mark are passed over; the last line needs no
+/// Uses constant memory. It skips empty lines and a byte order mark; the last line may lack a line
 /// end.
 class FileLines {
  public:
@@ -28,11 +28,11 @@ class FileLines {
 
   explicit FileLines(InputFile file) : file_{std::move(file)} {}
 
-  /// False at the end of the file.
+  /// Returns false at the end of the file.
   /// @return Unavailable when reading fails on the way.
   Expected<bool> next(FileLine& line);
 
-  /// Of the file, from its beginning.
+  /// Counts from the beginning of the file.
   std::uint64_t bytes_read() const { return bytes_read_; }
 
  private:
@@ -44,8 +44,8 @@ class FileLines {
 
   InputFile file_;
   std::vector<char> buffer_;
-  std::string_view rest_;  ///< Of the buffer: read and not yet given.
-  bool ended_ = false;     ///< There is nothing behind `rest_`.
+  std::string_view rest_;  ///< Part of the buffer not yet returned.
+  bool ended_ = false;     ///< The file has nothing after `rest_`.
   bool in_long_line_ = false;
   std::int64_t number_ = 0;
   std::uint64_t bytes_read_ = 0;

@@ -13,7 +13,7 @@ namespace {
 
 using Arguments = fmt::dynamic_format_arg_store<fmt::format_context>;
 
-/// Puts one value among the arguments of a pattern.
+/// Adds one value to the arguments of a pattern.
 class Argument {
  public:
   Argument(Arguments& all, const std::string& name, int utc_decimals)

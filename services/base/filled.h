@@ -1,5 +1,5 @@
 /// @file
-/// Values put into the places of a sentence that have their names.
+/// Fills named placeholders of a sentence with values.
 
 #pragma once
 
@@ -13,14 +13,14 @@
 
 namespace spindrift {
 
-/// What is said of a code.
+/// Sentence pattern of a code.
 template <class Code>
 struct Pattern {
   Code code;
   std::string_view text;
 };
 
-/// Whether each code's pattern stands at its place, so that none is missing.
+/// Checks at compile time that every code has its pattern, in the order of the codes.
 template <class Code, std::size_t kCodes>
 constexpr bool are_by_code(const std::array<Pattern<Code>, kCodes>& patterns) {
   for (std::size_t i = 0; i < kCodes; ++i) {
@@ -36,11 +36,10 @@ std::string_view pattern_of(const std::array<Pattern<Code>, kCodes>& patterns, C
   return patterns.at(static_cast<std::size_t>(code)).text;
 }
 
-/// @param pattern Format text of {fmt}; a time `*_tai_ns` is there as UTC text, several things of a
-///        kind with commas between them.
-/// @param utc_decimals Of the seconds.
-/// @return `pattern` itself where `values` lack one of its names: values of an archive that is not
-///         as it was written.
+/// @param pattern Format text of {fmt}. A time `*_tai_ns` is inserted as UTC text, several values
+///        of one name with commas between them.
+/// @param utc_decimals Decimals of the seconds in UTC text.
+/// @return `pattern` itself when `values` lack one of its names, as in a modified archive.
 std::string filled(std::string_view pattern, std::span<const NamedValue> values, int utc_decimals);
 
 }  // namespace spindrift

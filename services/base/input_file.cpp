@@ -16,7 +16,7 @@
 namespace spindrift {
 namespace {
 
-/// Empty: a regular file of that size at most.
+/// Returns empty for a regular file of at most `most_bytes`.
 std::string why_refused(int file, std::uint64_t most_bytes, struct stat& status) {
   struct statfs system {};
   if (fstat(file, &status) != 0 || fstatfs(file, &system) != 0) {
@@ -38,7 +38,7 @@ Expected<InputFile> InputFile::open(const std::filesystem::path& path, std::uint
     return Unexpected{{ErrorCode::InvalidConfiguration,
                        fmt::format("{}: cannot be read: {}", shown(path.string()), reason)}};
   };
-  // To open a pipe waits for a writer, and a terminal could become ours.
+  // Opening a pipe must not block, and a terminal must not become the controlling one.
   const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY);
   if (file < 0) {
     return unreadable(std::generic_category().message(errno));

@@ -1,5 +1,5 @@
 /// @file
-/// A file that somebody gives us to read.
+/// An input file given by the user.
 
 #pragma once
 
@@ -17,7 +17,7 @@
 
 namespace spindrift {
 
-/// Far more than anybody writes by hand.
+/// Size limit for text files, far more than anybody writes by hand.
 inline constexpr std::uint64_t kMostTextBytes = std::uint64_t{64} << 20U;
 
 class InputFile {
@@ -28,14 +28,14 @@ class InputFile {
       const std::filesystem::path& path,
       std::uint64_t most_bytes = std::numeric_limits<std::uint64_t>::max());
 
-  /// When it was opened, bytes.
+  /// Size in bytes at opening.
   std::uint64_t size() const { return size_; }
 
-  /// Fills `buffer`, but for the end of the file. @return how much of it; Unavailable when reading
-  /// fails.
+  /// Fills `buffer` unless the file ends. @return The number of bytes read; Unavailable when
+  /// reading fails.
   Expected<std::size_t> read(std::span<char> buffer);
 
-  /// To its beginning. @return Unavailable when that fails.
+  /// Returns to the beginning of the file. @return Unavailable when that fails.
   Expected<void> rewind();
 
  private:
@@ -53,7 +53,7 @@ class InputFile {
   std::uint64_t size_;
 };
 
-/// All of a file. @return the errors of InputFile.
+/// Reads a whole file. @return The errors of InputFile.
 Expected<std::string> read_text_file(const std::filesystem::path& path,
                                      std::uint64_t most_bytes = kMostTextBytes);
 

@@ -1,5 +1,5 @@
 /// @file
-/// Words as a key of JSON.
+/// Converts words to a JSON key.
 
 #pragma once
 
@@ -9,7 +9,7 @@
 
 namespace spindrift {
 
-/// "coded frames": "coded_frames"
+/// Converts "coded frames" to "coded_frames".
 inline std::string json_key(std::string_view words) {
   std::string key{words};
   std::replace(key.begin(), key.end(), ' ', '_');

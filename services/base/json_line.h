@@ -1,5 +1,5 @@
 /// @file
-/// What a program reads.
+/// Writes JSON for other programs.
 
 #pragma once
 
@@ -8,7 +8,7 @@
 
 namespace spindrift {
 
-/// One line. Of text from outside, as of paths, what is no UTF-8 is replaced.
+/// Returns one line. Invalid UTF-8 in external text, such as paths, is replaced.
 inline std::string json_line(const nlohmann::json& json) {
   return json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }

@@ -20,7 +20,7 @@ using std::chrono::year;
 
 constexpr const char* kMachineTable = "/usr/share/zoneinfo/leap-seconds.list";
 constexpr seconds kFrom1900To1970{2'208'988'800};
-// eraDat calls a year dubious when it is more than so many after the release of its table.
+// eraDat calls years dubious from this many years after the release of its table.
 constexpr int kTrustedYears = 5;
 
 std::optional<std::int64_t> number(std::string_view text) {
@@ -30,7 +30,7 @@ std::optional<std::int64_t> number(std::string_view text) {
   return error == std::errc{} ? std::optional{value} : std::nullopt;
 }
 
-/// The year in which ERFA's table was made, after that of its last leap second.
+/// Returns the release year of ERFA's table, from the first year that eraDat calls dubious.
 int erfa_release_year(year last_leap) {
   int dubious = static_cast<int>(last_leap);
   for (double offset_s = 0.0; eraDat(dubious, 1, 1, 0.0, &offset_s) == 0; ++dubious) {
@@ -38,7 +38,7 @@ int erfa_release_year(year last_leap) {
   return dubious - kTrustedYears - 1;
 }
 
-/// Not of a time before the last leap second.
+/// Holds only for times after the last leap second.
 sys_days day_of(TaiTime t) {
   return floor<days>(sys_seconds{floor<seconds>(t.time_since_epoch()) -
                                  seconds{leap_seconds().back().tai_minus_utc_s}});

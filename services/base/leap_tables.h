@@ -1,5 +1,5 @@
 /// @file
-/// The tables of leap seconds that this program and this machine know.
+/// The leap second tables of this program and of this machine.
 
 #pragma once
 
@@ -18,15 +18,15 @@ struct LeapTable {
 };
 
 struct LeapFacts {
-  std::chrono::sys_days day;         ///< For which they are to be known.
-  LeapTable erfa;                    ///< With which the program computes.
-  std::optional<LeapTable> machine;  ///< Of the package tzdata; absent where it is not installed.
+  std::chrono::sys_days day;         ///< Day for which both must hold.
+  LeapTable erfa;                    ///< Table that the program uses.
+  std::optional<LeapTable> machine;  ///< Table of package tzdata, if installed.
 };
 
-/// From the text of leap-seconds.list, whose times are seconds since 1900. Absent for another text.
+/// Parses leap-seconds.list, whose times are seconds since 1900. Returns empty for any other text.
 std::optional<LeapTable> machine_table(std::string_view text);
 
-/// @param t For which they are to be known.
+/// @param t Time for which the leap seconds must be known.
 LeapFacts leap_facts(TaiTime t);
 
 }  // namespace spindrift

@@ -1,5 +1,5 @@
 /// @file
-/// Why a revolution gives no spin axis as a sentence for people.
+/// The reason why a revolution gives no spin axis, as a sentence for people.
 
 #pragma once
 

@@ -149,7 +149,7 @@ constexpr std::array<Pattern<NoticeCode>, kNoticeCodes> kNoticePatterns{{
 }};
 static_assert(are_by_code(kNoticePatterns));
 
-/// By what they were left out (schemas/tables.sql): the limit that they failed, and what helps.
+/// Advice by the test that left samples out (schemas/tables.sql), with the limit that they failed.
 struct WhatToDo {
   std::string_view rejected_by;
   std::string_view text;
@@ -186,7 +186,7 @@ std::string_view what_to_do(std::string_view rejected_by) {
   return found == kWhatToDo.end() ? "look at rejected_sample" : found->text;
 }
 
-/// Why fixes of a case leave several candidates.
+/// Explains why fixes of a geometry case leave several candidates.
 std::string_view what_is_missing(std::int64_t geometry_case) {
   switch (geometry_case) {
     case 4:

@@ -11,10 +11,10 @@
 
 namespace spindrift {
 
-/// In words with underscores: "late_edges".
+/// Returns a name such as "late_edges".
 std::string_view name_of(NoticeCode code);
 
-/// Its values by their names, and those of why there is no fix.
+/// Returns the notice's values by name, and those of the reason for a missing fix.
 nlohmann::json values_of(const Notice& notice);
 
 std::string sentence_of(const Notice& notice);

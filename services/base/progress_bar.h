@@ -1,5 +1,5 @@
 /// @file
-/// How far a long command is, for somebody who watches it.
+/// Shows on a terminal how far a long command has come.
 
 #pragma once
 
@@ -9,18 +9,18 @@
 
 namespace spindrift {
 
-/// Ahead of whatever else is written to a terminal while a bar may stand in its last line.
+/// Precedes any other output to a terminal whose last line may hold a progress bar.
 inline constexpr const char* kEraseLine = "\r\x1b[K";
 
-/// `text` in place of what stands in the last line of standard error, a terminal; at once, which
-/// the end of a line would do otherwise.
+/// Replaces the last line of standard error, a terminal, by `text`, and flushes because no line end
+/// does so.
 void draw_last_line(const std::string& text);
 
-/// One line on standard error, drawn anew at most ten times a second and gone at the end. Silent
-/// where standard error is no terminal.
+/// One line on standard error, redrawn at most ten times a second and erased at the end. Draws
+/// nothing where standard error is no terminal.
 class ProgressBar {
  public:
-  /// @param label What is being done: "processing". @param total What `done` will reach.
+  /// @param label Name of the activity, as "processing". @param total Final value of `done`.
   ProgressBar(std::string label, std::uint64_t total);
   ~ProgressBar();
   ProgressBar(const ProgressBar&) = delete;
@@ -28,7 +28,7 @@ class ProgressBar {
   ProgressBar(ProgressBar&&) = delete;
   ProgressBar& operator=(ProgressBar&&) = delete;
 
-  /// Cheap enough for every batch.
+  /// Draws only when due, so that it is cheap enough to call for every batch.
   void advance_to(std::uint64_t done);
 
  private:

@@ -7,7 +7,7 @@
 namespace spindrift {
 namespace {
 
-// In the order in which they are given.
+// Ordered, to keep the members as given.
 using Json = nlohmann::ordered_json;
 
 std::optional<ReasonCode> code_named(std::string_view name) {

@@ -1,5 +1,5 @@
 /// @file
-/// Reasons as the archive has them: a JSON array of objects with `code` and the values by name.
+/// Reasons as in the archive: a JSON array of objects with `code` and the values by name.
 
 #pragma once
 
@@ -14,7 +14,7 @@ namespace spindrift {
 
 std::string to_json_text(std::span<const Reason> reasons);
 
-/// What is no reason that this program knows is left out.
+/// Parses the array and skips reasons unknown to this program.
 std::vector<Reason> reasons_of(std::string_view text);
 
 }  // namespace spindrift

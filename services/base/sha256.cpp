@@ -23,7 +23,7 @@ class Sha256 {
     return EVP_DigestUpdate(context_.get(), bytes.data(), bytes.size()) == 1;
   }
 
-  /// Empty: refused.
+  /// Returns an empty string on failure.
   std::string hex() {
     std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
     unsigned int size = 0;
@@ -43,7 +43,7 @@ class Sha256 {
   std::unique_ptr<EVP_MD_CTX, Free> context_{EVP_MD_CTX_new()};
 };
 
-/// `next` gives the bytes piece by piece; none at the end.
+/// @param next Returns the bytes piece by piece, and an empty piece at the end.
 template <class Next>
 Expected<std::string> digest_of(const Next& next) {
   const Unexpected refused{{ErrorCode::Unavailable, "OpenSSL does not give a SHA-256 digest"}};

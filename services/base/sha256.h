@@ -1,5 +1,5 @@
 /// @file
-/// What identifies a file: SHA-256 of its bytes, 64 lower-case hexadecimal digits.
+/// Identifies a file by the SHA-256 of its bytes, 64 lower-case hexadecimal digits.
 
 #pragma once
 
@@ -16,10 +16,10 @@ namespace spindrift {
 /// @return Unavailable when the cryptographic library refuses.
 Expected<std::string> sha256_hex(std::string_view bytes);
 
-/// Of what there is of `file` from where it is. @return Unavailable when reading fails, too.
+/// Hashes `file` from its current position on. @return Also Unavailable when reading fails.
 Expected<std::string> sha256_hex(InputFile& file);
 
-/// Of all bytes of the files, one behind the other. @return the errors of InputFile, too.
+/// Hashes the concatenation of the files. @return Also the errors of InputFile.
 Expected<std::string> sha256_hex(std::span<const std::filesystem::path> files);
 
 }  // namespace spindrift

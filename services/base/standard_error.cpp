@@ -16,7 +16,7 @@ constexpr std::size_t kMostWaiting = std::size_t{1} << 20U;
 constexpr std::size_t kLongestLine = 8192;
 constexpr std::chrono::seconds kPatience{2};
 
-/// What cannot be written has nobody else to be told to.
+/// Ignores errors, since a failure of standard error cannot be reported anywhere.
 void write_all(std::string_view text) {
   while (!text.empty()) {
     const ssize_t written = ::write(STDERR_FILENO, text.data(), text.size());
@@ -28,7 +28,7 @@ void write_all(std::string_view text) {
   }
 }
 
-/// A thread that sees no signal: they are for those who wait for them.
+/// Starts a thread with all signals blocked, since other threads wait for them.
 template <class Work>
 std::thread thread_without_signals(Work work) {
   sigset_t all;
@@ -45,7 +45,7 @@ std::thread thread_without_signals(Work work) {
 StandardError::StandardError()
     : real_{stderr},
       stream_{fopencookie(this, "w", {nullptr, &StandardError::take, nullptr, nullptr})} {
-  waiting_.reserve(kMostWaiting);  // Taking a message shall not fail for want of memory.
+  waiting_.reserve(kMostWaiting);  // Taking a message must not fail for lack of memory.
   std::setvbuf(stream_, nullptr, _IOLBF, kLongestLine);
   thread_ = thread_without_signals([this] { run(); });
   stderr = stream_;

@@ -1,5 +1,5 @@
 /// @file
-/// Standard error that nobody waits for.
+/// A standard error stream that never blocks the writer.
 
 #pragma once
 
@@ -14,12 +14,12 @@
 
 namespace spindrift {
 
-/// Takes the place of `stderr`, for the log, for all other messages and for the libraries: what is
-/// written waits, a mebibyte at most, for a thread that writes it. Beyond that messages are dropped
-/// and counted, and the count is said where they are missing.
+/// Replaces `stderr` for the log, all other messages and the libraries. Up to a mebibyte is
+/// buffered for a thread that writes it out. Further messages are dropped, and their number is
+/// reported in their place.
 class StandardError {
  public:
-  /// Before any other thread.
+  /// Call it before any other thread is started.
   StandardError();
   ~StandardError();
   StandardError(const StandardError&) = delete;
@@ -27,9 +27,9 @@ class StandardError {
   StandardError(StandardError&&) = delete;
   StandardError& operator=(StandardError&&) = delete;
 
-  /// After all other threads: waits for what is written to be out, but not long.
-  /// @return false when nobody reads it. Its thread then waits for ever, and uses this: the process
-  /// has to end by `_exit`.
+  /// Waits briefly for the buffered text to be written. Call it after all other threads have ended.
+  /// @return False when nobody reads the stream. The thread then stays blocked and uses this
+  ///         object, so that the process has to end by `_exit`.
   [[nodiscard]] bool close();
 
  private:
@@ -42,11 +42,11 @@ class StandardError {
   std::mutex mutex_;
   std::condition_variable changed_;
   std::string waiting_;
-  std::size_t dropped_ = 0;  ///< Messages, after `waiting_`.
+  std::size_t dropped_ = 0;  ///< Messages dropped after `waiting_`.
   bool closed_ = false;
-  bool out_ = false;  ///< The thread has written all and ended.
+  bool out_ = false;  ///< The thread has written everything and ended.
 
-  std::thread thread_;  // Last: it uses the others.
+  std::thread thread_;  // Last member, since the thread uses the others.
 };
 
 }  // namespace spindrift

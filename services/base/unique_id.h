@@ -1,5 +1,5 @@
 /// @file
-/// Names for what is made now.
+/// Unique identifiers.
 
 #pragma once
 
@@ -7,8 +7,8 @@
 
 namespace spindrift {
 
-/// Unique over all archives that may ever be merged: the second and fifty random bits, five a
-/// character. Short, since every row of a run bears one.
+/// Returns an id unique over all archives that may ever be merged: the time in seconds and fifty
+/// random bits, at five bits per character. It is short, since every row of a run carries one.
 std::string unique_id();
 
 }  // namespace spindrift

@@ -28,7 +28,7 @@ std::string utc_now() { return utc_of(system_clock::now()); }
 TaiTime tai_now() {
   const auto now = system_clock::now();
   const auto below_ms = now - std::chrono::floor<std::chrono::milliseconds>(now);
-  // A clock set before 1972 has no UTC; its own count is then all there is.
+  // A clock set before 1972 has no UTC, so its own count is used.
   return parse_utc(utc_of(now))
       .map([&](TaiTime whole_ms) { return whole_ms + below_ms; })
       .value_or(TaiTime{now.time_since_epoch()});

@@ -1,5 +1,5 @@
 /// @file
-/// What time it is now. Nothing that is computed depends on it: only provenance and health do.
+/// The current time. Only provenance and health depend on it, no computed result.
 
 #pragma once
 
@@ -9,7 +9,7 @@
 
 namespace spindrift {
 
-/// ISO 8601 to the millisecond, ending in Z.
+/// Returns ISO 8601 to the millisecond, ending in Z.
 std::string utc_now();
 
 TaiTime tai_now();

@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::size_t kMost = 1000;
 
-// Of the process, as its log is.
+// Global, like the log.
 struct Said {
   std::mutex mutex;
   nlohmann::json warnings = nlohmann::json::array();

@@ -1,6 +1,6 @@
 /// @file
-/// What somebody should look at, though the work goes on: for people in the log, for programs under
-/// `warnings` of what a command prints as JSON.
+/// Warnings that do not stop the work: for people in the log, for programs under `warnings` in the
+/// JSON output of a command.
 
 #pragma once
 
@@ -10,11 +10,11 @@
 
 namespace spindrift {
 
-/// From any thread. The first thousand of a process are kept for `with_warnings`.
-/// @param code Stable, in words with underscores: "bad_rows". @param values An object.
+/// Logs a warning; safe to call from any thread. `with_warnings` gets the first thousand.
+/// @param code Stable name in words with underscores, "bad_rows". @param values A JSON object.
 void warn(std::string_view code, nlohmann::json values, std::string text);
 
-/// @return `object` with `warnings`: of each so far `code`, `values` and `text`, in their order.
+/// @return `object` with `warnings`: `code`, `values` and `text` of each so far, in their order.
 nlohmann::json with_warnings(nlohmann::json object);
 
 }  // namespace spindrift

@@ -1,5 +1,5 @@
 /// @file
-/// Who is on the bus, as the built-in topics tell it.
+/// Lists participants and endpoints on the bus by DDS's built-in topics.
 
 #pragma once
 
@@ -14,14 +14,14 @@
 
 namespace spindrift::bus {
 
-/// Of a publisher, a subscriber or an endpoint: at least one, the default one is "".
+/// Returns the partitions of a publisher, a subscriber or an endpoint: at least one, "" by default.
 std::vector<std::string> partitions_of(const dds_qos_t* qos);
 
-/// "unknown" where there is none of this name.
+/// Returns "unknown" when the property is missing.
 std::string property(const dds_qos_t* qos, const char* name);
 
-/// Calls `handler(const Sample&)` for everyone of whom a built-in topic says that he is there.
-/// @param entity Of the domain. @return Unavailable when Cyclone refuses.
+/// Calls `handler(const Sample&)` for each participant or endpoint in a built-in topic.
+/// @param entity Any entity of the domain. @return Unavailable when Cyclone refuses.
 template <class Sample, class Handler>
 Expected<void> for_each_present(dds_entity_t entity, dds_entity_t builtin_topic,
                                 const Handler& handler) {

@@ -1,5 +1,5 @@
 /// @file
-/// What Cyclone DDS says of itself, in our log.
+/// Forwards log messages of Cyclone DDS to our log.
 
 #pragma once
 
@@ -13,18 +13,18 @@
 
 namespace spindrift::bus {
 
-/// From now on, for this process: every place of Cyclone that complains is heard once a minute,
-/// since a sender whose type it cannot read makes it say so for every sample.
+/// Starts forwarding for this process, at most once a minute per source line of Cyclone: a sender
+/// with an unreadable type makes it complain about every sample.
 void log_what_cyclone_says();
 
-/// Which of many lines from the same places are said.
+/// Limits repeated log lines from the same place in the source.
 class LogLimit {
  public:
   using Time = std::chrono::steady_clock::time_point;
   static constexpr std::chrono::minutes kPeriod{1};
 
-  /// @param place In whatever writes them: file and line. @return how many lines of it were left
-  /// out since the one said last; empty: this one is.
+  /// @param file File and, with `line`, place in the source. @return Empty when the line is to be
+  ///        dropped, else the number of dropped lines since the last one passed.
   std::optional<std::uint64_t> pass(std::string_view file, std::uint32_t line, Time now);
 
  private:

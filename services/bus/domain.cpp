@@ -19,7 +19,7 @@ struct SharedDomain {
   int members;
 };
 
-/// The domains of this process: Cyclone refuses to create one twice, so they are counted.
+/// Counts the members of this process's domains, since Cyclone refuses to create one twice.
 struct Registry {
   std::mutex mutex;
   std::map<std::uint32_t, SharedDomain> domains;
@@ -30,7 +30,7 @@ Registry& registry() {
   return instance;
 }
 
-/// Cyclone says why it failed only in its log. While this lives the log is kept, not printed.
+/// Captures Cyclone's log while it exists, since Cyclone explains failures only there.
 class LogCapture {
  public:
   LogCapture() { dds_set_log_sink(&append, &text_); }
@@ -59,7 +59,7 @@ Expected<Entity> create_domain(std::uint32_t id) {
     return Unexpected{
         Error{domain.error().code, fmt::format("{}: {}", domain.error().message, log.text())}};
   }
-  // Warnings of a domain that works nevertheless go where they would have gone.
+  // Warnings about a working domain are printed as usual.
   static_cast<void>(std::fputs(log.text().c_str(), stderr));
   return domain;
 }

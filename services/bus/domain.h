@@ -12,15 +12,15 @@
 
 namespace spindrift::bus {
 
-/// DDS knows no higher one. The UDP ports of a domain follow from its number; see
+/// Highest id in DDS. The UDP ports of a domain follow from its id; see
 /// deploy/cyclonedds/README.md.
 inline constexpr std::uint32_t kMaxDomainId = 230;
 
-/// Cyclone creates a domain once a process. All who join it here share it; it goes with the last.
+/// A process can create a domain only once, so all members share it; the last one deletes it.
 class Domain {
  public:
-  /// @return InvalidConfiguration for an id above kMaxDomainId, Unavailable with Cyclone's own
-  /// words when it refuses the network configuration or cannot open its sockets.
+  /// @return InvalidConfiguration for an id above kMaxDomainId; Unavailable with Cyclone's message
+  ///         when it refuses the network configuration or cannot open its sockets.
   static Expected<Domain> join(std::uint32_t id);
 
   ~Domain();

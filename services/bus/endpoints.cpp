@@ -15,7 +15,7 @@
 namespace spindrift::bus {
 namespace {
 
-/// An endpoint of ours, as the other side sees it.
+/// One of our endpoints, as seen by the other side.
 struct OurEndpoint {
   std::string topic;
   std::string partition;
@@ -39,7 +39,7 @@ Expected<OurEndpoint> our_endpoint(const Entity& entity) {
   return endpoint;
 }
 
-/// DDS takes a partition as a pattern.
+/// DDS treats a partition name as a pattern.
 bool share_partition(const OurEndpoint& ours, const dds_qos_t* theirs) {
   const auto names = partitions_of(theirs);
   return std::any_of(names.begin(), names.end(), [&ours](const std::string& name) {
@@ -48,7 +48,7 @@ bool share_partition(const OurEndpoint& ours, const dds_qos_t* theirs) {
   });
 }
 
-/// "process foo (pid 12) on host h"; other vendors' participants do not tell, and have a GUID only.
+/// Returns "process foo (pid 12) on host h", or only the GUID for other vendors' participants.
 Expected<std::string> owner_of(const Entity& entity, const dds_guid_t& participant) {
   std::string owner = fmt::format("participant {:02x}", fmt::join(participant.v, ""));
   const auto describe = [&](const dds_builtintopic_participant_t& present) {
@@ -62,13 +62,13 @@ Expected<std::string> owner_of(const Entity& entity, const dds_guid_t& participa
       .map([&owner] { return owner; });
 }
 
-/// Somebody on our topic and partition who does not match.
+/// An endpoint on our topic and partition that does not match.
 struct Mismatch {
   dds_guid_t participant;
   std::vector<Shortfall> shortfalls;
 };
 
-/// `compare(ours, theirs)` gives what falls short between an endpoint of ours and one of theirs.
+/// @param compare `compare(ours, theirs)` returns the shortfalls between two endpoints.
 template <class Compare>
 Expected<std::vector<Mismatch>> mismatches(const Entity& entity, const OurEndpoint& ours,
                                            dds_entity_t builtin_topic, const Compare& compare) {

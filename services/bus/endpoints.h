@@ -1,5 +1,5 @@
 /// @file
-/// Who on the bus does not match us, and why. DDS itself says only that somebody does not.
+/// Tells who on the bus does not match us and why; DDS only says that somebody does not.
 
 #pragma once
 
@@ -10,12 +10,12 @@
 
 namespace spindrift::bus {
 
-/// Writers of the topic and partition of `reader` that offer less than it needs: a sentence each,
-/// naming process, host, and every policy that falls short. @return Unavailable when Cyclone
-/// refuses.
+/// Describes writers on the topic and partition of `reader` that offer less than it needs: one
+/// sentence each, with process, host, and every policy that falls short. @return Unavailable when
+/// Cyclone refuses.
 Expected<std::vector<std::string>> incompatible_writers(const Entity& reader);
 
-/// Likewise readers that ask for more than `writer` offers.
+/// Describes readers that request more than `writer` offers, in the same way.
 Expected<std::vector<std::string>> incompatible_readers(const Entity& writer);
 
 }  // namespace spindrift::bus

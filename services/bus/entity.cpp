@@ -17,7 +17,7 @@ Expected<Entity> Entity::own(dds_entity_t created, std::string_view what) {
 
 void Entity::destroy() const {
   if (handle_ > 0) {
-    // Fails only when a parent went first and took this entity along: nothing is left to delete.
+    // Fails only when the parent was deleted first, together with this entity.
     static_cast<void>(dds_delete(handle_));
   }
 }

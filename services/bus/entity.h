@@ -1,5 +1,5 @@
 /// @file
-/// Ownership of one Cyclone DDS entity, and its return codes as errors.
+/// Owns a Cyclone DDS entity, and converts return codes to errors.
 
 #pragma once
 
@@ -12,14 +12,14 @@
 
 namespace spindrift::bus {
 
-/// Unavailable: "`what`: reason of Cyclone". `result` is a negative return code.
+/// Returns Unavailable with "`what`: reason of Cyclone". @param result A negative return code.
 Error dds_error(std::string_view what, dds_return_t result);
 
-/// Deletes its entity when it goes.
+/// Owns an entity and deletes it.
 class Entity {
  public:
-  /// Takes what a `dds_create_*` call returned.
-  /// @return Unavailable with `what` when that was an error.
+  /// Takes the result of a `dds_create_*` call.
+  /// @return Unavailable with `what` when the result is an error.
   static Expected<Entity> own(dds_entity_t created, std::string_view what);
 
   ~Entity() { destroy(); }

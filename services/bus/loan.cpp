@@ -21,7 +21,7 @@ Loan::Loan(const Entity& reader)
 
 Loan::~Loan() {
   if (count_.value_or(0) > 0) {
-    // Refused only for a loan that is not out.
+    // Fails only if nothing is on loan.
     static_cast<void>(
         dds_return_loan(reader_, samples_.data(), static_cast<std::int32_t>(*count_)));
   }

@@ -1,5 +1,5 @@
 /// @file
-/// Samples lent by the middleware: no copy until a value of ours is made of them.
+/// Access to samples in the middleware's memory without copying them.
 
 #pragma once
 
@@ -11,7 +11,7 @@
 
 namespace spindrift::bus {
 
-/// Up to 256 samples on loan from the middleware, given back at the end.
+/// Takes up to 256 samples on loan from the middleware and returns them on destruction.
 class Loan {
  public:
   static constexpr std::size_t kMaxSamples = 256;
@@ -23,14 +23,14 @@ class Loan {
   Loan(Loan&&) = delete;
   Loan& operator=(Loan&&) = delete;
 
-  /// How many were taken. Unavailable when Cyclone refused.
+  /// Returns the number of samples taken; Unavailable when Cyclone refused.
   const Expected<std::size_t>& count() const { return count_; }
 
-  /// Null when the sample only tells that its writers ended or disposed of the instance.
+  /// Null when the sample only reports that its writers ended or disposed of the instance.
   const void* operator[](std::size_t i) const {
     return infos_[i].valid_data ? samples_[i] : nullptr;
   }
-  /// When it was written, nanoseconds by the writer's clock.
+  /// Returns when the sample was written, in nanoseconds of the writer's clock.
   std::int64_t written_ns(std::size_t i) const { return infos_[i].source_timestamp; }
 
  private:

@@ -1,5 +1,5 @@
 /// @file
-/// Which network Cyclone DDS may use. The program decides, not the defaults of the library.
+/// The network that Cyclone DDS may use, chosen by the program and not by the library.
 
 #pragma once
 
@@ -8,12 +8,12 @@
 namespace spindrift::bus {
 
 struct NetworkConfiguration {
-  std::string text;  ///< As Cyclone takes it: XML, or a list of file URIs and XML.
-  std::string name;  ///< Where it came from, for the log.
+  std::string text;  ///< Cyclone format: XML, or a list of file URIs and XML.
+  std::string name;  ///< Source of the configuration, for the log.
 };
 
-/// CYCLONEDDS_URI when that is set and not empty, else the built-in deploy/cyclonedds/loopback.xml:
-/// this host only.
+/// Returns CYCLONEDDS_URI when that is set and not empty, else the built-in
+/// deploy/cyclonedds/loopback.xml, which allows this host only.
 NetworkConfiguration network_configuration();
 
 }  // namespace spindrift::bus

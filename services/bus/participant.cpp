@@ -37,7 +37,7 @@ Expected<Participant> Participant::create(const BusConfig& config) {
 }
 
 void Participant::set_deaf(bool deaf) const {
-  // Refused only for what is no entity of a domain.
+  // Fails only for a handle that is not in a domain.
   static_cast<void>(dds_domain_set_deafmute(participant_.handle(), deaf, false, DDS_INFINITY));
 }
 

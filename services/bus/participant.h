@@ -1,5 +1,5 @@
 /// @file
-/// This process on the bus: one domain, one partition.
+/// Membership of this process in one domain and one partition of the bus.
 
 #pragma once
 
@@ -13,20 +13,20 @@ namespace spindrift::bus {
 
 struct BusConfig {
   std::uint32_t domain = 0;
-  std::string partition = "live";  ///< Its readers and writers meet only those of the same.
+  std::string partition = "live";  ///< Endpoints match only within the same partition.
 };
 
-/// Outlives the readers, writers and waitsets created on it.
+/// A participant, which must outlive the readers, writers and waitsets created on it.
 class Participant {
  public:
   /// @return the errors of Domain::join; Unavailable when Cyclone refuses.
   static Expected<Participant> create(const BusConfig& config);
 
-  /// Domain, partition and the network configuration in force, for the log.
+  /// Returns domain, partition and the network configuration in force, for the log.
   const std::string& description() const { return description_; }
 
-  /// Deaf, Cyclone drops whatever arrives from other processes, in the whole domain, and neither
-  /// takes nor acknowledges; what is reliable is sent again afterwards.
+  /// While deaf, Cyclone drops everything from other processes in the whole domain without
+  /// acknowledging it; reliable samples are sent again afterwards.
   void set_deaf(bool deaf) const;
 
   dds_entity_t handle() const { return participant_.handle(); }
@@ -42,7 +42,7 @@ class Participant {
         subscriber_{std::move(subscriber)},
         description_{std::move(description)} {}
 
-  // In this order, so that the domain goes last.
+  // Declared in this order, so that the domain is destroyed last.
   Domain domain_;
   Entity participant_;
   Entity publisher_;

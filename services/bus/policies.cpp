@@ -17,7 +17,7 @@ constexpr std::array<std::string_view, 3> kLiveliness = {"AUTOMATIC", "MANUAL_BY
 constexpr std::array<std::string_view, 2> kDestinationOrder = {"BY_RECEPTION_TIMESTAMP",
                                                                "BY_SOURCE_TIMESTAMP"};
 
-/// The policies that a reader may demand, with what DDS takes for those left unsaid.
+/// The policies that a reader may request, with the DDS defaults for unset ones.
 struct Policies {
   explicit Policies(const dds_qos_t* qos) {
     dds_duration_t blocking_ns = 0;

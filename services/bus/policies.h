@@ -1,5 +1,5 @@
 /// @file
-/// Which policies of a writer offer less than a reader needs.
+/// Compares the QoS policies of a writer with those that a reader needs.
 
 #pragma once
 
@@ -10,13 +10,13 @@
 
 namespace spindrift::bus {
 
-/// One policy, in words: "BEST_EFFORT" where "RELIABLE" is needed.
+/// A policy as offered and as needed, such as "BEST_EFFORT" where "RELIABLE" is needed.
 struct Shortfall {
   std::string offered;
   std::string needed;
 };
 
-/// The rules of DDS for offered and requested QoS. Empty: by these policies they match.
+/// Applies the DDS rules for offered and requested QoS; returns empty when the policies match.
 std::vector<Shortfall> shortfalls(const dds_qos_t* offered, const dds_qos_t* needed);
 
 }  // namespace spindrift::bus

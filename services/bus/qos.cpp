@@ -3,10 +3,10 @@
 namespace spindrift::bus {
 namespace {
 
-// How long one write may block before it is tried again: the reaction time to a stop request.
+// Limit on blocking in one attempt to write, which bounds the reaction time to a stop request.
 constexpr dds_duration_t kMaxBlocking_ns = DDS_MSECS(100);
 
-// Per spacecraft: ten minutes at 100 samples a second.
+// Enough per spacecraft for ten minutes at 100 samples per second.
 constexpr std::int32_t kTelemetryHistory = 60'000;
 
 Qos reliable_qos() {
@@ -14,7 +14,7 @@ Qos reliable_qos() {
   dds_qset_reliability(qos.get(), DDS_RELIABILITY_RELIABLE, kMaxBlocking_ns);
   dds_qset_durability(qos.get(), DDS_DURABILITY_TRANSIENT_LOCAL);
   dds_qset_ownership(qos.get(), DDS_OWNERSHIP_SHARED);
-  // A writer that exits has not withdrawn what it said.
+  // Instances must stay valid after their writer exits.
   dds_qset_writer_data_lifecycle(qos.get(), false);
   return qos;
 }

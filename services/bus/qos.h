@@ -1,5 +1,5 @@
 /// @file
-/// All quality of service of spindrift, in one place.
+/// All QoS settings of spindrift.
 
 #pragma once
 
@@ -16,21 +16,21 @@ struct DeleteQos {
 };
 using Qos = std::unique_ptr<dds_qos_t, DeleteQos>;
 
-/// Samples that a telemetry reader holds before it pushes back on its writers.
+/// Number of samples that a telemetry reader holds before it blocks its writers.
 inline constexpr std::int32_t kTelemetryReaderSamples = 8192;
 
-/// RELIABLE, KEEP_ALL, TRANSIENT_LOCAL, SHARED: a reader that is not drained makes the writer wait
-/// and loses nothing. Never max_instances: Cyclone 0.10.2 wedges a reader that reaches it.
+/// RELIABLE, KEEP_ALL, TRANSIENT_LOCAL, SHARED: a full reader blocks the writer and loses nothing.
+/// Never max_instances: Cyclone 0.10.2 wedges a reader that reaches it.
 Qos telemetry_reader_qos(std::int32_t max_samples = kTelemetryReaderSamples);
 
-/// The same, with the last minutes kept for a reader that joins late or comes back.
+/// The same, and keeps the last minutes for a reader that joins late or returns.
 Qos telemetry_writer_qos();
 
-/// Results, alerts and health, both sides: RELIABLE, TRANSIENT_LOCAL, KEEP_LAST 1 per instance, so
-/// that a late joiner sees the current state and a slow one never holds up the service.
+/// Results, alerts and health, for both sides: RELIABLE, TRANSIENT_LOCAL, KEEP_LAST 1 per instance,
+/// so that a late joiner sees the current state and a slow one never blocks the service.
 Qos results_qos();
 
-/// For publishers and subscribers.
+/// Returns the QoS of publishers and subscribers.
 Qos partition_qos(const std::string& partition);
 
 }  // namespace spindrift::bus

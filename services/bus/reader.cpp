@@ -20,7 +20,7 @@ ReaderStatus& ReaderStatus::operator+=(const ReaderStatus& other) {
 
 namespace {
 
-/// Called by Cyclone: no exception may leave it. What it cannot tell is left to whoever takes.
+/// Called by Cyclone, so no exception may escape. Out of memory it keeps the sample.
 bool accepts_or_leaves(const void* sample, void* filter) {
   try {
     return (*static_cast<std::function<bool(const void*)>*>(filter))(sample);

@@ -1,5 +1,5 @@
 /// @file
-/// A typed reader: samples out of the middleware's own memory, and what became of the others.
+/// A typed reader of samples in the middleware's memory, with counts of lost ones.
 
 #pragma once
 
@@ -21,19 +21,19 @@ namespace spindrift::bus {
 
 /// Cyclone's counts since the reader was created.
 struct ReaderStatus {
-  std::uint32_t writers;   ///< Matched now.
-  std::uint32_t lost;      ///< Samples that Cyclone knows it lost; it does not know of all.
+  std::uint32_t writers;   ///< Currently matched.
+  std::uint32_t lost;      ///< Lost samples that Cyclone knows of, which need not be all.
   std::uint32_t rejected;  ///< Attempts that a full reader refused; the writer tries again.
-  std::vector<std::string> incompatible_writers;  ///< In sight now; see endpoints.h.
+  std::vector<std::string> incompatible_writers;  ///< Currently visible; see endpoints.h.
 
-  /// Of several readers together.
+  /// Adds the status of another reader.
   ReaderStatus& operator+=(const ReaderStatus& other);
 };
 
-/// Everything about a reader that does not depend on the type of its samples.
+/// The part of a reader that does not depend on the type of its samples.
 class UntypedReader {
  public:
-  /// @param accepts See Reader; empty: all.
+  /// @param accepts As for Reader; empty accepts all.
   static Expected<UntypedReader> create(const Participant& participant, const char* topic,
                                         const dds_topic_descriptor_t* type, const Qos& qos,
                                         std::function<bool(const void*)> accepts);
@@ -48,7 +48,7 @@ class UntypedReader {
   UntypedReader(std::unique_ptr<Filter> filter, Entity reader, Entity data)
       : filter_{std::move(filter)}, reader_{std::move(reader)}, data_{std::move(data)} {}
 
-  std::unique_ptr<Filter> filter_;  // Before the reader, which it outlives.
+  std::unique_ptr<Filter> filter_;  // Declared before the reader, which uses it.
   Entity reader_;
   Entity data_;
 };
@@ -56,9 +56,9 @@ class UntypedReader {
 template <class Sample>
 class Reader {
  public:
-  /// @param accepts Whether the reader keeps a sample; empty: every one. Called on threads of
-  /// Cyclone within the reader's lock: quick, and nothing of DDS. What is refused is acknowledged,
-  /// and leaves no instance behind.
+  /// @param accepts Whether the reader keeps a sample; empty keeps all. It is called on threads of
+  ///        Cyclone while the reader is locked, so it must be quick and must not call DDS. Refused
+  ///        samples are acknowledged and leave no instance behind.
   /// @return Unavailable, naming the topic, when Cyclone refuses.
   static Expected<Reader> create(const Participant& participant, const Topic<Sample>& topic,
                                  const Qos& qos, std::function<bool(const Sample&)> accepts = {}) {
@@ -72,9 +72,9 @@ class Reader {
         .map([](UntypedReader&& reader) { return Reader{std::move(reader)}; });
   }
 
-  /// Calls `handler(const Sample&)`, or with when it was written as well, nanoseconds by the clock
-  /// of the writer, for each of up to 256 samples; the sample is gone afterwards. The end of a
-  /// source is no sample. @return how many were taken: 0 when there were none.
+  /// Calls `handler(const Sample&)`, or `handler` with the sample and its time of writing in
+  /// nanoseconds of the writer's clock, for up to 256 samples, which are only valid during the
+  /// call. The end of a source is not passed on. @return The number of samples taken, possibly 0.
   template <class Handler>
   Expected<std::size_t> take(Handler&& handler) const {
     const Loan loan{reader_.entity()};
@@ -90,10 +90,10 @@ class Reader {
     return loan.count();
   }
 
-  /// The condition "there is something to take", for a WaitSet.
+  /// Returns the condition "there is something to take", for a WaitSet.
   const Entity& data() const { return reader_.data(); }
 
-  /// From any thread. @return Unavailable when Cyclone refuses.
+  /// Safe to call from any thread. @return Unavailable when Cyclone refuses.
   Expected<ReaderStatus> status() const { return reader_.status(); }
 
  private:

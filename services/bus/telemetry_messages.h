@@ -15,7 +15,7 @@
 
 namespace spindrift::bus {
 
-/// `Type`: the generated one; `fields`: its members behind t_tai_ns.
+/// Defines `Type`, the generated type, and `fields`, its members behind t_tai_ns.
 template <BusMessage message>
 struct Generated;
 

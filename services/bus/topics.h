@@ -1,11 +1,11 @@
 /// @file
-/// The topics of spindrift: name and type together, since one type may serve several.
+/// The topics of spindrift, each with its name and type, since several topics may share a type.
 
 #pragma once
 
 #include <dds/dds.h>
 
-// The generated types, named without their header: only an adapter needs to see inside.
+// The generated types, declared here because only adapters need their header.
 struct spindrift_Health;
 struct spindrift_RehearsalClock;
 

@@ -38,7 +38,7 @@ Expected<bool> WaitSet::wait(std::chrono::nanoseconds at_most) const {
 }
 
 void WaitSet::stop() const {
-  // Refused only when the participant went first, which has ended every wait as well.
+  // Fails only if the participant was deleted first, which has also ended every wait.
   static_cast<void>(dds_set_guardcondition(guard_.handle(), true));
 }
 

@@ -1,5 +1,5 @@
 /// @file
-/// Sleeping until a reader has something or the program stops.
+/// Waits until a reader has samples or the program stops.
 
 #pragma once
 
@@ -14,13 +14,13 @@ class WaitSet {
   /// @return Unavailable when Cyclone refuses.
   static Expected<WaitSet> create(const Participant& participant);
 
-  /// From now on `condition` (of a reader: `Reader::data()`) ends a wait for as long as it holds.
+  /// Makes `condition` (of a reader: `Reader::data()`) end waits while it holds.
   Expected<void> attach(const Entity& condition);
 
-  /// Waits for an attached condition, or `at_most`. @return false once stopped.
+  /// Waits for an attached condition, for at most `at_most`. @return False once stopped.
   Expected<bool> wait(std::chrono::nanoseconds at_most = std::chrono::nanoseconds::max()) const;
 
-  /// Ends every wait, now and later. From any thread.
+  /// Ends the current wait and every later one. Safe to call from any thread.
   void stop() const;
 
  private:

@@ -15,7 +15,7 @@ Expected<UntypedWriter> UntypedWriter::create(const Participant& participant, co
   if (!created_topic) {
     return Unexpected{created_topic.error()};
   }
-  // Cyclone has this for the process only; it holds for the writers that are made meanwhile.
+  // Cyclone has this setting per process only; it applies to writers created while it is set.
   dds_write_set_batch(sending == Sending::Packed);
   auto writer = Entity::own(
       dds_create_writer(participant.publisher(), created_topic->handle(), qos.get(), nullptr),

@@ -1,5 +1,5 @@
 /// @file
-/// A typed writer that feels the pressure of its readers.
+/// A typed writer, which its readers can block when they are full.
 
 #pragma once
 
@@ -16,16 +16,16 @@
 namespace spindrift::bus {
 
 struct WriterStatus {
-  std::uint32_t readers;                          ///< Matched now.
-  std::vector<std::string> incompatible_readers;  ///< In sight now; see endpoints.h.
+  std::uint32_t readers;                          ///< Currently matched.
+  std::vector<std::string> incompatible_readers;  ///< Currently visible; see endpoints.h.
 };
 
 enum class Sending {
-  AtOnce,  ///< Every sample goes out by itself.
-  Packed,  ///< When a packet is full, or on flush: cheaper by far for all, when many come in a row.
+  AtOnce,  ///< Sends every sample in a packet of its own.
+  Packed,  ///< Sends when a packet is full or on flush, which is cheaper for bursts.
 };
 
-/// Everything about a writer that does not depend on the type of its samples.
+/// The part of a writer that does not depend on the type of its samples.
 class UntypedWriter {
  public:
   static Expected<UntypedWriter> create(const Participant& participant, const char* topic,
@@ -59,31 +59,31 @@ class Writer {
         .map([](UntypedWriter&& writer) { return Writer{std::move(writer)}; });
   }
 
-  /// One attempt. @return Unavailable when readers hold it up for longer than the QoS allows, or
+  /// Tries once. @return Unavailable when readers block it for longer than the QoS allows, or
   /// Cyclone refuses the sample.
   Expected<void> write(const Sample& sample) const { return writer_.write(&sample); }
 
-  /// Waits for as long as readers push back. A reader of this process may then see the sample
-  /// twice. @return Unavailable when stopped meanwhile, or Cyclone refuses the sample.
+  /// Waits while readers block it. A reader in this process may then receive the sample twice.
+  /// @return Unavailable when stopped meanwhile, or Cyclone refuses the sample.
   Expected<void> write(const Sample& sample, const std::stop_token& stop) const {
     return writer_.write(&sample, stop);
   }
 
-  /// Until at least one reader is matched. @return Unavailable after `timeout`.
+  /// Waits until at least one reader is matched. @return Unavailable after `timeout`.
   Expected<void> wait_for_reader(std::chrono::nanoseconds timeout) const {
     return writer_.wait_for_reader(timeout);
   }
 
-  /// What is still packed goes out.
+  /// Sends the samples that are still packed.
   void flush() const { writer_.flush(); }
 
-  /// Until all matched readers have everything, what is still packed too. @return Unavailable after
-  /// `timeout`.
+  /// Waits until all matched readers have everything, including packed samples.
+  /// @return Unavailable after `timeout`.
   Expected<void> wait_for_acknowledgments(std::chrono::nanoseconds timeout) const {
     return writer_.wait_for_acknowledgments(timeout);
   }
 
-  /// From any thread. @return Unavailable when Cyclone refuses.
+  /// Safe to call from any thread. @return Unavailable when Cyclone refuses.
   Expected<WriterStatus> status() const { return writer_.status(); }
 
  private:

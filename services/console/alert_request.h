@@ -14,16 +14,15 @@ namespace spindrift {
 
 struct AlertPath {
   std::string alert_id;
-  bool shelves;  ///< Else acknowledges.
+  bool shelves;  ///< False when it acknowledges.
 };
 
-/// Empty where the path is no such one.
+/// Returns empty for any other path.
 std::optional<AlertPath> alert_path(std::string_view path);
 
-/// @param body A JSON object with `by`, which is not empty, with `note` if there is anything to
-/// say,
-///             and to shelve with `minutes`, 1 to 10080. @return InvalidInput, saying what is
-///             wrong.
+/// @param body A JSON object with a non-empty `by`, optionally `note`, and to shelve also
+///        `minutes`, 1 to 10080.
+/// @return InvalidInput, saying what is wrong.
 Expected<OperatorWord> operator_word(const AlertPath& path, std::string_view body);
 
 }  // namespace spindrift

@@ -1,5 +1,5 @@
 /// @file
-/// What the console reads in the archive.
+/// Reads data series from the archive for the console.
 
 #pragma once
 
@@ -16,14 +16,14 @@
 
 namespace spindrift {
 
-/// More values than which a series is not read of.
+/// Limit on the values of one series, so that a request stays bounded.
 inline constexpr std::size_t kMostValuesRead = 1'000'000;
 
 struct Span {
   std::int64_t from_tai_ns;
   std::int64_t to_tai_ns;
 };
-/// All values of a run in a span, both ends included, in order of time. Throws SQLite::Exception.
+/// Returns a run's values in a span, ends included, by time. Throws SQLite::Exception.
 /// @return InvalidInput for more than kMostValuesRead.
 Expected<std::vector<SeriesPoint>> values_of(SQLite::Database& archive, const std::string& run_id,
                                              const Quantity& quantity, const Span& span);

@@ -27,7 +27,7 @@ std::string_view type_of(std::string_view path) {
                                   : "text/html; charset=utf-8";
 }
 
-/// The host of a `Host` header, without its port.
+/// Returns the host of a `Host` header without its port.
 std::string host_of(std::string_view header) {
   const auto colon = header.rfind(':');
   const bool has_port = colon != std::string_view::npos && !header.ends_with(']');
@@ -38,7 +38,7 @@ HttpResponse bad_request(const Error& error) {
   return refusal(http::status::bad_request, error.message);
 }
 
-/// Null: all of them are values.
+/// Returns null when all are values.
 template <class... Value>
 const Error* first_error(const Expected<Value>&... values) {
   const Error* first = nullptr;
@@ -166,7 +166,7 @@ Answer ConsoleAnswers::routed(const HttpRequest& request, const ViewerCounts& vi
 
 Answer ConsoleAnswers::events(const HttpRequest& request) const {
   const std::string_view last = view(request["Last-Event-ID"]);
-  std::uint64_t id = std::numeric_limits<std::uint64_t>::max();  // From now on.
+  std::uint64_t id = std::numeric_limits<std::uint64_t>::max();  // By default only new events.
   std::from_chars(last.data(), last.data() + last.size(), id);
   return EventStream{.id = service_.feed.nearest(id)};
 }

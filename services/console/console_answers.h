@@ -1,5 +1,5 @@
 /// @file
-/// What the console answers to a request, whatever connection it came by.
+/// Answers the console's HTTP requests, independent of the connection.
 
 #pragma once
 
@@ -27,19 +27,19 @@
 
 namespace spindrift {
 
-/// Made by the thread that reads the archive.
+/// Answer made by the thread that reads the archive.
 struct ReadingAnswer {
   std::function<HttpResponse()> make;
 };
-/// Made by a thread that waits until the archive has stored something.
+/// Answer made by a thread that waits until the archive has stored something.
 struct StoringAnswer {
   std::function<HttpResponse()> make;
 };
-/// Made by a thread that waits until an operator's action is stored: nothing else waits for that.
+/// Answer made by a thread of its own that waits until an operator's action is stored.
 struct ActingAnswer {
   std::function<HttpResponse()> make;
 };
-/// The events behind `id`, and those to come.
+/// Stream of the events after `id`, then of new ones.
 struct EventStream {
   std::uint64_t id;
 };
@@ -47,20 +47,20 @@ using Answer = std::variant<HttpResponse, ReadingAnswer, StoringAnswer, ActingAn
 
 class ConsoleAnswers {
  public:
-  /// All of them outlive it.
+  /// The parts of the service, which outlive the console.
   struct Service {
     ConsoleFeed& feed;
     AlertDesk& desk;
     Archive& archive;
-    /// Takes an operator's action, and waits until it is stored. @return its id; InvalidInput for a
+    /// Takes an operator's action and waits until it is stored. @return Its id; InvalidInput for a
     /// bad one.
     std::function<Expected<std::string>(const nlohmann::json&)> act = {};
   };
-  /// @param hosts By which browsers call it, as in `Host` without the port, in small letters.
+  /// @param hosts Allowed values of the `Host` header, without port, in lower case.
   ConsoleAnswers(Service service, std::filesystem::path db, std::string token,
                  std::set<std::string> hosts);
 
-  /// @param is_crowded More connections are open than are served.
+  /// @param is_crowded Whether more connections are open than are served.
   Answer to(const HttpRequest& request, bool is_crowded, const ViewerCounts& viewers);
 
  private:
@@ -84,8 +84,8 @@ class ConsoleAnswers {
   Service service_;
   std::string token_;
   std::set<std::string> hosts_;
-  std::map<std::string, Get> gets_;  ///< By path.
-  KeptConnection archive_;           ///< Of the thread that reads it.
+  std::map<std::string, Get> gets_;  ///< Handlers by path.
+  KeptConnection archive_;           ///< Used by the reading thread only.
 };
 
 }  // namespace spindrift

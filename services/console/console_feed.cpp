@@ -14,7 +14,7 @@
 namespace spindrift {
 namespace {
 
-// Health comes every second.
+// Health normally comes every second.
 constexpr std::chrono::seconds kNoHealthFor{10};
 
 template <class Kind>
@@ -23,7 +23,7 @@ constexpr std::string_view kEvent = std::is_same_v<Kind, SpinEstimate>       ? "
                                     : std::is_same_v<Kind, AttitudeEstimate> ? "attitude"
                                                                              : "";
 
-/// Larger than all of an earlier start, which told less than one a microsecond.
+/// Larger than all ids of an earlier start, which made fewer than one per microsecond.
 std::uint64_t first_id() { return static_cast<std::uint64_t>(tai_ns(tai_now()) / 1000); }
 
 nlohmann::json leap_seconds_json() {
@@ -187,7 +187,7 @@ std::string ConsoleFeed::trouble() const {
 
 std::string ConsoleFeed::trouble_now() const {
   if (!last_health_) {
-    return {};  // It begins.
+    return {};  // The service is still starting.
   }
   const auto silent = std::chrono::steady_clock::now() - *last_health_;
   return silent <= kNoHealthFor

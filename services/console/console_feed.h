@@ -1,5 +1,5 @@
 /// @file
-/// What the console shows, in memory: the service puts it in and never waits.
+/// Holds in memory what the console shows; the service updates it and never waits.
 
 #pragma once
 
@@ -24,47 +24,46 @@
 
 namespace spindrift {
 
-/// From any thread. What is of other spacecraft than those of the missions is not shown, but for
-/// their alerts.
+/// Safe to use from any thread. Only alerts are shown of spacecraft without a mission.
 class ConsoleFeed {
  public:
-  /// @param missions Outlive it. @param service Name, version and mode.
+  /// @param missions Must outlive the feed. @param service Name, version and mode.
   ConsoleFeed(const std::vector<Mission>& missions, nlohmann::json service);
 
-  /// @name Of the service, once it is stored
+  /// @name Updates by the service, once the data is stored
   /// @{
   void put(const std::string& spacecraft, const std::string& run_id, const Product& product);
-  /// The last run of a spacecraft, until the next begins.
+  /// Shows the last run of a spacecraft until the next run begins.
   void put(const std::string& spacecraft, const std::string& run_id,
            const std::vector<Product>& results);
-  /// What is not announced, of a run whose results are.
+  /// Shows the unannounced products of a run whose results are announced.
   void put_details(const ArchiveBatch& stored);
   void put(const Health& health);
-  /// Of before the service began.
+  /// Shows an alert raised before the service began.
   void put(const StoredAlert& stored);
-  /// Of the run in force.
+  /// Shows the verdict on the run in force.
   void put(const std::string& spacecraft, const std::string& run_id, const PassVerdict& verdict);
-  /// Where the axis of a spinner should be.
+  /// Shows the target direction of a spinner's axis.
   void put(const std::string& spacecraft, const SpinTarget& target);
-  /// From the arrival of the last sample that a result rests on to its announcement.
+  /// Counts the latency from the arrival of a result's last sample to its announcement.
   void note_latency(std::chrono::duration<double> latency);
   /// @}
 
-  /// @name Of the console
+  /// @name Access by the console
   /// @{
-  /// Tells viewers the state of now.
+  /// Sends viewers the current state.
   void tell_state();
   void tell_pulses();
 
   nlohmann::json state();
   DurationHistogram latencies() const;
-  /// Why the service takes or stores nothing; empty: it does.
+  /// Returns why the service takes or stores nothing; empty when it does.
   std::string trouble() const;
-  /// Of a spacecraft. Empty: none yet. @return nothing where there is no such spacecraft.
+  /// Returns the run in force, "" before the first run, nothing for an unknown spacecraft.
   std::optional<std::string> run_of(const std::string& spacecraft) const;
   std::optional<SpacecraftKind> kind_of(const std::string& spacecraft) const;
 
-  /// As those of EventRing.
+  /// These three work as in EventRing.
   EventRing::News after(std::uint64_t id) const;
   std::uint64_t nearest(std::uint64_t id) const;
   bool holds_all_after(std::uint64_t id) const;
@@ -83,9 +82,9 @@ class ConsoleFeed {
   std::map<std::string, ShownSpacecraft> shown_;
   struct OpenAlert {
     Alert alert;
-    nlohmann::json row;  ///< As viewers are told.
+    nlohmann::json row;  ///< Row sent to viewers.
   };
-  /// By spacecraft and key: of a key one is open at most.
+  /// By spacecraft and key, which has at most one open alert.
   std::map<std::pair<std::string, std::string>, OpenAlert> alerts_;
   std::string trouble_;
   DurationHistogram latencies_;

@@ -27,17 +27,17 @@ namespace beast = boost::beast;
 using tcp = asio::ip::tcp;
 using Failed = boost::system::error_code;
 
-// For a whole request, for an answer, and for what a viewer is told at once.
+// Time limit for reading a request, for sending an answer and for each write to a viewer.
 constexpr std::chrono::seconds kPatience{10};
 constexpr std::chrono::milliseconds kLook{125};
 constexpr int kLooksAPulseBatch = 2;
 constexpr int kLooksAState = 8;
-// Twenty browsers that load the page at the same time.
+// Enough for twenty browsers that load the page at the same time.
 constexpr int kMostConnections = 128;
-// More are not even told so.
+// Connections above this are closed without an answer.
 constexpr int kMostOpen = 2 * kMostConnections;
 constexpr std::chrono::milliseconds kUntilNextAccept{100};
-// What the kernel keeps for a viewer that reads no more.
+// Limits what the kernel buffers for a viewer that has stopped reading.
 constexpr int kSendBuffer_bytes = 128 * 1024;
 
 Expected<tcp::endpoint> endpoint_of(const std::string& address) {
@@ -76,13 +76,13 @@ std::set<std::string> hosts_of(const ConsoleOptions& options, const tcp::endpoin
   return hosts;
 }
 
-/// Not that the client ended it, or that the network did.
+/// Returns false for a connection ended by the client or the network.
 bool is_bad_http(Failed failed) {
   return failed.category() == Failed{http::error::bad_value}.category() &&
          failed != http::error::end_of_stream && failed != http::error::partial_message;
 }
 
-/// A connection, which ends with its answer.
+/// A connection, which is closed after its answer.
 struct Session {
   Session(tcp::socket socket, int& count) : stream{std::move(socket)}, open{count} {
     ++open;
@@ -99,7 +99,7 @@ struct Session {
   http::request_parser<BoundedBody> parser;
   HttpResponse response;
   std::string events = {};
-  std::uint64_t seen = 0;  ///< Of the events.
+  std::uint64_t seen = 0;  ///< `id` of the last event sent.
   bool writing = false;
   int& open;
 };
@@ -107,7 +107,7 @@ using Shared = std::shared_ptr<Session>;
 
 }  // namespace
 
-/// All but `make` of an answer runs on the one thread of the context.
+/// Runs everything on the single thread of the context except `make` of the answers.
 class ConsoleServer::Loop {
  public:
   Loop(const ConsoleOptions& options, const ConsoleAnswers::Service& service, std::string token,
@@ -146,7 +146,7 @@ class ConsoleServer::Loop {
         accept();
         return;
       }
-      // No descriptors, or too many: those that are open end.
+      // Out of descriptors, or too many connections: existing ones will end.
       accepting_.expires_after(kUntilNextAccept);
       accepting_.async_wait([this](Failed /*never*/) { accept(); });
     });
@@ -206,14 +206,14 @@ class ConsoleServer::Loop {
   }
 
   void watch(const Shared& session, std::uint64_t id) {
-    Failed ignored;  // It keeps more then.
+    Failed ignored;  // Failure only means larger buffers.
     session->stream.socket().set_option(asio::socket_base::send_buffer_size{kSendBuffer_bytes},
                                         ignored);
     session->seen = id;
     session->events = event_stream_head();
     viewers_.insert(session);
     write(session);
-    feed_.tell_state();  // It does not wait for the next second to show something.
+    feed_.tell_state();  // Shows a state before the next second.
   }
 
   void write(const Shared& session) {
@@ -232,7 +232,7 @@ class ConsoleServer::Loop {
                       });
   }
 
-  /// What is new, if anything is. Who is so far behind that something is forgotten is dropped.
+  /// Sends new events. Drops a viewer that is so far behind that it has missed events.
   void tell(const Shared& session) {
     if (!feed_.holds_all_after(session->seen)) {
       drop(session);

@@ -1,5 +1,5 @@
 /// @file
-/// The console over HTTP, on threads of its own that give way to others.
+/// Serves the console over HTTP, on low-priority threads.
 
 #pragma once
 
@@ -14,29 +14,28 @@
 namespace spindrift {
 
 struct ConsoleOptions {
-  std::string address;  ///< HOST:PORT, a numeric host or localhost; 127.0.0.1 where there is none.
-                        ///< Port 0: a free one.
-  std::vector<std::string> names;  ///< By which browsers may call it, beside it and localhost.
+  /// HOST:PORT with a numeric host or localhost (default 127.0.0.1); port 0 takes a free one.
+  std::string address;
+  std::vector<std::string> names;  ///< Further host names for browsers.
   std::filesystem::path db;
 };
 
 class ConsoleServer {
  public:
-  /// @return InvalidConfiguration for an address that is none.
+  /// @return InvalidConfiguration for a malformed address.
   static Expected<void> check(const std::string& address);
-  /// @param service Outlives it.
-  /// @return As `check`; Unavailable where it cannot listen;
-  ///         as token_of.
+  /// @param service Must outlive the server.
+  /// @return The errors of `check` and token_of; Unavailable where it cannot listen.
   static Expected<std::unique_ptr<ConsoleServer>> start(const ConsoleOptions& options,
                                                         const ConsoleAnswers::Service& service);
-  /// Drops the viewers; waits for an answer that is being made.
+  /// Disconnects the viewers; waits for an answer that is being made.
   ~ConsoleServer();
   ConsoleServer(const ConsoleServer&) = delete;
   ConsoleServer& operator=(const ConsoleServer&) = delete;
   ConsoleServer(ConsoleServer&&) = delete;
   ConsoleServer& operator=(ConsoleServer&&) = delete;
 
-  /// http://HOST:PORT/
+  /// Returns http://HOST:PORT/ with the actual port.
   const std::string& url() const { return url_; }
 
  private:

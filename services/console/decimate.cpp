@@ -9,7 +9,7 @@ namespace {
 bool is_lower(const SeriesPoint& a, const SeriesPoint& b) { return a.value < b.value; }
 bool is_earlier(const SeriesPoint& a, const SeriesPoint& b) { return a.t_tai_ns < b.t_tai_ns; }
 
-/// The extremes of equal shares and, of three or more, the newest; of all of them the highest.
+/// Keeps the extremes of equal shares and, of three or more, the newest point.
 void thin(std::span<const SeriesPoint> points, std::size_t most, std::vector<SeriesPoint>& kept) {
   if (points.size() <= most) {
     kept.insert(kept.end(), points.begin(), points.end());

@@ -1,5 +1,5 @@
 /// @file
-/// Fewer points of a series that look like all of them.
+/// Thins a series to fewer points with the same look.
 
 #pragma once
 
@@ -12,7 +12,7 @@
 
 namespace spindrift {
 
-/// How far off something was, and what that was held against.
+/// Deviation in a test, and the limit of the test.
 struct HeldAgainst {
   double off;
   double limit;
@@ -24,20 +24,20 @@ struct HeldAgainst {
 struct SeriesPoint {
   std::int64_t t_tai_ns;
   double value;
-  std::optional<bool> accepted = {};  ///< Empty: nothing of the kind is rejected.
+  std::optional<bool> accepted = {};  ///< Empty when nothing of the kind is rejected.
   std::string rejected_by = {};
-  std::optional<HeldAgainst> held = {};  ///< Empty: no test has a number.
-  std::optional<bool> used = {};         ///< By the filter, where that decides beside the test.
+  std::optional<HeldAgainst> held = {};  ///< Empty when no test has a number.
+  std::optional<bool> used = {};         ///< Whether the filter used it.
 
   bool is_left_out() const { return !accepted.value_or(true) || !used.value_or(true); }
 
   bool operator==(const SeriesPoint&) const = default;
 };
 
-/// At most `most` of the points, which are in order of time: of what was taken, and of what was
-/// left out, the newest, and of equal shares of those before the lowest and the highest. What was
-/// left out has at most half of all, so that it is seen among what was taken. One point of
-/// either is the highest, two are the lowest and the highest. @param most At least 1.
+/// Returns at most `most` of the points, which are in order of time. Accepted and left-out points
+/// are thinned apart, so that the latter, at most half of the result, stay visible. Of each it
+/// keeps the newest, and the lowest and highest of equal shares of the others. When only one may be
+/// kept it is the highest; of two, the lowest and the highest. @param most At least 1.
 std::vector<SeriesPoint> decimate(std::span<const SeriesPoint> points, std::size_t most);
 
 }  // namespace spindrift

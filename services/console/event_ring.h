@@ -1,5 +1,5 @@
 /// @file
-/// The last events that viewers were told, as the text of an event stream.
+/// Keeps the latest viewer events as text of an event stream.
 
 #pragma once
 
@@ -16,22 +16,21 @@ class EventRing {
  public:
   static constexpr std::size_t kBytesKept = 16UL * 1024 * 1024;
 
-  /// @param id Below that of the first event. One that rises from start to start of the service
-  /// lets
-  ///           a viewer of before have all that is new.
+  /// @param id Below the id of the first event. An id that rises with each start of the service
+  ///        lets a viewer from before the start receive everything new.
   explicit EventRing(std::uint64_t id) : last_id_{id} {}
 
   void add(std::string_view event, const nlohmann::json& data);
 
   struct News {
     std::string text;
-    std::uint64_t last;  ///< `id` of the last of them.
+    std::uint64_t last;  ///< `id` of the last event in `text`.
   };
-  /// `id`, or what is nearest to it of those behind which nothing has been forgotten.
+  /// Returns `id`, limited to the range after which no event has been dropped.
   std::uint64_t nearest(std::uint64_t id) const;
-  /// Behind `id`, or from the oldest that is kept; at most some 64 KiB at once.
+  /// Returns the events after `id`, or from the oldest kept; about 64 KiB at most at once.
   News after(std::uint64_t id) const;
-  /// Nothing behind `id` has been forgotten.
+  /// Returns whether no event after `id` has been dropped.
   bool holds_all_after(std::uint64_t id) const { return id >= forgotten(); }
 
  private:

@@ -1,5 +1,5 @@
 /// @file
-/// Whether anything stands against acting on what is known of a spacecraft.
+/// Decides whether anything speaks against acting on what is known of a spacecraft.
 
 #pragma once
 
@@ -16,25 +16,25 @@
 
 namespace spindrift {
 
-/// What is known of a spacecraft now.
+/// The current knowledge about a spacecraft.
 struct Standing {
   SpacecraftKind kind;
   LinkState link = LinkState::Waiting;
   std::optional<double> data_age_s = {};
-  PassVerdict verdict = {};                  ///< Of the run in force.
-  std::optional<double> to_target_deg = {};  ///< Empty: no target, or no axis.
-  std::vector<Alert> alerts = {};            ///< Open ones.
+  PassVerdict verdict = {};                  ///< Verdict on the run in force.
+  std::optional<double> to_target_deg = {};  ///< Empty without target or axis.
+  std::vector<Alert> alerts = {};            ///< Only open ones.
 };
 
-/// One thing that stands against it.
+/// One reason against acting.
 struct Objection {
   std::string_view code;
   std::string text;  ///< For people.
 };
 
-/// Unknown is never go.
-/// @param trouble Why the service takes or stores nothing; empty: it does.
-/// @return Empty: go.
+/// Anything unknown is an objection.
+/// @param trouble Why the service takes or stores nothing; empty when it does.
+/// @return The objections; empty means go.
 std::vector<Objection> go_no_go(const Standing& standing, const std::string& trouble,
                                 const AlertLimits& limits);
 

@@ -1,5 +1,5 @@
 /// @file
-/// What comes in and goes out over HTTP, as Boost.Beast has it.
+/// HTTP messages as Boost.Beast types.
 
 #pragma once
 
@@ -16,7 +16,7 @@ namespace spindrift {
 
 namespace http = boost::beast::http;
 
-/// Of a longer body only the beginning is kept, but all of it is read: a client that is still
+/// Keeps only the beginning of a long body but reads all of it, because a client that is still
 /// sending would not see the answer.
 struct BoundedBody {
   static constexpr std::size_t kLongest = 16UL * 1024;
@@ -24,7 +24,7 @@ struct BoundedBody {
     std::string text;
     bool is_too_long = false;
   };
-  /// As Beast wants it: http://www.boost.org/libs/beast, concept BodyReader.
+  /// Implements the Beast concept BodyReader, see http://www.boost.org/libs/beast.
   class reader {
    public:
     template <bool kIsRequest, class Fields>
@@ -55,12 +55,12 @@ using HttpResponse = http::response<http::string_body>;
 
 inline std::string_view view(boost::beast::string_view text) { return {text.data(), text.size()}; }
 
-/// With the policy of the console; the connection ends with it.
+/// Returns an answer with the console's security policy that closes the connection.
 HttpResponse answer(http::status status, std::string_view type, std::string body);
 HttpResponse json_answer(http::status status, const nlohmann::json& json);
 HttpResponse refusal(http::status status, std::string_view why);
 
-/// The head of an answer that goes on until either side ends it.
+/// Returns the header of an answer that continues until either side closes it.
 std::string event_stream_head();
 
 }  // namespace spindrift

@@ -18,7 +18,7 @@ using prometheus::MetricFamily;
 using prometheus::MetricType;
 using Labels = std::vector<ClientMetric::Label>;
 
-/// Collects values of one name.
+/// Collects the metrics of one name.
 class Family {
  public:
   Family(std::string_view name, std::string help, MetricType type = MetricType::Gauge)
@@ -45,7 +45,7 @@ class Family {
     family_.metric.push_back(std::move(metric));
     return *this;
   }
-  /// A number of `object`, if it has it.
+  /// Adds a number of `object`, if present.
   Family& add(const nlohmann::json& object, const char* member, Labels labels = {}) {
     if (const auto value = object.find(member); value != object.end() && value->is_number()) {
       add(value->get<double>(), std::move(labels));

@@ -1,5 +1,5 @@
 /// @file
-/// What a Prometheus server asks for.
+/// Metrics of the service for a Prometheus server.
 
 #pragma once
 
@@ -14,11 +14,11 @@ namespace spindrift {
 
 struct ViewerCounts {
   std::size_t watching = 0;
-  std::uint64_t dropped = 0;  ///< They took nothing any more.
+  std::uint64_t dropped = 0;  ///< Viewers dropped because they stopped reading.
 };
 
-/// In the text format. What is not known yet is left out.
-/// @param state As in /api/v1/state. @param latencies Of results.
+/// Returns the metrics in Prometheus text format. Unknown values are left out.
+/// @param state As in /api/v1/state. @param latencies Latencies of results.
 std::string metrics_text(const nlohmann::json& state, const ArchiveStatistics& archive,
                          const DurationHistogram& latencies, const ViewerCounts& viewers);
 

@@ -1,5 +1,5 @@
 /// @file
-/// The files of the console's page, which the program holds.
+/// The files of the console's page, embedded in the program.
 
 #pragma once
 
@@ -9,7 +9,7 @@
 namespace spindrift {
 
 struct PageFile {
-  std::string_view path;  ///< As in the URL: "/index.html".
+  std::string_view path;  ///< Path in the URL, as "/index.html".
   std::string_view text;
 };
 

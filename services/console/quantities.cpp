@@ -10,7 +10,7 @@
 namespace spindrift {
 namespace {
 
-/// `value` is an expression over the columns of `table`.
+/// @param value Expression over the columns of `table`.
 Quantity quantity(std::string_view name, std::string_view unit, std::string_view table,
                   std::string_view value, std::string_view condition) {
   return {.name = std::string{name},
@@ -20,7 +20,7 @@ Quantity quantity(std::string_view name, std::string_view unit, std::string_view
                              value, table, condition)};
 }
 
-/// Their time is that of their revolution, which rises with its number.
+/// Makes the series of a measurement. Sorting by revolution gives the order of time.
 Quantity measurement(SpinQuantity of) {
   return {.name = std::string{name_of(of)},
           .unit = of == SpinQuantity::Period ? "s" : "deg",
@@ -31,8 +31,8 @@ Quantity measurement(SpinQuantity of) {
               name_of(of))};
 }
 
-/// Of an edge that no revolution had a place for by the turn of the edge before it. Held against
-/// the limit of the test that left it out, or of the filter.
+/// Makes the series of a channel's spin phase. An edge outside any revolution has its phase from
+/// the turn of the edge before it. The limit is that of the failed test, or of the filter.
 Quantity phase(std::string_view channel) {
   return {
       .name = fmt::format("phase_{}", channel),
@@ -55,7 +55,7 @@ Quantity phase(std::string_view channel) {
           channel)};
 }
 
-/// What the edges of a channel said to `sequential`.
+/// Makes the series of a channel's residuals in `sequential`.
 Quantity edge_residual(std::string_view channel) {
   return {.name = fmt::format("residual_{}", channel),
           .unit = "sigma",
@@ -68,14 +68,14 @@ Quantity edge_residual(std::string_view channel) {
               channel)};
 }
 
-/// A chi-square as a normal deviate (Wilson and Hilferty 1931): within 3, whatever its degrees of
-/// freedom, when all is well.
+/// Transforms a chi-square into a normal deviate (Wilson and Hilferty 1931), which stays within 3
+/// for a consistent filter, whatever its degrees of freedom.
 std::string deviate(std::string_view square, std::string_view freedom) {
   return fmt::format("(pow({0} / {1}, 1.0 / 3) - 1 + 2.0 / (9 * {1})) * sqrt(9 * {1} / 2.0)",
                      square, freedom);
 }
 
-/// What the samples of a kind said to the filter.
+/// Makes the series of the residuals of a kind of sample in the filter.
 Quantity sample_residual(std::string_view kind) {
   return {.name = fmt::format("residual_{}", kind),
           .unit = "sigma",

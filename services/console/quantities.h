@@ -1,5 +1,5 @@
 /// @file
-/// What of an archive can be had as a series.
+/// The quantities of the archive that are available as series.
 
 #pragma once
 
@@ -13,12 +13,12 @@ namespace spindrift {
 struct Quantity {
   std::string name;
   std::string unit;
-  /// Rows of t_tai_ns, value, accepted, rejected_by, for some also off, limit, unit and, behind
-  /// these, used; the newest first. ?1: the run; ?2: up to.
+  /// Selects t_tai_ns, value, accepted, rejected_by, for some also off, limit, unit and then used;
+  /// newest first. Parameter ?1 is the run, ?2 the latest time.
   std::string sql;
 };
 
-/// Of all spacecraft of a kind, whatever their archives hold.
+/// Returns the quantities for a kind of spacecraft, whether or not an archive has values of them.
 const std::vector<Quantity>& quantities_of(SpacecraftKind kind);
 
 }  // namespace spindrift

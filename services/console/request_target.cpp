@@ -12,7 +12,7 @@ namespace {
 
 Unexpected bad(const std::string& why) { return Unexpected{{ErrorCode::InvalidInput, why}}; }
 
-/// With its escapes made characters; empty: one of them is none.
+/// Replaces percent escapes; returns empty for a malformed one.
 std::optional<std::string> decoded(std::string_view text) {
   std::string plain;
   while (!text.empty()) {
@@ -33,7 +33,7 @@ std::optional<std::string> decoded(std::string_view text) {
   return plain;
 }
 
-/// What stands before the next `sign`, which goes from `text` with it.
+/// Removes the part before the next `sign`, and the sign itself, from `text`. @return The part.
 std::string_view cut(std::string_view& text, char sign) {
   const std::string_view part = text.substr(0, text.find(sign));
   text.remove_prefix(part.size() == text.size() ? part.size() : part.size() + 1);

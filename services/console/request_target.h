@@ -1,5 +1,5 @@
 /// @file
-/// The target of an HTTP request, taken apart.
+/// Parses the target of an HTTP request.
 
 #pragma once
 
@@ -22,7 +22,7 @@ struct RequestTarget {
                                  std::int64_t most) const;
 };
 
-/// @return InvalidInput for an escape that is none, and for a parameter that is given twice.
+/// @return InvalidInput for a malformed escape and for a parameter that is given twice.
 Expected<RequestTarget> request_target(std::string_view text);
 
 }  // namespace spindrift

@@ -18,9 +18,9 @@
 namespace spindrift {
 namespace {
 
-// Of a burst viewers see the newest.
+// A burst shows viewers only its newest edges.
 constexpr std::size_t kMostEdgesAtOnce = 1000;
-// More than those edges are of.
+// More turns than the kept edges can span.
 constexpr std::size_t kTurnsKept = 256;
 constexpr std::size_t kActionsKept = 5;
 constexpr std::size_t kFailedKept = 1000;
@@ -35,7 +35,7 @@ nlohmann::json place_json(const Eigen::Vector3d& direction_icrf) {
   return {{"ra_deg", place.ra_deg}, {"dec_deg", place.dec_deg}};
 }
 
-/// As the archive has it, but the reasons objects.
+/// Returns the archive's row with the reasons as JSON objects.
 template <class Estimate>
 nlohmann::json answer_json(const Estimate& estimate) {
   nlohmann::json row = json_of(estimate);
@@ -43,7 +43,7 @@ nlohmann::json answer_json(const Estimate& estimate) {
   return row;
 }
 
-/// As the archive has it, but the arguments an object.
+/// Returns the archive's row with the arguments as a JSON object.
 nlohmann::json action_json(const OperatorAction& action) {
   nlohmann::json row{{"action_id", action.action_id},
                      {"made_utc", action.made_utc},
@@ -57,7 +57,7 @@ nlohmann::json action_json(const OperatorAction& action) {
   return row;
 }
 
-/// What is not known is left out.
+/// Adds the value only if it is known.
 template <class Value>
 void add(nlohmann::json& object, const char* name, const std::optional<Value>& value) {
   if (value) {
@@ -206,7 +206,7 @@ void ShownSpacecraft::note(const SpinMeasurement& measurement) {
   }
 }
 
-/// As the series of the phase have it: by the test that left the edge out, or by the filter.
+/// Selects the failed test or the filter's limit by the same rule as the phase series.
 nlohmann::json ShownSpacecraft::held_against(const PulseUse& edge) const {
   const auto failed = std::find_if(failed_.begin(), failed_.end(), [&edge](const auto& one) {
     return one.first.first == edge.revolution && edge.rejected_by &&
@@ -227,7 +227,7 @@ nlohmann::json ShownSpacecraft::held_against(const PulseUse& edge) const {
   return nlohmann::json::object();
 }
 
-/// By the name of the source.
+/// By name of the source.
 nlohmann::json ShownSpacecraft::residuals() const {
   nlohmann::json all = nlohmann::json::object();
   for (const SourceSummary& one : ledger_.sources()) {
@@ -247,7 +247,7 @@ void ShownSpacecraft::take(const OperatorAction& action) {
   }
 }
 
-/// The mission's, until an operator has said another one.
+/// Returns the mission's prior unless an operator has replaced it.
 nlohmann::json ShownSpacecraft::prior() const {
   std::optional<SpinPrior> prior = mission_.spin()->prior;
   const auto later =
@@ -308,7 +308,7 @@ void ShownSpacecraft::add_sky(nlohmann::json& state) {
   }
   const auto spacecraft = mission_.orbit->at(*health_.last_sample);
   if (!spacecraft) {
-    return;  // The orbit ends: the axis is still there to be seen.
+    return;  // Beyond the end of the orbit only the axis can be shown.
   }
   const PlaceDeg sun = place_deg(sun_.direction_icrf(*health_.last_sample, *spacecraft));
   const PlaceDeg earth = place_deg(-spacecraft->position_icrf_km);

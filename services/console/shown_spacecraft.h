@@ -1,5 +1,5 @@
 /// @file
-/// What the console shows of one spacecraft.
+/// The console's data on one spacecraft.
 
 #pragma once
 
@@ -22,15 +22,15 @@ namespace spindrift {
 
 class ShownSpacecraft {
  public:
-  /// @param mission Outlives it.
+  /// @param mission Must outlive this object.
   explicit ShownSpacecraft(const Mission& mission);
 
-  /// What was shown of another run is forgotten.
+  /// Switches to a run and clears what was shown of another run.
   void show(const std::string& run_id);
   const std::string& run_id() const { return run_id_; }
 
   /// @name Products of the run
-  /// @return as viewers are told, for some with what else is known of it.
+  /// @return The JSON for viewers, for some products with further known data.
   /// @{
   nlohmann::json take(const SpinEstimate& estimate);
   nlohmann::json take(const SpinFix& fix);
@@ -40,16 +40,15 @@ class ShownSpacecraft {
   void take_details(const ArchiveBatch& stored);
 
   void take(const SpacecraftHealth& health) { health_ = health; }
-  /// Of the run.
   void take(const PassVerdict& verdict) { verdict_ = verdict; }
   void take(const SpinTarget& target) { target_ = target; }
 
-  /// As in /api/v1/state, but whether it is go.
+  /// Returns the spacecraft's part of /api/v1/state, without the go/no-go decision.
   nlohmann::json state();
-  /// But for its alerts.
+  /// Returns the standing without alerts.
   Standing standing() const;
   const AlertLimits& limits() const { return mission_.alerts; }
-  /// Edges since the last time, with their spin phase where that is known.
+  /// Returns the edges since the last call, with their spin phase where that is known.
   nlohmann::json take_pulses();
 
  private:
@@ -68,14 +67,14 @@ class ShownSpacecraft {
   SpacecraftHealth health_;
   nlohmann::json answers_ = nlohmann::json::object();
   std::optional<PassVerdict> verdict_;
-  std::map<TaiTime, double> periods_s_;  ///< Of the last turns, by their sun1.
-  std::deque<PulseUse> edges_;           ///< That viewers were not told yet.
-  /// The last measurements that failed their test.
+  std::map<TaiTime, double> periods_s_;  ///< Periods of the latest turns by sun1 time.
+  std::deque<PulseUse> edges_;           ///< Edges not sent to viewers yet.
+  /// Latest measurements that failed their test.
   std::map<std::pair<std::int64_t, SpinQuantity>, SpinMeasurement> failed_;
-  Ledger ledger_;  ///< Of what edges said to `sequential`, or samples to the filter.
-  std::deque<OperatorAction> actions_;                   ///< The last ones.
-  std::map<TaiTime, SpinPrior> priors_;                  ///< Set by actions: each from then on.
-  std::optional<std::pair<TaiTime, double>> bound_deg_;  ///< Of the last batch solution.
+  Ledger ledger_;  ///< Residuals of edges in `sequential`, or of samples in the filter.
+  std::deque<OperatorAction> actions_;                   ///< Latest ones.
+  std::map<TaiTime, SpinPrior> priors_;                  ///< Set by actions, by start time.
+  std::optional<std::pair<TaiTime, double>> bound_deg_;  ///< From the last batch solution.
   ApparentSun sun_;
 };
 

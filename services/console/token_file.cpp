@@ -17,7 +17,7 @@ namespace spindrift {
 namespace {
 
 constexpr std::size_t kTokenBytes = 32;
-// What somebody chose himself may be as short.
+// Limit for tokens chosen by a person.
 constexpr std::size_t kShortestToken = 16;
 constexpr std::size_t kLongestFile = 1024;
 

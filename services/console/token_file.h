@@ -1,5 +1,5 @@
 /// @file
-/// The token of those who may change something, in a file that only the service's user can read.
+/// The token that authorises changes, in a file that only the service's user can read.
 
 #pragma once
 
@@ -11,12 +11,12 @@
 
 namespace spindrift {
 
-/// That of an archive: its path plus `.token`. Made, of mode 600, where there is none.
+/// Returns the token from the file "ARCHIVE.token", which it creates with mode 600 if needed.
 /// @return InvalidConfiguration for a file that others can read, or that holds no token;
 ///         Unavailable where it can be neither read nor made.
 Expected<std::string> token_of(const std::filesystem::path& archive);
 
-/// In a time that tells nothing of where they differ.
+/// Compares in a time that does not depend on where the tokens differ.
 bool is_same_token(std::string_view token, std::string_view given);
 
 }  // namespace spindrift

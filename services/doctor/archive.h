@@ -1,5 +1,5 @@
 /// @file
-/// The archive as it lies on the disk: whole, of this program's version, and who writes it.
+/// Checks an archive: its integrity, its version, and who writes it.
 
 #pragma once
 
@@ -14,13 +14,13 @@
 
 namespace spindrift::doctor {
 
-/// What its tables say.
+/// Findings in the tables.
 struct ArchiveContent {
-  std::vector<std::string> damages = {};  ///< The first ten, in SQLite's words.
-  bool looked_at_everything = true;       ///< Not only at the structure of each table.
-  std::int64_t orphans = 0;               ///< Rows that name a row which is not there.
+  std::vector<std::string> damages = {};  ///< The first ten, as SQLite reports them.
+  bool looked_at_everything = true;       ///< False: only the tables' structure.
+  std::int64_t orphans = 0;               ///< Rows that refer to a missing row.
   std::int64_t unfinished_runs = 0;
-  int tai_minus_utc_s = 0;  ///< The last offset of its leap seconds; 0: it has none.
+  int tai_minus_utc_s = 0;  ///< Last offset of its leap seconds; 0 if none.
 };
 
 struct ArchiveFacts {
@@ -28,14 +28,14 @@ struct ArchiveFacts {
   bool exists = false;
   std::uint64_t bytes = 0;
   std::uint64_t wal_bytes = 0;
-  std::optional<std::string> writer;  ///< Who holds the right to write it, in its own words.
-  Expected<ArchiveContent> content;   ///< An error when it cannot be opened or read.
+  std::optional<std::string> writer;  ///< Holder of the write lock, as it names itself.
+  Expected<ArchiveContent> content;   ///< Error when it cannot be opened or read.
 };
 
-/// Reads only, and takes no lock that a writer would feel.
+/// Only reads, and takes no lock that could block a writer.
 ArchiveFacts archive_facts(const std::filesystem::path& path);
 
-/// @param program_tai_minus_utc_s The last offset of the leap seconds that this program knows.
+/// @param program_tai_minus_utc_s Last offset in the program's leap second table.
 std::vector<Check> check_archive(const ArchiveFacts& facts, int program_tai_minus_utc_s);
 
 }  // namespace spindrift::doctor

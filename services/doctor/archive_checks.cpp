@@ -6,7 +6,7 @@
 namespace spindrift::doctor {
 namespace {
 
-// The service cuts the log to 64 MiB when it has moved it into the archive.
+// Far above the 64 MiB to which the service truncates the log after a checkpoint.
 constexpr std::uint64_t kLongLog_bytes = 256ULL << 20U;
 
 Check check_integrity(const ArchiveContent& content) {

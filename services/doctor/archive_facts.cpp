@@ -14,7 +14,7 @@
 namespace spindrift::doctor {
 namespace {
 
-// Beyond this reading all rows and comparing all indices takes longer than anyone waits.
+// In larger archives reading all rows and comparing all indices takes too long.
 constexpr std::uint64_t kLarge_bytes = 1ULL << 30U;
 
 std::uint64_t size_of(const std::filesystem::path& path) {
@@ -23,8 +23,8 @@ std::uint64_t size_of(const std::filesystem::path& path) {
   return absent ? 0 : size;
 }
 
-/// By the kernel's list of locks: trying the lock itself could stand in the way of a service that
-/// starts at this moment.
+/// Reads the kernel's list of locks, because trying the lock could block a service that starts at
+/// this moment.
 bool is_locked(const std::filesystem::path& path) {
   struct stat status {};
   if (stat(path.c_str(), &status) != 0) {
@@ -49,7 +49,7 @@ std::optional<std::string> writer_of(const std::filesystem::path& archive) {
   return shown(std::string{std::istreambuf_iterator<char>{file}, {}});
 }
 
-/// Empty when SQLite finds nothing wrong.
+/// Returns empty when SQLite finds no damage.
 std::vector<std::string> damages_of(SQLite::Database& database, bool everything) {
   SQLite::Statement check{database,
                           everything ? "PRAGMA integrity_check(10)" : "PRAGMA quick_check(10)"};
@@ -59,7 +59,7 @@ std::vector<std::string> damages_of(SQLite::Database& database, bool everything)
       damages.push_back(check.getColumn(0).getString());
     }
   } catch (const SQLite::Exception& exception) {
-    // The check gives up at a page that it cannot pass: a finding too.
+    // The check stops at an unreadable page, which is a finding too.
     if (exception.getErrorCode() != SQLITE_CORRUPT) {
       throw;
     }
@@ -73,7 +73,7 @@ ArchiveContent read_content(SQLite::Database& database, bool everything) {
   const auto number = [&](const char* query) { return database.execAndGet(query).getInt64(); };
   ArchiveContent content{.damages = damages_of(database, everything),
                          .looked_at_everything = everything};
-  // The rest would stumble over what is damaged.
+  // Queries of a damaged database would fail.
   if (content.damages.empty()) {
     content.orphans = number("SELECT count(*) FROM pragma_foreign_key_check");
     content.unfinished_runs = number("SELECT count(*) FROM run WHERE finished_utc IS NULL");
@@ -95,7 +95,7 @@ Expected<ArchiveContent> content_of(const std::filesystem::path& path, bool ever
   } catch (const SQLite::Exception& exception) {
     content = Unexpected{archive_error(path.string(), exception)};
   }
-  // Somebody has begun to write: what was read may be half old and half new.
+  // A writer has started meanwhile, so the data may be inconsistent.
   return at_rest && std::filesystem::exists(log_of(path)) ? content_of(path, everything) : content;
 }
 

@@ -1,5 +1,5 @@
 /// @file
-/// What the doctor says of one thing: a value, so that finding and printing are apart.
+/// The result of one check, a value independent of how it is printed.
 
 #pragma once
 
@@ -10,15 +10,15 @@ namespace spindrift::doctor {
 
 enum class Verdict {
   Ok,
-  Warning,  ///< A pass can be taken, but something may go wrong or be wrong with it.
-  Failure,  ///< A pass cannot be taken, or what is stored cannot be trusted.
+  Warning,  ///< A pass can be taken but may be impaired.
+  Failure,  ///< A pass cannot be taken, or stored data is unreliable.
 };
 
 struct Check {
   std::string name;
   Verdict verdict;
-  std::string found;   ///< With numbers; several lines where several things were found.
-  std::string advice;  ///< What to do; empty where there is nothing to do.
+  std::string found;   ///< With numbers; one line per finding.
+  std::string advice;  ///< What to do; empty when nothing is needed.
 
   friend bool operator==(const Check&, const Check&) = default;
 };

@@ -1,5 +1,5 @@
 /// @file
-/// The place of the archive: is it writable, fit for a write-ahead log, and how long does it last.
+/// Checks whether the archive's disk is writable, suits a write-ahead log, and has enough space.
 
 #pragma once
 
@@ -16,15 +16,15 @@ namespace spindrift::doctor {
 
 struct DiskFacts {
   std::string folder;
-  bool writable;              ///< The folder, and the archive where there is one.
-  std::uint64_t free_bytes;   ///< For whoever runs this.
-  std::uint64_t file_system;  ///< Its magic number, of statfs.
+  bool writable;              ///< Whether folder and archive are writable.
+  std::uint64_t free_bytes;   ///< Free for the current user.
+  std::uint64_t file_system;  ///< Magic number from statfs.
 };
 
-/// @return Unavailable when the folder of `db` cannot be looked at.
+/// @return Unavailable when the folder of `db` cannot be examined.
 Expected<DiskFacts> disk_facts(const std::filesystem::path& db);
 
-/// @param spacecraft How many fill the archive.
+/// @param spacecraft Number of spacecraft that fill the archive.
 std::vector<Check> check_disk(const Expected<DiskFacts>& facts, std::size_t spacecraft);
 
 }  // namespace spindrift::doctor

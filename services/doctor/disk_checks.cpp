@@ -10,7 +10,7 @@
 namespace spindrift::doctor {
 namespace {
 
-// A revolution with all six edges in an archive of this version: measured 2260 bytes with
+// Bytes of a revolution with all six edges in this archive version: measured 2260 with
 // deploy/scenarios/gto-nominal.toml, 2090 with geo-day.toml.
 constexpr double kBytesPerRevolution = 2300.0;
 constexpr double kFastSpin_rpm = 100.0;
@@ -21,8 +21,8 @@ struct FileSystem {
   std::uint64_t magic;
   const char* name;
 };
-// A write-ahead log needs memory shared by all who open it, and locks that hold: not given over a
-// network (https://www.sqlite.org/wal.html).
+// A write-ahead log needs shared memory and reliable locks, which network file systems lack
+// (https://www.sqlite.org/wal.html).
 constexpr std::array<FileSystem, 7> kNetworkFileSystems = {{{NFS_SUPER_MAGIC, "NFS"},
                                                             {SMB_SUPER_MAGIC, "SMB"},
                                                             {CIFS_SUPER_MAGIC, "CIFS"},

@@ -5,10 +5,10 @@
 namespace spindrift::doctor {
 namespace {
 
-// The program was not there before, and 64-bit nanoseconds of the archive end in 2262.
+// The program did not exist earlier, and 64-bit nanoseconds in the archive end in 2262.
 constexpr int kFirstYear = 2026;
 constexpr int kLastYear = 2261;
-// Sockets, archive, log and what the libraries open come to some forty.
+// Sockets, archive, log and libraries open about forty files.
 constexpr std::uint64_t kFewFiles = 256;
 constexpr std::int64_t kLittleMemory_bytes = 512LL << 20;
 // Versions 3.7.0 to 3.51.2 have the WAL-reset bug.

@@ -1,5 +1,5 @@
 /// @file
-/// Whether the leap seconds that the program knows are all there are.
+/// Checks whether the program's leap second table is complete.
 
 #pragma once
 

@@ -1,6 +1,6 @@
 /// @file
-/// Whether the mission files fit the pass: one for each spacecraft, orbits that reach, and the
-/// Earth's field for a magnetometer.
+/// Checks that the mission files fit the pass: one per spacecraft, orbits that cover it, and a
+/// valid geomagnetic model for a magnetometer.
 
 #pragma once
 
@@ -15,7 +15,7 @@
 
 namespace spindrift::doctor {
 
-/// Of an ephemeris, where there may be holes between; of the ground model.
+/// Time span of an ephemeris, possibly with gaps, or of the ground model.
 struct Coverage {
   TaiTime from;
   TaiTime to;
@@ -24,20 +24,20 @@ struct Coverage {
 struct MissionFacts {
   std::string spacecraft;
   SpacecraftKind kind = SpacecraftKind::Spin;
-  std::optional<Coverage> ephemeris;  ///< Absent where the orbit is given otherwise, or not at all.
-  bool orbit_given = true;            ///< By the mission file.
-  std::optional<TaiTime> no_orbit_at;  ///< The first time of the pass without one; empty: none is.
-  bool never_an_orbit = false;         ///< Of the pass.
-  /// Of the model of the Earth's field; empty: no magnetometer.
+  std::optional<Coverage> ephemeris;   ///< Empty without an ephemeris.
+  bool orbit_given = true;             ///< Whether the mission file has an orbit.
+  std::optional<TaiTime> no_orbit_at;  ///< First time of the pass without an orbit.
+  bool never_an_orbit = false;         ///< Whether no part of the pass has an orbit.
+  /// End of the geomagnetic model; empty without a magnetometer.
   std::optional<TaiTime> field_to = {};
-  bool infrared = true;                        ///< It has an infrared sensor.
-  std::vector<std::string> idle;               ///< Tables of the file that nothing reads.
+  bool infrared = true;                        ///< Whether it has infrared sensors.
+  std::vector<std::string> idle;               ///< Tables of the file that are not used.
   std::vector<std::string> orbit_doubts = {};  ///< See mission.h.
-  std::optional<Coverage> ground_model = {};   ///< Of it; empty: there is none, or none that works.
-  std::string model_problem = {};              ///< Why; empty: nothing is wrong with it.
+  std::optional<Coverage> ground_model = {};   ///< Empty without a usable ground model.
+  std::string model_problem = {};              ///< Empty when the model has no problem.
 };
 
-/// That is to come; without one, the moment of now.
+/// The coming pass; when none is given, both times are now.
 struct ComingPass {
   TaiTime from;
   TaiTime to;

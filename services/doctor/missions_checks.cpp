@@ -18,14 +18,14 @@ std::string coverage_text(const Coverage& coverage) {
                      format_utc(coverage.to, 0));
 }
 
-/// What there is none of without the orbit.
+/// Names the result that is missing without the orbit.
 std::string orbit_advice(const MissionFacts& mission) {
   return fmt::format("get an ephemeris of the pass: {} without the orbit",
                      mission.kind == SpacecraftKind::Spin ? "there is no spin axis"
                                                           : "the magnetometer tells nothing");
 }
 
-/// Only an ephemeris does not reach everywhere.
+/// Only an ephemeris can fail to cover a time.
 std::string no_orbit_text(TaiTime t, const Coverage& coverage) {
   const std::string where =
       t < coverage.from ? duration_text(seconds_between(t, coverage.from)) + " before it begins"
@@ -72,7 +72,7 @@ Check check_field(const MissionFacts& mission, const ComingPass& pass) {
              : ok(name, found);
 }
 
-/// Of a mission that names one.
+/// Called only for a mission that names a ground model.
 Check check_model(const MissionFacts& mission, const ComingPass& pass) {
   const std::string name = fmt::format("ground model of {}", mission.spacecraft);
   if (!mission.ground_model) {

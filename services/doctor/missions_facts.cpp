@@ -8,7 +8,7 @@
 namespace spindrift::doctor {
 namespace {
 
-/// Tables that only the other kind of spacecraft has a use for.
+/// Returns tables that only the other kind of spacecraft uses.
 std::vector<std::string> idle_tables(const Mission& mission) {
   const toml::table document = toml::parse(mission.toml_text);
   std::vector<std::string> idle;
@@ -21,7 +21,7 @@ std::vector<std::string> idle_tables(const Mission& mission) {
   return idle;
 }
 
-/// Holes of an ephemeris that are shorter than this many steps of the pass are not looked for.
+/// Number of steps in the pass; gaps of an ephemeris shorter than a step are not found.
 constexpr int kLooks = 1000;
 
 void look_for_orbit(const Orbit& orbit, const ComingPass& pass, MissionFacts& facts) {

@@ -6,9 +6,9 @@
 namespace spindrift::doctor {
 namespace {
 
-// With fewer the next programs of a pass (front-end, service, displays, replay) may not fit.
+// With fewer indices, other programs of a pass (front-end, displays, replay) may not fit.
 constexpr int kFewIndices = 4;
-// What Cyclone DDS 0.10 asks of the kernel by itself.
+// Default request of Cyclone DDS 0.10 to the kernel.
 constexpr std::int64_t kReceiveBuffer_bytes = 1'048'576;
 constexpr double kSlowRoundTrip_ms = 1000.0;
 

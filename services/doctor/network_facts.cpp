@@ -15,12 +15,12 @@
 namespace spindrift::doctor {
 namespace {
 
-// Of all that Cyclone may trace only its configuration; the last of several sources wins.
+// Limits Cyclone's trace to its configuration; the last of several sources takes precedence.
 constexpr std::string_view kTraceConfiguration =
     ",<CycloneDDS><Domain Id=\"any\"><Tracing><Category>config</Category>"
     "<OutputFile>/dev/null</OutputFile></Tracing></Domain></CycloneDDS>";
 
-/// While this lives Cyclone's log and trace are kept, not printed.
+/// Captures Cyclone's log and trace while it exists.
 class TraceCapture {
  public:
   TraceCapture() {
@@ -48,7 +48,7 @@ class TraceCapture {
   std::string trace_;
 };
 
-/// What stands between `after` and `until`, or the end; empty where `after` is not found.
+/// Returns the text between `after` and `until`, or the end; empty where `after` is not found.
 std::string_view between(std::string_view text, std::string_view after, std::string_view until) {
   const std::size_t found = text.find(after);
   if (found == std::string_view::npos) {
@@ -78,7 +78,7 @@ std::vector<std::string> peers_of(std::string_view trace) {
   return peers;
 }
 
-/// "lo (index 1 priority 0), eth0 (...)" without what stands in brackets.
+/// Returns the names in "lo (index 1 priority 0), eth0 (...)" without the brackets.
 std::string interfaces_of(std::string_view trace) {
   std::string_view chosen = between(trace, "selected interfaces: ", "\n");
   std::string interfaces;
@@ -104,7 +104,7 @@ NetworkSettings settings_of(std::string_view trace) {
                            .receive_buffer_bytes = whole_number(
                                between(trace, "socket receive buffer size set to ", " "))};
   if (setting(trace, "Discovery/ParticipantIndex/#text") == "auto") {
-    // Cyclone 0.10.2 gives out the indices below the "maximum": not that one itself.
+    // Cyclone 0.10.2 assigns only indices below the "maximum".
     const auto count = whole_number(setting(trace, "Discovery/MaxAutoParticipantIndex/#text"));
     settings.indices = static_cast<int>(count.value_or(0));
   }
@@ -123,7 +123,7 @@ int free_indices(const NetworkSettings& settings, std::string_view udp_table) {
   std::set<int> ports;
   for (auto line = udp_table.find('\n'); line != std::string_view::npos;
        line = udp_table.find('\n', line + 1)) {
-    // "  sl: ADDRESS:PORT ...", both hexadecimal
+    // A line is "  sl: ADDRESS:PORT ...", both in hexadecimal.
     const std::string_view rest = udp_table.substr(line + 1);
     const std::string_view local = between(between(rest, ": ", "\n"), ":", " ");
     int port = 0;
@@ -156,7 +156,7 @@ NetworkFacts network_facts(std::uint32_t domain) {
     }
     facts.settings = settings_of(capture.trace());
   }
-  // Asked when the domain has given its own ports back.
+  // Read after the domain has released its own ports.
   if (const std::string table = text_of("/proc/net/udp");
       !table.empty() && facts.settings->indices) {
     facts.free_indices = free_indices(*facts.settings, table);

@@ -1,5 +1,5 @@
 /// @file
-/// Who else is on the bus, and whether those who should meet do.
+/// Checks who else is on the bus, and whether endpoints that should match do.
 
 #pragma once
 
@@ -16,24 +16,24 @@
 
 namespace spindrift::doctor {
 
-/// A reader or a writer of somebody else on a topic of spindrift.
+/// A reader or writer of another process on a topic of spindrift.
 struct Endpoint {
   bool writes;
   std::string topic;
-  std::vector<std::string> partitions;  ///< DDS takes each as a pattern; never empty.
+  std::vector<std::string> partitions;  ///< DDS patterns; never empty.
   std::string owner;
-  std::vector<bus::Shortfall> shortfalls;  ///< Against the QoS of spindrift for the other side.
+  std::vector<bus::Shortfall> shortfalls;  ///< Compared with spindrift's QoS of the other side.
 };
 
 struct PresenceFacts {
-  bus::BusConfig bus;                     ///< Domain and partition asked about.
-  std::vector<std::string> participants;  ///< Process and host of each, but ours.
+  bus::BusConfig bus;                     ///< Domain and partition to check.
+  std::vector<std::string> participants;  ///< Process and host of each other participant.
   std::vector<Endpoint> endpoints;
 };
 
-/// Listens for a second. Makes no reader or writer of its own on a topic of spindrift: a front-end
-/// must not take the doctor for the service.
-/// @param partner A process of ours, not to be counted.
+/// Listens for a second. It creates no reader or writer on a topic of spindrift, so that no
+/// front-end takes the doctor for the service.
+/// @param partner Process of ours that is not counted.
 /// @return Unavailable when Cyclone refuses.
 Expected<PresenceFacts> presence_facts(const bus::BusConfig& bus, pid_t partner);
 

@@ -24,7 +24,7 @@ std::string lines(const std::set<std::string>& texts) {
   return fmt::format("{}", fmt::join(texts, "\n"));
 }
 
-/// "spindrift/pulse: written by ..., partition live"
+/// Returns for example "spindrift/pulse written by ..., partition 'live'".
 std::string description(const Endpoint& endpoint) {
   return fmt::format("{} {} by {}, partition '{}'", shown(endpoint.topic),
                      endpoint.writes ? "written" : "read", endpoint.owner,

@@ -20,11 +20,11 @@
 namespace spindrift::doctor {
 namespace {
 
-// Those present answer the announcement of a newcomer at once.
+// Participants answer the announcement of a newcomer at once.
 constexpr std::chrono::seconds kListening{1};
 constexpr std::string_view kOurTopics = "spindrift/";
 
-/// Of a participant, by which an endpoint names it.
+/// Identifier of a participant, by which endpoints refer to it.
 using Guid = std::string;
 
 Guid guid_of(const dds_guid_t& guid) { return fmt::format("{:02x}", fmt::join(guid.v, "")); }
@@ -72,7 +72,7 @@ std::vector<bus::Shortfall> shortfalls_of(std::string_view topic, bool writes,
   return bus::shortfalls(ours.get(), qos);
 }
 
-/// Adds the endpoints of one side whose owners are known.
+/// Adds the readers or writers whose owners are known.
 Expected<void> add_endpoints(const bus::Participant& participant,
                              const std::map<Guid, std::string>& owners, bool writes,
                              std::vector<Endpoint>& endpoints) {

@@ -15,11 +15,11 @@ namespace {
 
 constexpr std::size_t kWidth = 100;
 constexpr std::array<std::string_view, 3> kNames = {"ok", "warning", "failure"};
-// What needs attention stands out without colours.
+// Upper case, so that problems stand out without colours.
 constexpr std::array<std::string_view, 3> kMarks = {"ok", "WARNING", "FAILURE"};
 constexpr std::size_t kMarkWidth = 9;
 
-/// The lines of `text`, broken between words at `width`; continued ones are indented by two.
+/// Breaks the lines of `text` between words at `width` and indents continuations by two.
 std::vector<std::string> wrapped(std::string_view text, std::size_t width) {
   std::vector<std::string> lines;
   while (!text.empty()) {

@@ -1,5 +1,5 @@
 /// @file
-/// What the doctor found, for a terminal and for programs.
+/// Formats the results of the checks for a terminal and as JSON.
 
 #pragma once
 
@@ -10,14 +10,14 @@
 
 namespace spindrift::doctor {
 
-/// Ok when there are none.
+/// Returns Ok when there are no checks.
 Verdict worst_of(std::span<const Check> checks);
 
-/// A list in columns, 100 wide where the words allow it, and a last line that sums it up.
-/// @param verbose What is sound, too.
+/// Returns a table, at most 100 wide where the words allow it, and a summary line.
+/// @param verbose Whether passed checks are listed too.
 std::string to_text(std::span<const Check> checks, bool verbose);
 
-/// One object on one line: "verdict", and "checks" of "name", "verdict", "found", "advice".
+/// Returns one object on one line: "verdict", and "checks" of "name", "verdict", "found", "advice".
 std::string to_json(std::span<const Check> checks);
 
 }  // namespace spindrift::doctor

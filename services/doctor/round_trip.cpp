@@ -20,8 +20,7 @@ using namespace std::chrono_literals;
 
 constexpr auto kPatience = 5s;
 constexpr auto kPoll = 1ms;
-// Of the partner, whatever happens to it. It ends by itself, so that nobody is left waiting for its
-// lease to end.
+// Limit on the partner's lifetime. It ends by itself, so that nobody waits for its lease to expire.
 constexpr int kPartnerLimit_s = 10;
 
 Expected<void> send_one(const bus::BusConfig& config) {
@@ -43,7 +42,7 @@ Expected<void> send_one(const bus::BusConfig& config) {
   return writer->wait_for_reader(kPatience).and_then([&] { return writer->write(pulse); });
 }
 
-/// Until the sample of the other process is there.
+/// Waits until the sample of the other process has arrived.
 Expected<void> receive_one(const bus::BusConfig& config,
                            std::chrono::steady_clock::time_point deadline) {
   const auto participant = bus::Participant::create(config);

@@ -1,5 +1,6 @@
 /// @file
-/// What arrives from the bus: counted, converted, and sorted into ours, others' and impossible.
+/// Counts and converts the samples from the bus, and separates this service's samples from those of
+/// others and from impossible ones.
 
 #pragma once
 
@@ -22,24 +23,23 @@
 
 namespace spindrift {
 
-/// How many samples came of one spacecraft.
 struct SpacecraftCounts {
   std::uint64_t received = 0;
-  std::uint64_t rejected = 0;  ///< Of those, they could not be true.
+  std::uint64_t rejected = 0;  ///< Received samples that could not be true.
 };
-/// By name.
 using CountsBySpacecraft = std::map<std::string, SpacecraftCounts, std::less<>>;
 
-/// From any thread. Its memory is bounded whatever is sent.
+/// Counts and converts samples. May be used by any thread. Memory is bounded.
 class Arrivals {
  public:
-  /// @param spacecraft That have a mission here. @param stored Before a restart: no gap is counted
-  /// again.
+  /// @param spacecraft Spacecraft that have a mission here.
+  /// @param stored Origins stored before a restart; their gaps are not counted again.
   Arrivals(std::set<std::string, std::less<>> spacecraft, const LastOrigins& stored);
 
   bool is_ours(std::string_view spacecraft) const { return ours_.contains(spacecraft); }
 
-  /// A sample of ours: its value, or why there is none, into `batch`. It is counted with `count`.
+  /// Puts a sample of this service's spacecraft into `batch`, or the reason why it is rejected. A
+  /// valid sample is only counted by `count`.
   template <class Value>
   void take(const bus::MessageOf<Value>& message, std::int64_t written_ns, SampleBatch& batch) {
     if (auto sample = from_idl<Value>(message)) {
@@ -51,10 +51,11 @@ class Arrivals {
     }
   }
 
-  /// @return of the sources of which samples were counted since this was last asked, all counts.
+  /// Counts the samples of this service's spacecraft.
+  /// @return All counts of the sources with samples counted since the last call.
   std::map<std::string, SequenceCounts> count(const TelemetrySamples& samples);
 
-  /// A sample of another spacecraft: `take_rest` gives what is to be known of it.
+  /// Counts a sample of another spacecraft. `take_rest` returns these counts.
   template <class Value>
   void take_other(const bus::MessageOf<Value>& message) {
     const auto sample = from_idl<Value>(message);
@@ -64,15 +65,15 @@ class Arrivals {
     }
   }
 
-  /// What belongs to no batch of samples. @param now See RejectionLimit.
+  /// Returns the counts and rejections that belong to no batch of samples.
+  /// @param now Wall clock, as in RejectionLimit.
   SampleBatch take_rest(TaiTime now);
 
   std::map<std::string, SequenceCounts> by_source() const;
-  /// Of ours.
   CountsBySpacecraft by_spacecraft() const;
 
  private:
-  /// @return whether it can be true.
+  /// @return Whether the sample can be true.
   template <class Value>
   bool note(const bus::MessageOf<Value>& message, const Expected<TelemetrySample<Value>>& sample,
             SampleBatch& batch) {
@@ -93,7 +94,7 @@ class Arrivals {
 
   const std::set<std::string, std::less<>> ours_;
 
-  mutable std::mutex mutex_;  // Guards the four below.
+  mutable std::mutex mutex_;  // Guards the four members below.
   SequenceTracker tracker_;
   RejectionLimit limit_;
   SampleBatch rest_;

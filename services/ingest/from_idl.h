@@ -1,6 +1,5 @@
 /// @file
-/// Telemetry of the bus as values of ours. The only place that reads the generated types of
-/// telemetry.
+/// Converts telemetry from the bus. Only this file reads the generated types of telemetry.
 
 #pragma once
 
@@ -23,36 +22,36 @@
 
 namespace spindrift {
 
-/// Of any message; a source that could not be shown, as it is shown.
+/// Returns the origin of any message, with the source made printable.
 template <class Message>
 Origin origin_from_idl(const Message& message) {
   return {.source = shown(message.source), .session = message.session, .seq = message.seq};
 }
 
-/// What is stored in the place of a telemetry sample of `origin`.
+/// Returns the row that is stored instead of an impossible sample from `origin`.
 RejectedInput rejected_from_idl(const Origin& origin, std::string reason);
 
-/// @name What cannot be true of the members that every message has, and of a channel
-/// Member, value and what is allowed; empty when it may be true.
+/// @name Checks of the members that every message has, and of a channel
+/// They name member, value and what is allowed; empty when the value is possible.
 /// @{
 std::string why_header_impossible(std::string_view spacecraft, std::string_view source,
                                   std::int64_t t_tai_ns);
 std::string why_no_channel(std::string_view name, std::uint32_t channel);
 /// @}
 
-/// @name One member of a message into one of a value
-/// @return why it cannot be true, or empty.
+/// @name Copy one member of a message into one of a value
+/// @return The reason why it is impossible, or an empty string.
 /// @{
 inline std::string put(std::string_view /*name*/, double field, double& member) {
   member = field;
   return {};
 }
-/// NaN: not received.
+/// Maps NaN, which means "not received", to an empty value.
 inline std::string put(std::string_view /*name*/, double field, std::optional<double>& member) {
   member = std::isnan(field) ? std::nullopt : std::optional{field};
   return {};
 }
-/// As bytes: a newer IDL may know a channel that ours does not, and an enum must not hold it.
+/// Copies bytes, because a newer IDL may have a channel that this enum must not hold.
 template <class Field>
 std::string put(std::string_view name, const Field& field, PulseChannel& member) {
   std::uint32_t channel = 0;
@@ -66,9 +65,10 @@ std::string put(std::string_view name, const Field& field, PulseChannel& member)
 }
 /// @}
 
-/// @return InvalidInput naming kind, member, value and what is allowed, when the sample cannot be
-/// true: spacecraft or source no name, time outside telemetry_time.h, values that its kind does not
-/// allow. The kind keeps apart the rejections of samples with one seq: each topic counts its own.
+/// Converts a message to a sample. @return InvalidInput naming kind, member, value and what is
+/// allowed, when the sample is impossible: an invalid name of spacecraft or source, a time outside
+/// telemetry_time.h, or values that its kind does not allow. The kind is named because each topic
+/// has its own seq, so samples of two kinds can have the same one.
 template <class Value>
 Expected<TelemetrySample<Value>> from_idl(const bus::MessageOf<Value>& message) {
   TelemetrySample<Value> sample{

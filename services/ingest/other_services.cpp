@@ -8,7 +8,7 @@
 namespace spindrift {
 namespace {
 
-// Beyond so many spacecraft nobody is looked for.
+// Limit of spacecraft that are tracked, to bound memory.
 constexpr std::size_t kMostServed = 4096;
 
 }  // namespace

@@ -1,5 +1,5 @@
 /// @file
-/// Other services that report on a spacecraft in the same partition.
+/// Finds other services that report on a spacecraft in the same partition.
 
 #pragma once
 
@@ -14,20 +14,20 @@
 
 namespace spindrift {
 
-/// By their health, which each publishes once a second.
+/// Finds services by the health that each publishes once a second.
 class OtherServices {
  public:
   using Instant = std::chrono::steady_clock::time_point;
 
-  /// Who was not heard for so long has ended.
+  /// A service not heard for longer than this has ended.
   static constexpr std::chrono::seconds kEndedAfter{5};
 
-  /// `participant` outlives it. @param own Name of this service, which is not among them.
+  /// `participant` must outlive this object. @param own Name of this service, which is left out.
   /// @return Unavailable when Cyclone refuses.
   static Expected<OtherServices> create(const bus::Participant& participant,
                                         const std::string& own);
 
-  /// @return by spacecraft, one that is heard. Unavailable when Cyclone refuses.
+  /// @return The service last heard for each spacecraft; Unavailable when Cyclone refuses.
   Expected<std::map<std::string, std::string>> look(Instant now);
 
  private:
@@ -39,7 +39,7 @@ class OtherServices {
   explicit OtherServices(bus::Reader<spindrift_Health> reader) : reader_{std::move(reader)} {}
 
   bus::Reader<spindrift_Health> reader_;
-  std::map<std::string, Heard> heard_;  ///< By spacecraft.
+  std::map<std::string, Heard> heard_;  ///< Last report for each spacecraft.
 };
 
 }  // namespace spindrift

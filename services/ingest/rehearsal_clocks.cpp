@@ -8,7 +8,7 @@
 namespace spindrift {
 namespace {
 
-// Beyond so many nobody's clock is kept.
+// Limit of spacecraft whose clocks are kept, to bound memory.
 constexpr std::size_t kMostSpacecraft = 4096;
 
 }  // namespace

@@ -1,5 +1,5 @@
 /// @file
-/// By which clock the telemetry of a rehearsal goes.
+/// Receives the clocks that the telemetry of rehearsals follows.
 
 #pragma once
 
@@ -15,16 +15,17 @@
 
 namespace spindrift {
 
-/// As `replay --now` and `simulate --publish --now` tell it.
+/// Holds the clocks that `replay --now` and `simulate --publish --now` announce.
 class RehearsalClocks {
  public:
-  /// `participant` outlives it. @return Unavailable when Cyclone refuses.
+  /// `participant` must outlive this object. @return Unavailable when Cyclone refuses.
   static Expected<RehearsalClocks> create(const bus::Participant& participant);
 
-  /// What has come since. @return Unavailable when Cyclone refuses.
+  /// Reads the announcements that have come since the last call.
+  /// @return Unavailable when Cyclone refuses.
   Expected<void> look();
 
-  /// How far the host's clock is ahead of the telemetry that is due. Empty: no rehearsal told it.
+  /// Returns how far the host's clock is ahead of the due telemetry; empty when unknown.
   std::optional<std::chrono::nanoseconds> offset(const std::string& spacecraft) const;
 
  private:

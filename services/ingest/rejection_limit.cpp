@@ -31,7 +31,7 @@ std::optional<RejectedInput> RejectionLimit::pass(RejectedInput rejected, TaiTim
 
 std::vector<RejectedInput> RejectionLimit::take_rest(TaiTime now) {
   std::vector<RejectedInput> rest;
-  // A clock that was set back ends the minute, too.
+  // The minute also ends when the clock is set back.
   if (now >= began_ && now - began_ < kMinute) {
     return rest;
   }

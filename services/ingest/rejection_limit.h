@@ -1,5 +1,5 @@
 /// @file
-/// How many impossible samples are kept one by one: a sender that is wrong may be wrong for days.
+/// Limits how many impossible samples are stored: a sender may be faulty for days.
 
 #pragma once
 
@@ -15,30 +15,30 @@
 
 namespace spindrift {
 
-/// Of each source the first in a minute, which begins with one of them. The rest of the minute is
-/// one row with the last of them, its reason and their number. Sources beyond kMaxSources in a
-/// minute are limited together, under kOtherSources.
-///
-/// Wall-clock time of arrival counts, for that of the samples may be what is impossible. A sample
-/// that is sent again after a restart may therefore be kept where it was only counted, and counted
-/// where it was kept: rejected input is no part of what is computed.
+/// Stores the first kKept impossible samples of each source in a minute, which begins with the
+/// first of them. The rest of the minute becomes one row with their number and the reason of the
+/// last. Sources beyond kMaxSources in a minute are limited together, under kOtherSources.
+/// Minutes are measured by the wall clock on arrival, because the samples' own times may be what is
+/// impossible. A sample sent again after a restart may therefore be stored where it was only
+/// counted before, or the reverse; rejected input does not enter any computation.
 class RejectionLimit {
  public:
   static constexpr std::int64_t kKept = 20;
   static constexpr std::size_t kMaxSources = 256;
 
-  /// @param now Wall clock. Empty: only its number is kept.
+  /// @param now Wall clock.
+  /// @return `rejected`, or empty when it is only counted.
   std::optional<RejectedInput> pass(RejectedInput rejected, TaiTime now);
 
-  /// Of a minute that is over by `now`, one row a source of which samples were not kept. To be
-  /// asked for now and then.
+  /// Returns one row per source with samples that were only counted, once the minute is over at
+  /// `now`. To be called regularly.
   std::vector<RejectedInput> take_rest(TaiTime now);
 
  private:
   struct Minute {
     std::int64_t kept = 0;
-    std::int64_t counted = 0;  ///< Beyond those.
-    RejectedInput last = {};   ///< Of the counted.
+    std::int64_t counted = 0;  ///< Number of samples that were only counted.
+    RejectedInput last = {};   ///< The last of these.
   };
 
   Minute& minute_of(const std::string& source);

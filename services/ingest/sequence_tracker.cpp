@@ -67,7 +67,7 @@ bool SequenceTracker::has_jumped(const Session& session, std::uint64_t seq) {
 Arrival SequenceTracker::insert(Session& session, std::uint64_t seq, SequenceCounts& counts) {
   auto& runs = session.runs;
   if (runs.empty()) {
-    // Sent again, up to where the session was: it goes on from there.
+    // A sample that was stored before is sent again; the session continues from the stored end.
     const std::uint64_t reached = seq < session.floor ? session.floor - 1 : seq;
     runs.emplace(reached, reached);
     return Arrival::New;

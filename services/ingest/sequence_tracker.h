@@ -1,5 +1,5 @@
 /// @file
-/// Gaps, duplicates and disorder, found from `seq`: DDS does not tell of every sample it loses.
+/// Finds gaps, duplicates and disorder from `seq`, because DDS does not report every lost sample.
 
 #pragma once
 
@@ -18,25 +18,21 @@ namespace spindrift {
 
 enum class Arrival { New, Duplicate };
 
-/// `seq` counts per source, session and topic; the counts of a source are those of all its topics
-/// together. A late arrival fills its gap. What a session sent before the first sample seen of
-/// it is no gap: it was there before we were.
-///
-/// A source numbers the samples of all its spacecraft together, and a reader gives them spacecraft
-/// by spacecraft: gaps come and go with that, and disorder is only told within a spacecraft.
-///
-/// A jump by more than kFarthestJump is a new session in all but name: how many samples it passes
-/// over nobody can say, and it counts as one that is missing.
-///
-/// Memory is bounded. Of a session with more than kMaxRuns gaps the lowest are given up: they stay
-/// counted as missing, and what still arrives there counts as new. Beyond kMaxSessions the session
-/// silent for longest is forgotten; sources beyond kMaxSources are counted together, under
-/// kOtherSources; the spacecraft of a session beyond kMaxSpacecraft are taken for one.
+/// Tracks `seq` per source, session and topic; the counts of a source are summed over its topics. A
+/// late arrival fills its gap. Samples that a session sent before the first one received are no
+/// gap, because they were sent before this reader existed. A source numbers the samples of all its
+/// spacecraft together, whereas a reader delivers them spacecraft by spacecraft. So gaps come and
+/// go, and disorder is counted per spacecraft. A jump by more than kFarthestJump is treated like a
+/// new session: the number of samples in between is unknown and counts as one missing sample.
+/// Memory is bounded. In a session with more than kMaxRuns gaps the lowest are given up: they stay
+/// counted as missing, and samples that still arrive there count as new. Beyond kMaxSessions the
+/// session silent for longest is forgotten. Sources beyond kMaxSources are counted together under
+/// kOtherSources, and the spacecraft of a session beyond kMaxSpacecraft are treated as one.
 class SequenceTracker {
  public:
-  /// More than the samples, and hence the gaps, that a reader can hold back.
+  /// More than the number of samples, and hence of gaps, that a reader can hold back.
   static constexpr std::size_t kMaxRuns = 16384;
-  /// More than a source sends in days.
+  /// More samples than a source sends in days.
   static constexpr std::uint64_t kFarthestJump = 10'000'000;
   static constexpr std::size_t kMaxSessions = 256;
   static constexpr std::size_t kMaxSources = 256;
@@ -50,30 +46,30 @@ class SequenceTracker {
   SequenceTracker(SequenceTracker&&) = delete;
   SequenceTracker& operator=(SequenceTracker&&) = delete;
 
-  /// The archive holds what a session sent up to `last`, and its gaps are counted: what of that is
-  /// sent again leaves none. What follows, if it is sent again, goes on from there.
+  /// Restores a session whose samples up to `last` are stored, with their gaps counted. Samples up
+  /// to `last` that are sent again leave no new gaps, and later samples continue from there.
   void go_on(const Origin& last, std::size_t topic = 0);
 
-  /// @param topic  Any number that stands for the topic.
+  /// @param topic Any number that identifies the topic.
   Arrival record(const Origin& origin, const std::string& spacecraft, std::size_t topic = 0);
 
   const std::map<std::string, SequenceCounts>& by_source() const { return by_source_; }
 
-  /// Those entries of `by_source` in which samples were recorded since this was last asked.
+  /// Returns the entries of `by_source` with samples recorded since the last call.
   std::map<std::string, SequenceCounts> take_changed();
 
  private:
-  /// What has arrived of one session: runs of consecutive seq, first to last, both included.
+  /// What arrived in one session, as runs of consecutive seq: first to last, both included.
   struct Session {
     std::map<std::uint64_t, std::uint64_t> runs;
-    std::uint64_t floor = 0;                       ///< Below it gaps are not looked for any more.
-    std::map<std::string, std::uint64_t> highest;  ///< By spacecraft.
+    std::uint64_t floor = 0;                       ///< Below this seq gaps are no longer tracked.
+    std::map<std::string, std::uint64_t> highest;  ///< Highest seq by spacecraft.
     std::uint64_t last_active = 0;
   };
 
   using SourceEntry = std::pair<const std::string, SequenceCounts>;
 
-  /// Where the samples of one source, session, topic and spacecraft are recorded.
+  /// The counters for the samples of one source, session, topic and spacecraft.
   struct Place {
     std::string source;
     std::uint64_t session_number = 0;
@@ -102,8 +98,8 @@ class SequenceTracker {
   std::map<std::tuple<std::string, std::uint64_t, std::size_t>, Session> sessions_;
   std::map<std::string, SequenceCounts> by_source_;
   std::set<const SourceEntry*> changed_;
-  Place last_;               ///< Where the next sample most often belongs as well.
-  std::uint64_t clock_ = 0;  ///< Samples recorded.
+  Place last_;               ///< Cached because the next sample mostly has the same place.
+  std::uint64_t clock_ = 0;  ///< Number of samples recorded.
 };
 
 }  // namespace spindrift

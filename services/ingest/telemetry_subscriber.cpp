@@ -11,13 +11,13 @@
 namespace spindrift {
 namespace {
 
-// So many does Reader::take give at a time while there are more.
+// Most samples that Reader::take gives in one call.
 constexpr std::size_t kTakenAtOnce = 256;
-// Samples of other spacecraft do not wake the taking thread: so often it hands over their counts.
+// Samples of other spacecraft do not wake the thread; it passes on their counts this often.
 constexpr std::chrono::seconds kBeat{1};
-// What a stop takes at most: a full reader, and as much again from what Cyclone has in hand.
+// Limit of what a stop takes: a full reader, and as much again that Cyclone still delivers.
 constexpr std::int32_t kBatchesLeft = 2 * bus::kTelemetryReaderSamples / std::int32_t{kTakenAtOnce};
-// For its threads to deliver what they have in hand.
+// Time for Cyclone's threads to deliver what they have received.
 constexpr std::chrono::milliseconds kInHand{20};
 
 template <class Value>
@@ -41,7 +41,6 @@ Expected<bus::Reader<bus::MessageOf<Value>>> attached_reader(const bus::Particip
   return reader;
 }
 
-/// All of `each`, or the first error among them.
 template <class... Values>
 Expected<std::tuple<Values...>> all_of(Expected<Values>... each) {
   const Error* failure = nullptr;
@@ -58,7 +57,6 @@ auto attached_readers(const bus::Participant& participant, bus::WaitSet& waitset
   return all_of(attached_reader<Kinds>(participant, waitset, arrivals)...);
 }
 
-/// Of all readers together.
 template <class... Readers>
 Expected<bus::ReaderStatus> status_of(const Readers&... readers) {
   bus::ReaderStatus all{};
@@ -102,9 +100,9 @@ TelemetrySubscriber::TelemetrySubscriber(const bus::Participant& participant,
 
 TelemetrySubscriber::~TelemetrySubscriber() { stop(); }
 
-// A full reader holds up Cyclone's receive thread, and deleting any reader waits for that thread:
-// for ever, as no one can take from a reader that is being deleted. So the network is shut out
-// until the readers are empty and gone.
+// The participant is made deaf until the readers are empty and deleted. Otherwise a full reader
+// would block Cyclone's receive thread, and deleting any reader waits for that thread: for ever,
+// since nobody can take from a reader that is being deleted.
 void TelemetrySubscriber::stop() {
   if (!readers_) {
     return;
@@ -123,7 +121,7 @@ void TelemetrySubscriber::stop() {
   participant_.set_deaf(false);
 }
 
-// Nothing, unless the queue was closed or the thread has failed.
+// Discards what the readers hold: nothing unless the queue was closed or the thread failed.
 void TelemetrySubscriber::discard_what_is_left() {
   const auto discard = [this](const auto& reader) {
     std::size_t taken = 1;
@@ -184,8 +182,9 @@ Expected<void> TelemetrySubscriber::take_until_stopped() {
   }
 }
 
-// What the readers hold is acknowledged: its writers take it for stored. From other processes
-// nothing more comes; a writer of this one must not keep a stopping service going.
+// Takes the rest from the readers, which is acknowledged, so that its writers consider it
+// delivered. Other processes send nothing more, but a writer in this process may; the number of
+// rounds is limited so that it cannot keep a stopping service running.
 Expected<void> TelemetrySubscriber::take_what_is_left() {
   bool waited = false;
   for (std::int32_t batch = 0; batch < kBatchesLeft; ++batch) {
@@ -216,7 +215,7 @@ std::chrono::nanoseconds TelemetrySubscriber::until_next_look() const {
                : std::chrono::nanoseconds{0};
 }
 
-// False: there was nothing to take.
+// Returns false when there was nothing to take.
 Expected<bool> TelemetrySubscriber::hand_over_batches() {
   auto taken = take_from_all();
   if (!taken) {
@@ -236,7 +235,7 @@ Expected<SampleBatch> TelemetrySubscriber::take_from_all() {
   return done.map([&] { return std::move(taken); });
 }
 
-// All that its reader can hold: what comes meanwhile is for the next time.
+// Takes at most what the reader can hold; later arrivals wait for the next call.
 template <class Value>
 Expected<void> TelemetrySubscriber::take_from(SampleBatch& batch) {
   std::size_t all = 0;

@@ -1,5 +1,5 @@
 /// @file
-/// Telemetry from the bus into a queue, on a thread that does nothing else.
+/// Takes telemetry from the bus into a queue, on a thread of its own.
 
 #pragma once
 
@@ -29,20 +29,21 @@ namespace spindrift {
 
 struct TelemetrySubscriberStatus {
   std::map<std::string, SequenceCounts> by_source;
-  CountsBySpacecraft by_spacecraft;  ///< Of those with a mission here.
-  bus::ReaderStatus reader;          ///< Of all topics together.
-  bool taking;  ///< False: the thread ended, stopped or failed (see `failure`).
+  CountsBySpacecraft by_spacecraft;  ///< Only spacecraft with a mission here.
+  bus::ReaderStatus reader;          ///< Summed over all topics.
+  bool taking;                       ///< False when the thread stopped or failed (see `failure`).
   std::string failure;
-  std::uint64_t discarded;  ///< Acknowledged to their writers, but not queued when it stopped.
+  std::uint64_t discarded;  ///< Samples acknowledged to their writers but not queued.
 };
 
-/// Takes from the topics of all kinds of telemetry for as long as it lives. When the queue is full
-/// it waits, the reader fills up, and the writers feel the pressure: nothing is dropped. Samples of
-/// other spacecraft are counted on the way and left to others.
+/// Takes samples from the topics of all kinds of telemetry as long as it exists. When the queue is
+/// full it waits, the reader fills up and the writers are held back: no sample is dropped. Samples
+/// of other spacecraft are counted and left to other services.
 class TelemetrySubscriber {
  public:
-  /// `participant` and `queue` outlive it. @param spacecraft That have a mission here.
-  /// @param stored Before a restart: no gap is counted again.
+  /// Creates the readers and starts the thread. `participant` and `queue` must outlive the
+  /// subscriber. @param spacecraft Spacecraft that have a mission here.
+  /// @param stored Origins stored before a restart; their gaps are not counted again.
   /// @return Unavailable when Cyclone refuses.
   static Expected<std::unique_ptr<TelemetrySubscriber>> start(
       const bus::Participant& participant, BoundedQueue<SampleBatch>& queue,
@@ -54,12 +55,14 @@ class TelemetrySubscriber {
   TelemetrySubscriber(TelemetrySubscriber&&) = delete;
   TelemetrySubscriber& operator=(TelemetrySubscriber&&) = delete;
 
-  /// Ends taking, however fast writers go on: what they were told is delivered is in the queue when
-  /// this returns, and no reader is left. Until then somebody must go on emptying the queue; close
-  /// it afterwards. Once is enough, from the thread that owns this.
+  /// Stops taking samples, however fast writers go on. When it returns, every sample acknowledged
+  /// to its writer is in the queue, and the readers are gone. Until then the queue must be emptied;
+  /// it is to be closed afterwards. To be called from the thread that owns the subscriber; further
+  /// calls do nothing.
   void stop();
 
-  /// From any thread. @return Unavailable when Cyclone refuses.
+  /// Returns counts and state. May be called from any thread.
+  /// @return Unavailable when Cyclone refuses.
   Expected<TelemetrySubscriberStatus> status() const;
 
  private:
@@ -85,20 +88,21 @@ class TelemetrySubscriber {
   Expected<bus::ReaderStatus> reader_status() const;
 
   const bus::Participant& participant_;
-  std::unique_ptr<Arrivals> arrivals_;  // Before the readers, whose filters use it.
-  mutable std::mutex readers_mutex_;    // Guards that readers are there; the thread outlives none.
+  std::unique_ptr<Arrivals> arrivals_;  // Declared before the readers, whose filters use it.
+  // Guards the existence of the readers; the thread does not outlive them.
+  mutable std::mutex readers_mutex_;
   std::optional<Readers> readers_;
-  Expected<bus::ReaderStatus> last_reader_status_;  ///< Once they are gone.
+  Expected<bus::ReaderStatus> last_reader_status_;
   bus::WaitSet waitset_;
   BoundedQueue<SampleBatch>& queue_;
   WritingOrder order_;
 
-  mutable std::mutex mutex_;  // Guards the three below.
+  mutable std::mutex mutex_;  // Guards the three members below.
   bool taking_ = true;
   std::string failure_;
   std::uint64_t discarded_ = 0;
 
-  std::thread thread_;  // Last: it uses all the others, and begins once they are there.
+  std::thread thread_;  // Declared last because it uses the other members.
 };
 
 }  // namespace spindrift

@@ -7,7 +7,7 @@
 namespace spindrift {
 namespace {
 
-// As many as the bus is asked to tell apart.
+// The number of sessions that the bus is required to tell apart.
 constexpr std::size_t kMostSessions = 256;
 
 constexpr auto kEarlier = [](const auto& a, const auto& b) { return a.arrival < b.arrival; };
@@ -28,7 +28,7 @@ std::int64_t last_written(const TelemetrySamples& samples) {
   return last;
 }
 
-/// DDS hands a topic over spacecraft by spacecraft.
+/// Sorts by time of writing, because DDS delivers a topic spacecraft by spacecraft.
 void sort_if_of_several_kinds(TelemetrySamples& samples) {
   std::size_t kinds = 0;
   samples.for_each([&](const auto& of_kind) { kinds += of_kind.empty() ? 0 : 1; });

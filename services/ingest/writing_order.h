@@ -1,6 +1,5 @@
 /// @file
-/// Samples of several topics in the order in which they were written. DDS keeps it within a topic
-/// only.
+/// Restores the order of writing across topics, which DDS keeps within a topic only.
 
 #pragma once
 
@@ -15,26 +14,25 @@
 
 namespace spindrift {
 
-/// What was written before a sample has come before it, unless it came of another topic, which is
-/// looked at a moment later: so a sample waits for the next look at all topics. Samples of a
-/// session that is heard first may be its last minutes, which come topic by topic: they wait for
-/// kLastMinutes.
+/// Restores the order of writing. Samples written before a given one have arrived before it, except
+/// on another topic, which is read a moment later; so each sample waits for the next reading of all
+/// topics. The first samples of a new session may be its last minutes sent again, which come topic
+/// by topic: they wait for kLastMinutes.
 class WritingOrder {
  public:
   using Instant = std::chrono::steady_clock::time_point;
 
   static constexpr std::chrono::milliseconds kLastMinutes{200};
-  /// More do not wait for that.
+  /// At most this many samples wait for kLastMinutes.
   static constexpr std::size_t kMost = 16'384;
 
-  /// @param taken What all topics had; `arrival`: when it was written, by the writer's clock.
-  /// @return what need not wait any longer. Of one kind in the order in which it was taken.
+  /// @param taken Samples of all topics, with the time of writing by the writer's clock in
+  /// `arrival`. @return Samples that need not wait any longer.
   SampleBatch pass_on(SampleBatch taken, Instant now);
 
-  /// What waits still.
   SampleBatch rest();
 
-  /// Something waits for the next look, which is to follow at once, or at `wait_until`.
+  /// Returns whether samples wait for the next reading, due at once or at `wait_until`.
   bool holds_some() const { return !is_empty(held_); }
   std::optional<Instant> wait_until() const { return until_; }
 
@@ -42,8 +40,8 @@ class WritingOrder {
   bool is_new(const Origin& origin);
 
   SampleBatch held_;
-  std::optional<Instant> until_;  ///< What is held waits for the last minutes of a session.
-  std::set<std::pair<std::string, std::uint64_t>> heard_;  ///< Sources and sessions.
+  std::optional<Instant> until_;  ///< Set while samples of a new session wait.
+  std::set<std::pair<std::string, std::uint64_t>> heard_;  ///< Sources and sessions heard.
   std::optional<std::pair<std::string, std::uint64_t>> last_;
 };
 

@@ -57,7 +57,7 @@ Expected<void> soundness(const TomlDocument& document) {
   if (document.problems.empty()) {
     return {};
   }
-  // In the order of the file; what has no line comes last.
+  // In file order; problems without a line come last, since 0 - 1 wraps to the largest line.
   std::vector<TomlProblem> problems = document.problems;
   std::stable_sort(problems.begin(), problems.end(),
                    [](const auto& a, const auto& b) { return a.line - 1 < b.line - 1; });

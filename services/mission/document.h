@@ -1,5 +1,5 @@
 /// @file
-/// A configuration file: read, checked against its schema, every problem kept.
+/// Reads a configuration file, checks it against its schema and collects every problem.
 
 #pragma once
 
@@ -19,28 +19,28 @@ namespace spindrift {
 
 struct TomlDocument {
   std::filesystem::path path;
-  std::string text;  ///< As read.
+  std::string text;  ///< Text of the file.
   toml::table table;
-  TomlValues values;  ///< Only the good ones.
+  TomlValues values;  ///< Only the valid ones.
   std::vector<TomlProblem> problems;
 };
 
-/// @param path Named in problems. @return InvalidConfiguration for what is not TOML.
+/// @param path Path for messages. @return InvalidConfiguration for what is not TOML.
 Expected<toml::table> parsed_toml(const std::filesystem::path& path, const std::string& text);
 
-/// @return InvalidConfiguration for what cannot be read or is not TOML; what breaks the schema
-///         stands in `problems`.
+/// @return InvalidConfiguration for an unreadable file and for what is not TOML; violations of the
+///         schema are in `problems`.
 Expected<TomlDocument> read_document(const std::filesystem::path& path, const TableRule& schema);
 
-/// Likewise of a text that was read before. @param path Named in problems.
+/// Checks a text that was read before. @param path Path for messages.
 Expected<TomlDocument> parse_document(const std::filesystem::path& path, std::string text,
                                       const TableRule& schema);
 
-/// Adds what the schema cannot say. @param key To blame: its line is named where it has one.
+/// Adds a problem that the schema cannot express. @param key Key whose line is named, if any.
 void add_problem(TomlDocument& document, std::string_view key, std::string text);
 
-/// @return InvalidConfiguration with every problem, one a line:
-///         "FILE:LINE: KEY = VALUE: what is allowed"; the line where one is to blame.
+/// @return InvalidConfiguration with every problem, one a line: "FILE:LINE: KEY = VALUE: what is
+///         allowed", with the line if one is known.
 Expected<void> soundness(const TomlDocument& document);
 
 }  // namespace spindrift

@@ -42,7 +42,7 @@ class Check {
   }
 
   void given(const TableRule& rule, const toml::table& table, const std::string& path) {
-    // A name that was probably meant is not reported as missing as well.
+    // A key that was probably misspelt is not also reported as missing.
     const auto meant = unknown_names(rule, table, path);
     for (const auto& [name, key_rule] : rule.keys) {
       if (const toml::node* const node = table.get(name)) {
@@ -165,7 +165,7 @@ class Check {
     }
   }
 
-  /// Says so. Nothing to say where one of the two is wrong or absent itself.
+  /// Reports a value below its lower key. It skips the pair when either value is invalid or absent.
   bool is_below(const toml::table& table, const std::string& path, const std::string& name,
                 const std::string& lower_name) {
     const auto value = result_.values.find(joined(path, name));

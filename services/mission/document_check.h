@@ -1,5 +1,5 @@
 /// @file
-/// A whole configuration file against its schema: every problem at once.
+/// Checks a whole configuration file against its schema and reports every problem.
 
 #pragma once
 
@@ -15,12 +15,12 @@
 namespace spindrift {
 
 struct TomlProblem {
-  std::uint32_t line;  ///< From 1; 0 where no line is to blame.
+  std::uint32_t line;  ///< From 1; 0 when no line is known.
   std::string text;    ///< Key, value and what is allowed.
 };
 
 struct CheckedToml {
-  TomlValues values;  ///< Only the good ones.
+  TomlValues values;  ///< Only the valid ones.
   std::vector<TomlProblem> problems;
 };
 

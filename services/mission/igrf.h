@@ -1,5 +1,5 @@
 /// @file
-/// The International Geomagnetic Reference Field, 14th generation, which the program holds.
+/// The embedded International Geomagnetic Reference Field, 14th generation.
 
 #pragma once
 
@@ -13,10 +13,10 @@ namespace spindrift {
 
 inline constexpr std::string_view kFieldModelName = "IGRF-14";
 
-/// @return the errors of parse_shc: of a program that was built with another file.
+/// @return The errors of parse_shc, possible only if the program was built with another file.
 Expected<MainFieldModel> igrf();
 
-/// When its last epoch is: then it ends.
+/// Returns the last epoch of the model, after which it is not valid.
 TaiTime igrf_end();
 
 }  // namespace spindrift

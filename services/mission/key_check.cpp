@@ -20,7 +20,7 @@
 namespace spindrift {
 namespace {
 
-constexpr double kTypedUnitTolerance = 1e-4;  // What a person rounds away when typing 0.7071.
+constexpr double kTypedUnitTolerance = 1e-4;  // A typed 0.7071 is rounded by less.
 
 double as_number(const Scalar& value) {
   const auto* const integer = std::get_if<std::int64_t>(&value);
@@ -33,7 +33,7 @@ std::string range_of(const KeyRule& rule) {
                      rule.upper->inclusive ? ']' : ')', rule.unit.empty() ? "" : " ", rule.unit);
 }
 
-/// False for NaN, which is on no side of a bound.
+/// Returns false for NaN, which is on no side of a bound.
 bool in_range(const KeyRule& rule, const Scalar& value) {
   if (!rule.lower) {
     return true;
@@ -55,7 +55,7 @@ bool is_allowed_text(const KeyRule& rule, const std::string& text) {
          std::find(rule.one_of.begin(), rule.one_of.end(), text) != rule.one_of.end();
 }
 
-/// The elements of an array of exactly that shape, row by row, each one good; empty otherwise.
+/// Returns the elements row by row if the shape fits and all are valid; empty otherwise.
 std::vector<double> elements(const KeyRule& rule, const toml::node& node, std::size_t depth) {
   if (depth == rule.shape.size()) {
     const auto value = typed(rule.type, node);

@@ -1,5 +1,5 @@
 /// @file
-/// One value of a configuration file against the rule of its key.
+/// Checks one value of a configuration file against the rule of its key.
 
 #pragma once
 
@@ -13,26 +13,26 @@
 
 namespace spindrift {
 
-/// For people: "a number in (0, 90) deg".
+/// Describes the rule for people: "a number in (0, 90) deg".
 std::string allowed_by(const KeyRule& rule);
 
-/// For people: the value as it would stand in the file, shortened.
+/// Returns the value for people, as written in the file, shortened.
 std::string shown(const toml::node& value);
 
-/// What is wrong with `value`, worded to follow it ("must lie in (0, 90) deg"); empty when nothing.
+/// Returns what is wrong, worded to follow the value ("must lie in (0, 90) deg"), or empty.
 std::optional<std::string> objection(const KeyRule& rule, const toml::node& value);
 
-/// `value` as the type of the rule, an integer becoming a number; empty if it has another type.
+/// Converts `value` to the type, also an integer to a number; empty when it has another type.
 std::optional<Scalar> typed(ValueType type, const toml::node& value);
 
-/// `value`, against which there is no objection; an integer becomes a number where the rule asks
-/// for one, an array stands row by row.
+/// Converts a valid `value`, an integer to a number if the rule requires one, an array to its
+/// elements row by row.
 Scalar value_by(const KeyRule& rule, const toml::node& value);
 
-/// For people: an integer or a number.
+/// Formats an integer or number for people.
 std::string text_of(const Scalar& number);
 
-/// a <= b and a < b of integers and numbers; two integers are compared exactly.
+/// Compare integers and numbers by a <= b and a < b; two integers are compared exactly.
 bool at_most(const Scalar& a, const Scalar& b);
 bool below(const Scalar& a, const Scalar& b);
 

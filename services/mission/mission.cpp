@@ -40,7 +40,7 @@ std::optional<std::filesystem::path> ground_model(const TomlValues& values,
   return scenario ? std::optional{folder / *scenario} : std::nullopt;
 }
 
-/// @param only The kind that is allowed; empty: any.
+/// @param only The only kind allowed; empty allows any.
 Expected<void> allow(TomlDocument& document, std::optional<SpacecraftKind> only) {
   const auto kind = is_spinner(document.values) ? SpacecraftKind::Spin : SpacecraftKind::ThreeAxis;
   if (only && kind != *only) {
@@ -52,7 +52,7 @@ Expected<void> allow(TomlDocument& document, std::optional<SpacecraftKind> only)
   return {};
 }
 
-/// @param only The kind that is allowed; empty: any.
+/// @param only The only kind allowed; empty allows any.
 Expected<Mission> parse(const std::filesystem::path& path, std::string text,
                         std::optional<SpacecraftKind> only) {
   const auto schema = mission_schema();

@@ -1,5 +1,5 @@
 /// @file
-/// The mission file: everything that must be known of a spacecraft before its telemetry arrives.
+/// The mission file: all that must be known of a spacecraft before its telemetry arrives.
 
 #pragma once
 
@@ -24,42 +24,42 @@ namespace spindrift {
 struct Mission {
   std::string spacecraft_id;
   std::variant<SpinConfig, ThreeAxisConfig> config;  ///< In the order of SpacecraftKind.
-  std::optional<SeparationPlan> separation;          ///< [reconstruction], where there is one.
-  std::optional<Orbit> orbit;                        ///< Always there for a spinner.
-  std::string toml_text;                             ///< The file as read.
-  std::string sha256;                                ///< Of toml_text, hexadecimal.
-  std::optional<std::string> orbit_sha256;           ///< Of the orbit file, if one is named.
-  std::set<std::string> tables;                      ///< That have values, "three_axis.gyro".
-  std::vector<std::string> orbit_doubts;  ///< About that file, for people (orbit_doubts.h).
+  std::optional<SeparationPlan> separation;          ///< [reconstruction], if present.
+  std::optional<Orbit> orbit;                        ///< Always set for a spinner.
+  std::string toml_text;                             ///< Text of the mission file.
+  std::string sha256;                                ///< Hash of toml_text, hexadecimal.
+  std::optional<std::string> orbit_sha256;           ///< Hash of the orbit file, if named.
+  std::set<std::string> tables;                      ///< Non-empty tables, "three_axis.gyro".
+  std::vector<std::string> orbit_doubts;             ///< Orbit file sentences (orbit_doubts.h).
   AlertLimits alerts = {};
   std::optional<SpinTarget> target = {};
   std::optional<Contact> contact = {};
-  std::string preferred_source = {};                       ///< [sources] prefer; empty: none.
-  bool stores_residuals = true;                            ///< [archive] residuals.
-  std::optional<std::filesystem::path> ground_model = {};  ///< The scenario's file.
+  std::string preferred_source = {};                       ///< Value of [sources] prefer, or empty.
+  bool stores_residuals = true;                            ///< Value of [archive] residuals.
+  std::optional<std::filesystem::path> ground_model = {};  ///< Path of the scenario file.
   std::filesystem::path path = {};  ///< Absolute; an orbit file is relative to it.
 
   SpacecraftKind kind() const { return static_cast<SpacecraftKind>(config.index()); }
-  /// Null for any other spacecraft.
+  /// Returns null for any other spacecraft, as does `three_axis`.
   const SpinConfig* spin() const { return std::get_if<SpinConfig>(&config); }
   const ThreeAxisConfig* three_axis() const { return std::get_if<ThreeAxisConfig>(&config); }
 };
 
 /// Reads a mission file, and the orbit file that it names, by the rules of
 /// schemas/mission.schema.toml.
-/// @return InvalidConfiguration with every problem, one a line:
-///         "FILE:LINE: KEY = VALUE: what is allowed"; the line where one is to blame.
+/// @return InvalidConfiguration with every problem, one a line: "FILE:LINE: KEY = VALUE: what is
+///         allowed", with the line if one is known.
 Expected<Mission> load_mission(const std::filesystem::path& path);
 
-/// Likewise of a text that was read before.
-/// @param path Named in problems; an orbit file is relative to it.
+/// Parses the text of a mission file.
+/// @param path Path for messages; an orbit file is relative to it.
 Expected<Mission> mission_of(const std::filesystem::path& path, std::string text);
 
-/// That of a spinner. @return InvalidConfiguration for any other, too.
+/// Reads the mission file of a spinner. @return Also InvalidConfiguration for any other spacecraft.
 Expected<Mission> load_spinner(const std::filesystem::path& path);
 
-/// When the model of the Earth's magnetic field ends that the mission needs.
-/// @return Empty where the spacecraft has no magnetometer.
+/// Returns when the geomagnetic model that the mission needs ends.
+/// @return Empty for a spacecraft without a magnetometer.
 std::optional<TaiTime> field_end(const Mission& mission);
 
 }  // namespace spindrift

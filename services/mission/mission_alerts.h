@@ -1,5 +1,5 @@
 /// @file
-/// [alerts], [contact] and [spin.target] of a mission file.
+/// Reads [alerts], [contact] and [spin.target] of a mission file.
 
 #pragma once
 
@@ -11,13 +11,13 @@
 
 namespace spindrift {
 
-/// `values` are those of a mission file in which no problem was found.
+/// @param values Values of a mission file without problems.
 AlertLimits alert_limits(const TomlValues& values);
 
-/// Empty: the mission file names none. Adds the problem of one that ends before it begins.
+/// Returns empty if the mission file has no contact. Adds a problem if it ends before it begins.
 std::optional<Contact> planned_contact(TomlDocument& document);
 
-/// Empty: the mission file names none.
+/// Returns empty if the mission file has no target.
 std::optional<SpinTarget> spin_target(const TomlValues& values);
 
 }  // namespace spindrift

@@ -33,7 +33,7 @@ Expected<std::optional<OemLine>> next_line(FileLines& lines) {
   });
 }
 
-/// The same open file gives both, so that they are of the same bytes.
+/// Hashes and parses the same open file, so that both see the same bytes.
 Expected<MissionOrbit> orbit_from(InputFile file) {
   auto sha256 = sha256_hex(file);
   if (!sha256) {

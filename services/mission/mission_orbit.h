@@ -1,5 +1,5 @@
 /// @file
-/// The [orbit] of a mission file as an orbit.
+/// Reads the [orbit] of a mission file.
 
 #pragma once
 
@@ -15,19 +15,19 @@
 
 namespace spindrift {
 
-/// Of an orbit file: ten million states.
+/// Limit for an orbit file, enough for ten million states.
 inline constexpr std::uint64_t kMostOrbitBytes = std::uint64_t{1} << 30U;
 
 struct MissionOrbit {
   std::optional<Orbit> orbit;
-  std::optional<std::string> file_sha256;  ///< Where the orbit is from a file.
+  std::optional<std::string> file_sha256;  ///< Set when the orbit is from a file.
 };
 
-/// The key that says where the orbit comes from.
+/// Returns the key that determines the source of the orbit.
 std::string_view orbit_key(const TomlValues& values);
 
-/// Reads the orbit file, if one is named (relative to `folder`), or takes the elements, if all of
-/// them are there. Empty when there is neither.
+/// Reads the orbit file, if one is named (relative to `folder`), or takes the elements if all are
+/// given. The orbit is empty when there is neither.
 /// @return InvalidConfiguration with the key, its value and the reason.
 Expected<MissionOrbit> load_orbit(const TomlValues& values, const std::filesystem::path& folder);
 

@@ -22,7 +22,7 @@ Euler312 angles_of(const std::vector<double>& deg) {
           .psi_rad = deg.at(2) * kRadPerDeg};
 }
 
-/// Empty, with the problems said, where a key is missing.
+/// Returns empty and adds the problems when a key is missing.
 std::optional<Launch> launch(TomlDocument& document) {
   const TomlValues& values = document.values;
   static constexpr std::array<std::string_view, 4> kKeys = {

@@ -1,5 +1,5 @@
 /// @file
-/// What a mission file says of the separation from the launcher.
+/// Reads the [reconstruction] of a mission file, on the separation from the launcher.
 
 #pragma once
 
@@ -13,12 +13,12 @@ namespace spindrift {
 
 struct SeparationPlan {
   SeparationTimes times;
-  std::optional<LauncherAttitude> launcher;  ///< Empty: it told nothing.
+  std::optional<LauncherAttitude> launcher;  ///< Empty when the file names none.
   double disturbance_rad_s2 = kDisturbance_rad_s2;
 };
 
-/// @param document In which no problem was found by the schema; gets those of the launcher's chain.
-/// @return empty where there is no [reconstruction].
+/// @param document Valid by the schema; receives problems of the launcher's keys.
+/// @return Empty if there is no [reconstruction].
 std::optional<SeparationPlan> separation_plan(TomlDocument& document);
 
 }  // namespace spindrift

@@ -8,8 +8,8 @@
 
 namespace spindrift {
 
-/// schemas/mission.schema.toml, as the program was built with it.
-/// @return as parse_schema; never in a program that was tested.
+/// Returns schemas/mission.schema.toml as embedded at build time.
+/// @return The errors of parse_schema, which cannot occur in a tested program.
 Expected<TableRule> mission_schema();
 
 }  // namespace spindrift

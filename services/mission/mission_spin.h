@@ -1,5 +1,5 @@
 /// @file
-/// The [spin] of a mission file as the configuration of the spin pipeline.
+/// Converts the [spin] of a mission file to the configuration of the spin pipeline.
 
 #pragma once
 
@@ -8,7 +8,7 @@
 
 namespace spindrift {
 
-/// `values` are those of a mission file of kind spin in which no problem was found.
+/// @param values Values of a mission file of kind spin without problems.
 SpinConfig spin_config(const TomlValues& values);
 
 }  // namespace spindrift

@@ -46,7 +46,7 @@ std::optional<Inertia> inertia(const TomlValues& values) {
   if (!kg_m2) {
     return std::nullopt;
   }
-  // Symmetric: by row or by column is the same.
+  // The matrix is symmetric, so row or column order is the same.
   return Inertia{.kg_m2 = Eigen::Map<const Eigen::Matrix3d>{kg_m2->data()},
                  .sigma_fraction = number(values, "three_axis.inertia.sigma_fraction")};
 }

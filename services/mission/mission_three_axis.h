@@ -1,5 +1,5 @@
 /// @file
-/// What a mission file says of the three-axis pipeline.
+/// Converts a mission file to the configuration of the three-axis pipeline.
 
 #pragma once
 
@@ -8,7 +8,7 @@
 
 namespace spindrift {
 
-/// @param values In which no problem was found.
+/// @param values Values of a mission file without problems.
 ThreeAxisConfig three_axis_config(const TomlValues& values);
 
 }  // namespace spindrift

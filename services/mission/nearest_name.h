@@ -1,5 +1,5 @@
 /// @file
-/// The name that a misspelt one was probably meant to be.
+/// Suggests the correct name for a misspelt one.
 
 #pragma once
 
@@ -9,8 +9,8 @@
 
 namespace spindrift {
 
-/// The name nearest to `given` (insert, delete, replace, swap neighbours), if at most a third of
-/// its letters differ; empty otherwise.
+/// Returns the name nearest to `given` (insert, delete, replace, swap neighbours), if at most a
+/// third of its letters differ; empty otherwise.
 std::string nearest_name(std::string_view given, const std::vector<std::string>& names);
 
 }  // namespace spindrift

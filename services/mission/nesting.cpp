@@ -41,7 +41,7 @@ class Scan {
     pass(1);
   }
 
-  /// What stands in quotes, on one line or, in three of them, on several.
+  /// Skips a quoted text: on one line, or on several in triple quotes.
   void pass_text(char quote) {
     const std::string three(3, quote);
     const bool several_lines = rest_.starts_with(three);
@@ -49,12 +49,12 @@ class Scan {
     pass(end.size());
     while (!rest_.empty() && !rest_.starts_with(end)) {
       if (rest_.front() == '\n' && !several_lines) {
-        return;  // No TOML.
+        return;  // The text is not valid TOML.
       }
       pass(rest_.front() == '\\' && quote == '"' ? 2 : 1);
     }
     pass(end.size());
-    // Up to two quotes may stand before the end of a text of several lines.
+    // Up to two quotes may precede the end of a multi-line text.
     for (int more = 0; several_lines && more < 2 && rest_.starts_with(quote); ++more) {
       pass(1);
     }
@@ -69,7 +69,7 @@ class Scan {
   std::string_view rest_;
   std::uint32_t line_ = 1;
   int brackets_ = 0;
-  int names_ = 1;  ///< Of the key that is being read.
+  int names_ = 1;  ///< Number of names in the current key.
 };
 
 }  // namespace

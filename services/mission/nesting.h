@@ -1,5 +1,5 @@
 /// @file
-/// How deep tables and arrays of a TOML text stand in each other, before anything is made of it.
+/// Limits the nesting of tables and arrays in a TOML text before it is parsed.
 
 #pragma once
 
@@ -9,12 +9,12 @@
 
 namespace spindrift {
 
-/// Of brackets in each other, and of the names that dots join in one key: more than any schema of
-/// ours needs.
+/// Limit on nested brackets and on the names joined by dots in a key, above any need of our
+/// schemas.
 inline constexpr int kDeepestNesting = 16;
 
-/// The first line, from 1, with more than that. A text that is no TOML is looked at as far as a
-/// parser would come.
+/// Returns the first line, from 1, above the limit. An invalid text is scanned as far as a parser
+/// would read it.
 std::optional<std::uint32_t> line_nested_too_deep(std::string_view text);
 
 }  // namespace spindrift

@@ -15,7 +15,7 @@
 namespace spindrift {
 namespace {
 
-/// Empty: none.
+/// Returns empty without a doubt.
 std::string doubt_about_name(const OrbitEphemeris& ephemeris, std::string_view spacecraft_id) {
   const auto& segments = ephemeris.segments();
   const auto other = std::find_if(segments.begin(), segments.end(), [&](const OemSegment& segment) {
@@ -29,7 +29,7 @@ std::string doubt_about_name(const OrbitEphemeris& ephemeris, std::string_view s
                    shown(other->object_name), shown(other->object_id), spacecraft_id);
 }
 
-/// Empty: none.
+/// Returns empty without a doubt.
 std::string doubt_about_jumps(const OrbitEphemeris& ephemeris, std::string_view file) {
   const std::vector<OrbitJump> jumps = orbit_jumps(ephemeris);
   if (jumps.empty()) {
@@ -51,7 +51,7 @@ std::string doubt_about_jumps(const OrbitEphemeris& ephemeris, std::string_view 
       nadir_off_deg(worst));
 }
 
-/// Segments that do not meet, although nothing jumps: empty where there are none.
+/// Returns a doubt about segments that do not meet although nothing jumps; empty without one.
 std::string doubt_about_steps(const OrbitEphemeris& ephemeris, std::string_view file) {
   std::vector<OrbitStep> steps = orbit_steps(ephemeris);
   for (const OrbitJump& jump : orbit_jumps(ephemeris)) {
@@ -69,7 +69,7 @@ std::string doubt_about_steps(const OrbitEphemeris& ephemeris, std::string_view 
                         : fmt::format(", the first of {} such steps", steps.size()));
 }
 
-/// Empty: none.
+/// Returns empty without a doubt.
 std::string doubt_about_gaps(const OrbitEphemeris& ephemeris, std::string_view file) {
   const std::vector<OrbitGap> gaps = orbit_gaps(ephemeris);
   if (gaps.empty()) {

@@ -1,5 +1,5 @@
 /// @file
-/// What in an orbit file that was read a person should look at.
+/// Checks an orbit file for things that a person should look at.
 
 #pragma once
 
@@ -11,10 +11,9 @@
 
 namespace spindrift {
 
-/// One sentence a doubt, none where there is no doubt: that it is the orbit of another spacecraft,
-/// going by its OBJECT_NAME and OBJECT_ID, which may be no more than another name; that it jumps;
-/// that its segments do not meet; that it has gaps.
-/// @param file as the mission file names it.
+/// Returns one sentence per doubt: the OBJECT_NAME and OBJECT_ID may belong to another spacecraft
+/// (or be another name of this one), the orbit jumps, segments do not meet, there are gaps.
+/// @param file Path as the mission file names it.
 std::vector<std::string> orbit_doubts(const OrbitEphemeris& ephemeris, std::string_view file,
                                       std::string_view spacecraft_id);
 

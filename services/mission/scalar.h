@@ -1,5 +1,5 @@
 /// @file
-/// The values of a configuration file once they are known to be good.
+/// Valid values of a configuration file.
 
 #pragma once
 
@@ -12,10 +12,10 @@
 
 namespace spindrift {
 
-/// An array of numbers stands row by row.
+/// Arrays of numbers are stored row by row.
 using Scalar = std::variant<bool, std::int64_t, double, std::string, std::vector<double>>;
 
-/// By dotted path, such as spin.noise.sun_pulse_s or faults.silence[0].from_s; defaults filled in.
+/// By dotted path, as spin.noise.sun_pulse_s or faults.silence[0].from_s; defaults filled in.
 using TomlValues = std::map<std::string, Scalar, std::less<>>;
 
 }  // namespace spindrift

@@ -1,6 +1,5 @@
 /// @file
-/// The rules of a configuration file as values, read from a file of schemas/, whose head says what
-/// each of them means.
+/// The rules of a configuration file, read from a file in schemas/ whose head explains them.
 
 #pragma once
 
@@ -20,7 +19,7 @@ enum class ValueType { Text, Boolean, Integer, Number };
 
 enum class ValueForm { SpacecraftId, UnitQuaternion, Inertia, Utc };
 
-/// One end of a range: an integer or a number.
+/// One end of a range.
 struct Bound {
   Scalar value;
   bool inclusive;
@@ -28,12 +27,12 @@ struct Bound {
 
 struct KeyRule {
   ValueType type;
-  std::vector<std::size_t> shape;  ///< Empty: a single value.
+  std::vector<std::size_t> shape;  ///< Array dimensions; empty for one value.
   std::string unit;
   std::string about;
   std::optional<Scalar> default_value;
   bool optional;
-  std::optional<Bound> lower;  ///< Both are there for integers and numbers.
+  std::optional<Bound> lower;  ///< Both bounds are set for numbers.
   std::optional<Bound> upper;
   std::vector<std::string> not_below_keys;
   std::vector<std::string> one_of;
@@ -43,13 +42,13 @@ struct KeyRule {
 struct TableRule {
   std::string about;
   std::string required;  ///< Empty, "always", or a spacecraft.kind.
-  bool many = false;     ///< An array of such tables.
+  bool many = false;     ///< Whether it is an array of tables.
   std::vector<std::string> exactly_one_of;
   std::map<std::string, KeyRule, std::less<>> keys;
   std::map<std::string, TableRule, std::less<>> tables;
 };
 
-/// @return InvalidConfiguration for a property that has no meaning or a rule that is incomplete.
+/// @return InvalidConfiguration for an unknown property or an incomplete rule.
 Expected<TableRule> parse_schema(std::string_view text);
 
 }  // namespace spindrift

@@ -10,7 +10,7 @@ namespace spindrift {
 
 enum class SpacecraftKind { Spin, ThreeAxis };
 
-/// As in the mission file: "spin", "three_axis".
+/// Returns the name in the mission file: "spin", "three_axis".
 constexpr std::string_view name_of(SpacecraftKind kind) {
   constexpr std::array<std::string_view, 2> kNames = {"spin", "three_axis"};
   return kNames.at(static_cast<std::size_t>(kind));

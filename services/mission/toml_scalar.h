@@ -1,5 +1,5 @@
 /// @file
-/// One value of a TOML document as ours.
+/// Converts one value of a TOML document.
 
 #pragma once
 
@@ -11,7 +11,7 @@
 
 namespace spindrift {
 
-/// Empty for a table, an array, a date or a time.
+/// Returns empty for a table, an array, a date or a time.
 std::optional<Scalar> scalar_from(const toml::node& node);
 
 }  // namespace spindrift

@@ -1,5 +1,5 @@
 /// @file
-/// Values of a configuration file in which no problem was found.
+/// Access to the values of a valid configuration file.
 
 #pragma once
 
@@ -13,14 +13,14 @@
 
 namespace spindrift {
 
-/// The value of a key; empty where the key is absent. `T`: as the schema has it.
+/// Returns the value of a key; empty where the key is absent. `T` is its type in the schema.
 template <class T>
 std::optional<T> value_if(const TomlValues& values, std::string_view key) {
   const auto found = values.find(key);
   return found == values.end() ? std::nullopt : std::optional{std::get<T>(found->second)};
 }
 
-/// The key is required or has a default.
+/// Returns the value of a key that is required or has a default.
 template <class T>
 T value_of(const TomlValues& values, std::string_view key) {
   return std::get<T>(values.find(key)->second);
@@ -32,12 +32,12 @@ inline double number(const TomlValues& values, std::string_view key) {
 
 inline constexpr double kArcsecPerDeg = 3600.0;
 
-/// Of a key in degrees.
+/// Converts the value of a key in degrees.
 inline double radians(const TomlValues& values, std::string_view key) {
   return number(values, key) * kRadPerDeg;
 }
 
-/// Likewise; empty where the key is absent.
+/// Converts the value of a key in degrees; empty where the key is absent.
 inline std::optional<double> radians_if(const TomlValues& values, std::string_view key) {
   return values.contains(key) ? std::optional{radians(values, key)} : std::nullopt;
 }

@@ -25,7 +25,7 @@ constexpr std::array<const char*, 5> kOfEveryAction = {"spacecraft", "by", "acti
 constexpr std::array kSensorKinds = {SampleKind::Gyro, SampleKind::Star, SampleKind::Sun,
                                      SampleKind::Magnetometer};
 
-/// As in the archive.
+/// Returns the names used in the archive.
 std::array<std::string_view, kSensorKinds.size()> sensor_names() {
   std::array<std::string_view, kSensorKinds.size()> names;
   std::transform(kSensorKinds.begin(), kSensorKinds.end(), names.begin(),
@@ -64,7 +64,7 @@ SpinPrior prior(SaidValues& said) {
   return {.axis_icrf = axis, .sigma_rad = said.number("sigma_deg", 1e-3, 180.0) * kRadPerDeg};
 }
 
-/// An action by name; those of channels are of every kind of spacecraft.
+/// An action by name; actions on channels exist for every kind of spacecraft.
 template <class Action>
 struct Named {
   std::string_view name;
@@ -130,7 +130,7 @@ struct Segment {
   TaiTime to;
 };
 
-/// Empty: the action is of none.
+/// Returns empty for an action without a segment.
 std::optional<Segment> segment_in(const std::variant<SpinAction, AttitudeAction>& does) {
   const auto of_one = [](const auto& what) -> std::optional<Segment> {
     if constexpr (requires { what.from; }) {
@@ -142,7 +142,7 @@ std::optional<Segment> segment_in(const std::variant<SpinAction, AttitudeAction>
   return std::visit([&](const auto& of_kind) { return std::visit(of_one, of_kind); }, does);
 }
 
-/// What a segment means is its own time, most often one that has passed.
+/// Sets the time of a segment's action to its beginning, which usually lies in the past.
 Expected<OperatorAction> with_time(OperatorAction action) {
   if (const auto segment = segment_in(action.does)) {
     action.t = action.t.value_or(segment->from);

@@ -1,5 +1,5 @@
 /// @file
-/// An operator's action out of JSON.
+/// Parses an operator's action from JSON.
 
 #pragma once
 
@@ -14,17 +14,17 @@
 
 namespace spindrift {
 
-/// Of whose telemetry something may be said.
+/// The spacecraft that actions may name.
 using KnownSpacecraft = std::map<std::string, SpacecraftKind>;
 
-/// As POST /api/v1/actions has it: `spacecraft`, `by`, `action` and its arguments; `note` and
-/// `t_tai_ns` may be missing. A segment without `t_tai_ns` is of its own beginning on.
-/// @return The action, with an id and as made now; InvalidInput with all that is wrong: key, value,
+/// Parses the body of POST /api/v1/actions: `spacecraft`, `by`, `action` and its arguments; `note`
+/// and `t_tai_ns` are optional. A segment without `t_tai_ns` applies from its own beginning.
+/// @return The action with an id and the current time; InvalidInput with all problems: key, value,
 ///         what is allowed.
 Expected<OperatorAction> parse_action(const nlohmann::json& request, const KnownSpacecraft& known);
 
-/// What an action of that name does with these arguments, which may be those of an archive.
-/// @return InvalidInput likewise.
+/// Parses the arguments of an action, also of one from an archive.
+/// @return InvalidInput with all problems.
 Expected<std::variant<SpinAction, AttitudeAction>> what_it_does(SpacecraftKind kind,
                                                                 const std::string& action,
                                                                 const nlohmann::json& arguments);

@@ -13,7 +13,7 @@ namespace spindrift {
 Expected<std::optional<nlohmann::json>> ask_holder(const std::filesystem::path& archive,
                                                    const nlohmann::json& request) {
   const std::filesystem::path path = socket_of(archive);
-  std::error_code unknown;  // Who opens the archive says what is wrong with its path.
+  std::error_code unknown;  // Opening the archive reports a bad path.
   if (!std::filesystem::exists(path, unknown)) {
     return std::nullopt;
   }

@@ -1,5 +1,5 @@
 /// @file
-/// Asking the program that holds an archive.
+/// Sends a request to the program that holds an archive.
 
 #pragma once
 
@@ -11,8 +11,8 @@
 
 namespace spindrift {
 
-/// Waits for the answer. @return Empty where nobody answers for the archive; Unavailable when who
-/// does fails meanwhile.
+/// Waits for the answer. @return Empty when no program holds the archive; Unavailable when the
+/// holder fails while answering.
 Expected<std::optional<nlohmann::json>> ask_holder(const std::filesystem::path& archive,
                                                    const nlohmann::json& request);
 

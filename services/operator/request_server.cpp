@@ -74,12 +74,12 @@ Expected<std::unique_ptr<RequestServer>> RequestServer::start(const std::filesys
   }
   Descriptor socket{::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0)};
   Descriptor stop{::eventfd(0, EFD_CLOEXEC)};
-  // What stands there was left behind by a holder that was killed.
+  // An existing socket was left behind by a holder that was killed.
   std::error_code none;
   if (std::filesystem::is_socket(path, none)) {
     std::filesystem::remove(path, none);
   }
-  // Before it has a name, so that nobody else reaches it in between.
+  // Permissions are set before the socket has a name, so that nobody else reaches it in between.
   if (!socket.is_open() || !stop.is_open() || ::fchmod(socket.number(), S_IRUSR | S_IWUSR) != 0 ||
       ::bind(socket.number(), reinterpret_cast<const sockaddr*>(&address->name),
              sizeof(address->name)) != 0 ||

@@ -1,5 +1,5 @@
 /// @file
-/// Answering the programs that ask the holder of an archive.
+/// Answers requests of other programs to the holder of an archive.
 
 #pragma once
 
@@ -19,16 +19,17 @@ namespace spindrift {
 
 class RequestServer {
  public:
-  /// Of one request. What it throws is the answer {"error": text}.
+  /// Answers one request. An exception becomes the answer {"error": text}.
   using Answer = std::function<nlohmann::json(const nlohmann::json& request)>;
-  /// By what requests say in `do`. Each kind has a thread of its own, on which they are answered
-  /// one after the other: nobody waits behind those who ask for something else.
+  /// Answers by the value of `do` in requests. Each has its own thread, which answers one request
+  /// after the other, so that no request waits behind those for something else.
   using Answers = std::map<std::string, Answer>;
 
-  /// @param archive Whose lock is held. @return Unavailable when the kernel refuses; as address_of.
+  /// @param archive Must be locked by us. @return Unavailable when the kernel refuses; the errors
+  ///        of address_of.
   static Expected<std::unique_ptr<RequestServer>> start(const std::filesystem::path& archive,
                                                         const Answers& answers);
-  /// Waits for the answers that are being made.
+  /// Waits for answers in progress.
   ~RequestServer();
   RequestServer(const RequestServer&) = delete;
   RequestServer& operator=(const RequestServer&) = delete;
@@ -40,7 +41,7 @@ class RequestServer {
     Descriptor caller;
     nlohmann::json request;
   };
-  /// Those who ask for one thing.
+  /// The queue and thread for one value of `do`.
   class Counter {
    public:
     explicit Counter(Answer answer);
@@ -50,13 +51,13 @@ class RequestServer {
     Counter(Counter&&) = delete;
     Counter& operator=(Counter&&) = delete;
 
-    /// Of one thread. Who finds too many waiting is told so.
+    /// Call it from one thread only. Refuses the request when too many are waiting.
     void queue(Asked asked);
 
    private:
     Answer answer_;
     BoundedQueue<Asked> waiting_;
-    std::jthread thread_;  // Last: it uses the others.
+    std::jthread thread_;  // Last member, since the thread uses the others.
   };
 
   RequestServer(std::filesystem::path path, Descriptor socket, Descriptor stop,
@@ -66,9 +67,9 @@ class RequestServer {
 
   std::filesystem::path path_;
   Descriptor socket_;
-  Descriptor stop_;  ///< Readable: no more are answered.
+  Descriptor stop_;  ///< Readable when the server has to stop.
   std::map<std::string, Counter> counters_;
-  std::thread thread_;  // Last: it uses the others.
+  std::thread thread_;  // Last member, since the thread uses the others.
 };
 
 }  // namespace spindrift

@@ -1,5 +1,5 @@
 /// @file
-/// A local socket in the file system, and lines over it.
+/// A local socket in the file system, and the exchange of lines over it.
 
 #pragma once
 
@@ -13,7 +13,7 @@
 
 namespace spindrift {
 
-/// A file descriptor that is closed with it.
+/// Owns a file descriptor and closes it.
 class Descriptor {
  public:
   explicit Descriptor(int number) : number_{number} {}
@@ -30,25 +30,25 @@ class Descriptor {
   int number_;
 };
 
-/// Of the archive, whichever link it is reached by.
+/// Returns the socket path of an archive, the same for every link to it.
 std::filesystem::path socket_of(const std::filesystem::path& archive);
 
-/// What the kernel calls a socket of that path, and the folder that must stay open meanwhile.
+/// The kernel's name of a socket path, with the folder that must stay open while it is used.
 struct SocketAddress {
   Descriptor folder;
   sockaddr_un name;
 };
-/// @return InvalidConfiguration where the name of the file is too long; Unavailable where there is
-///         no such folder.
+/// @return InvalidConfiguration when the file name is too long; Unavailable when the folder does
+///         not exist.
 Expected<SocketAddress> address_of(const std::filesystem::path& socket);
 
-/// @return Unavailable when the other side is gone.
+/// @return Unavailable when the other side has closed.
 Expected<void> send_all(const Descriptor& to, std::string_view text);
-/// Without its line end. @param most Bytes; 0: any number. @return Unavailable when the other side
-/// is gone, silent for too long (SO_RCVTIMEO), or says more.
+/// Returns a line without its end. @param most Limit in bytes; 0 means none. @return Unavailable
+/// when the other side has closed, is silent for too long (SO_RCVTIMEO), or exceeds `most`.
 Expected<std::string> receive_line(const Descriptor& from, std::size_t most);
 
-/// With what errno says.
+/// Makes an error with the text for errno.
 Unexpected socket_failure(std::string_view what, const std::filesystem::path& socket);
 
 }  // namespace spindrift

@@ -77,7 +77,7 @@ double SaidValues::number(const char* key, double at_least, double at_most) {
   if (value == nullptr) {
     return at_least;
   }
-  // Written so that NaN fails.
+  // The condition is written so that NaN fails.
   if (!value->is_number() ||
       !(value->get<double>() >= at_least && value->get<double>() <= at_most)) {
     wrong(fmt::format("{}: {}: must be a number, {} to {}", key, said(*value), at_least, at_most));

@@ -1,5 +1,5 @@
 /// @file
-/// The keys of a JSON object from outside, each looked at.
+/// Reads and checks the keys of a JSON object from outside.
 
 #pragma once
 
@@ -15,16 +15,16 @@
 
 namespace spindrift {
 
-/// What is wrong is noted, in place of which a value of no meaning is given.
+/// Collects the problems; an invalid value is replaced by a meaningless one.
 class SaidValues {
  public:
-  /// @param object Outlives it.
+  /// @param object Must outlive this.
   explicit SaidValues(const nlohmann::json& object) : object_{object} {}
 
-  /// At most 200 characters, none of them a control character.
+  /// Returns a text of at most 200 characters without control characters.
   std::string text(const char* key);
   std::string text_or_empty(const char* key);
-  /// One of `names`. @return Its place among them.
+  /// @param names Allowed values. @return Index among them.
   std::size_t name(const char* key, std::span<const std::string_view> names);
   double number(const char* key, double at_least, double at_most);
   TaiTime time(const char* key);
@@ -32,7 +32,7 @@ class SaidValues {
   bool has(const char* key);
 
   void wrong(std::string problem) { problems_.push_back(std::move(problem)); }
-  /// A key that nothing has asked for is wrong, too. Empty: all is well.
+  /// Returns the problems, including keys that were never asked for; empty when there are none.
   std::string problems() const;
 
  private:

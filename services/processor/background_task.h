@@ -1,5 +1,5 @@
 /// @file
-/// A slow solution: a closure that a run hands out, and that whoever has the time calls.
+/// A slow solution as a closure that a run hands out and a background thread calls later.
 
 #pragma once
 
@@ -14,27 +14,27 @@
 
 namespace spindrift {
 
-/// When slow solutions are made, beside the end of the pass.
+/// Whether slow solutions are made only at the end of the pass or also while it goes on.
 enum class SolvingPlan { AtTheEnd, Meanwhile };
 
-/// Either with the products of a solution, or why there is none.
+/// Returns the products of a solution, or the reason why there is none.
 using Solve = std::function<Expected<std::vector<Product>>()>;
 
-/// Those of a run are solved and stored in the order in which it handed them out.
+/// Holds one slow solution. The tasks of a run are solved and stored in the order handed out.
 struct BackgroundTask {
-  ArchiveBatch batch;             ///< For the archive, with what `solve` gives, if anything.
-  Solve solve;                    ///< On any thread, while the run that handed it out is there.
-  RunSummary* summary = nullptr;  ///< Of the run that has ended with it: it is counted there.
-  std::string_view what = "batch solution";  ///< As people call it.
-  bool is_awaited = false;  ///< By people, within seconds: it waits for none that is not.
+  ArchiveBatch batch;                        ///< Goes to the archive with the products of `solve`.
+  Solve solve;                               ///< Callable on any thread while its run exists.
+  RunSummary* summary = nullptr;             ///< Counts the solution; null while the run goes on.
+  std::string_view what = "batch solution";  ///< Name of the solution in messages.
+  bool is_awaited = false;  ///< Users wait for it within seconds: not queued behind others.
 };
 
-/// What `solve` gives; what it throws becomes a RunFault at `t`, and is said in the log.
+/// Calls `solve`. An exception that it throws is logged and becomes a RunFault at `t`.
 Expected<std::vector<Product>> solved_or_fault(const std::string& spacecraft_id,
                                                std::string_view what, TaiTime t,
                                                const Solve& solve);
 
-/// @return Unobservable when any of them is withheld.
+/// Returns `products`, or Unobservable when any of them holds a number that is not finite.
 Expected<std::vector<Product>> unless_withheld(std::vector<Product> products);
 
 }  // namespace spindrift

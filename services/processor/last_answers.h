@@ -1,5 +1,5 @@
 /// @file
-/// The answers that stand for those who follow a run, until it gives the next.
+/// The last answer of each estimator, valid for those who follow a run until the next one.
 
 #pragma once
 
@@ -15,7 +15,8 @@
 
 namespace spindrift {
 
-/// Where no next one can be had, the last must not stand as it is: it is given once more, DOUBTFUL.
+/// Keeps the last answers. When no next answer can be had, the last one must not stay valid as it
+/// is: it is given once more, as DOUBTFUL.
 /// @tparam PassProduct Variant of the products of a pass. Answers are those with an assessment.
 template <class PassProduct>
 class LastAnswers {
@@ -33,7 +34,8 @@ class LastAnswers {
     last_.push_back(product);
   }
 
-  /// The one before `product`, at its time; empty: it is no answer, or the first.
+  /// Returns the answer before `product`, DOUBTFUL and at the time of `product`; empty when
+  /// `product` is no answer or the first one.
   std::optional<PassProduct> instead_of(const PassProduct& product, const Reason& reason) const {
     const auto before = std::find_if(last_.begin(), last_.end(), [&](const PassProduct& last) {
       return are_of_one_estimator(last, product);
@@ -42,7 +44,7 @@ class LastAnswers {
                                  : std::optional{doubtful(*before, time_of(product), reason)};
   }
 
-  /// All, at `t`, or just behind themselves.
+  /// Returns all last answers as DOUBTFUL, each at `t` or 1 ns after its own time if that is later.
   std::vector<PassProduct> doubtful_from(TaiTime t, const Reason& reason) const {
     std::vector<PassProduct> all;
     for (const PassProduct& last : last_) {

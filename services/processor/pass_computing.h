@@ -1,5 +1,5 @@
 /// @file
-/// What the computing sides of all kinds of spacecraft have in common.
+/// The parts of the computing side that all kinds of spacecraft share.
 
 #pragma once
 
@@ -26,44 +26,44 @@
 
 namespace spindrift {
 
-/// What is stored of a run that goes on.
+/// Describes what the archive holds of a run that is continued after a restart.
 struct MadeBefore {
-  /// What was made from then on, which the run may not have got to, is stored again.
+  /// Products from this time on may be incomplete in the archive and are stored again.
   TaiTime again_from;
-  std::vector<TaiTime> batches;  ///< When solutions of `batch` are; in order.
+  std::vector<TaiTime> batches;  ///< Times of the stored `batch` solutions, in order.
   Reconstructed reconstructed = {};
 };
 
-/// Of the runs that go on, by run.
 using AllMadeBefore = std::map<std::string, MadeBefore>;
 
-/// Says it in the log.
+/// Logs the failure and returns it as a product.
 RunFault fault_of(const std::string& spacecraft_id, const std::string& run_id, TaiTime t,
                   std::string what);
-/// The notices of a pass, as told.h tells them.
+/// Reports the notices of a pass in the log (told.h) and returns them as products.
 std::vector<RunNotice> told(const std::string& spacecraft_id, const std::vector<Notice>& notices);
 RunNotice told(const std::string& spacecraft_id, const SampleContradiction& contradiction);
 
-/// Of its senders; by name from now on, for the numbers hang on who was heard first.
+/// Replaces the numbers of the senders by their names, because the numbers depend on the order in
+/// which senders were first heard.
 void fill_in_names(SampleContradiction& contradiction, const std::vector<std::string>& names);
 
-/// The stream has fallen silent.
 struct FellSilent {};
 
-/// Of telemetry, between the slow solutions that are due in silences: a stream may come in bursts.
+/// Shortest telemetry time between two slow solutions that silences make due: a stream may come in
+/// bursts, with a silence after each.
 inline constexpr std::chrono::seconds kBetweenSilences{10};
 
-/// Samples into the pass of a run, what it makes of them into batches for the archive. What throws
-/// meanwhile becomes a RunFault, and nothing more is computed of the run.
-/// @tparam Pass Has `push` for the values that it knows, `fall_silent` and `finish`, each with an
-///              output of `products` and `notices`, and `act` for the actions of its kind.
+/// Feeds samples into the pass of a run and puts its products into batches for the archive. An
+/// exception becomes a RunFault, and nothing more is computed for the run.
+/// @tparam Pass Has `push` for the values that it uses, `fall_silent` and `finish`, each returning
+/// an output with `products` and `notices`, and `act` for the actions of its kind.
 template <class Pass>
 class PassComputing {
  public:
   using Output = decltype(std::declval<Pass&>().finish());
   using PassProduct = typename decltype(Output::products)::value_type;
 
-  /// @param stores_residuals What measurements say to the estimators is stored.
+  /// @param stores_residuals Whether residuals of measurements are stored.
   PassComputing(std::string spacecraft_id, std::string run_id, Pass pass,
                 bool stores_residuals = true)
       : spacecraft_id_{std::move(spacecraft_id)},
@@ -71,7 +71,7 @@ class PassComputing {
         pass_{std::move(pass)},
         stores_residuals_{stores_residuals} {}
 
-  /// The runs of `made` are stored, and their samples come again.
+  /// Prepares for runs that are stored already and whose samples will be fed in again.
   void go_on(AllMadeBefore made) { made_before_ = std::move(made); }
 
   void begin(const std::string& run_id, Pass pass) {
@@ -89,13 +89,13 @@ class PassComputing {
   const std::string& run_id() const { return run_id_; }
   const Pass& pass() const { return pass_; }
   bool failed() const { return failed_; }
-  /// Of this run; null: nothing.
+  /// Returns what is stored of the current run, or null when nothing is.
   const MadeBefore* made_before() const {
     const auto made = made_before_.find(run_id_);
     return made == made_before_.end() ? nullptr : &made->second;
   }
 
-  /// Empty, for the archive.
+  /// Returns a batch with the identity of the run and no content.
   ArchiveBatch batch() const {
     ArchiveBatch batch;
     batch.run_id = run_id_;
@@ -104,7 +104,7 @@ class PassComputing {
     return batch;
   }
 
-  /// @param note Is shown every output, stored or not; every action and silence, if it takes them.
+  /// @param note Called with every output, and if it accepts them with actions and silences.
   template <class Note>
   std::vector<ArchiveBatch> compute(const PassInput& input, const Note& note) {
     Computed computed;
@@ -112,7 +112,7 @@ class PassComputing {
       one = batch();
     }
     senders_ = input.senders ? input.senders : senders_;
-    // What was made of the samples before one that fails is kept, however many came with it.
+    // When a sample fails, the products of the samples before it in the same input are kept.
     compute_or_fail(computed.front().products, note, [&] { compute(input, note, computed); });
     std::vector<ArchiveBatch> batches;
     for (ArchiveBatch& batch : computed) {
@@ -123,7 +123,7 @@ class PassComputing {
     return batches;
   }
 
-  /// What was still held: the pass has ended.
+  /// Ends the pass and appends the products that it still held back.
   template <class Note>
   void finish(std::vector<Product>& products, const Note& note) {
     compute_or_fail(products, note, [&] {
@@ -135,7 +135,7 @@ class PassComputing {
   }
 
  private:
-  /// First the results, then what may be stored later (detail_lane.h), each kind by itself.
+  /// The batch of results, then one per kind of detail, which may be stored later (detail_lane.h).
   using Computed = std::array<ArchiveBatch, 1 + std::variant_size_v<Product>>;
 
   template <class Note>
@@ -155,7 +155,7 @@ class PassComputing {
 
   template <class Value, class Note>
   void take(const Arrived<Value>& arrived, const Note& note, Computed& computed) {
-    // Of the other kinds of telemetry it knows nothing.
+    // A pass ignores the kinds of telemetry that it has no `push` for.
     if constexpr (requires { pass_.push(arrived.value); }) {
       reached_ = arrived.value.t;
       Output output = pass_.push(arrived.value);
@@ -164,7 +164,7 @@ class PassComputing {
     }
   }
 
-  /// It makes something of samples to come only.
+  /// An action gives no products itself; it only affects the samples after it.
   template <class Note>
   void take(const OperatorAction& action, const Note& note, Computed& /*computed*/) {
     std::visit(
@@ -194,7 +194,7 @@ class PassComputing {
     return notices;
   }
 
-  /// Of each kind the first is said.
+  /// Names the senders and reports the first contradiction of each kind of sample.
   void name_senders(SampleContradiction& contradiction, std::vector<RunNotice>& notices) {
     fill_in_names(contradiction, senders_ ? *senders_ : std::vector<std::string>{});
     if (told_kinds_.insert(contradiction.kind).second) {
@@ -202,7 +202,7 @@ class PassComputing {
     }
   }
 
-  /// @param t Of the sample that made it; none: a silence did.
+  /// @param t Time of the sample that gave the output; empty when a silence did.
   void keep(Output output, std::vector<RunNotice> notices, std::optional<TaiTime> t,
             Computed& computed) {
     if (again_from_ && t && *t >= *again_from_) {
@@ -246,11 +246,11 @@ class PassComputing {
   Pass pass_;
   bool stores_residuals_;
   AllMadeBefore made_before_;
-  std::optional<TaiTime> again_from_;  ///< Until the pass is there again: what it makes is stored.
-  TaiTime reached_ = {};               ///< The sample that was computed last.
+  std::optional<TaiTime> again_from_;  ///< Nothing is stored before the pass reaches this.
+  TaiTime reached_ = {};               ///< Time of the sample computed last.
   bool failed_ = false;
   NamesOfSenders senders_;
-  std::set<std::string_view> told_kinds_;  ///< Whose samples contradict each other.
+  std::set<std::string_view> told_kinds_;  ///< Kinds with a contradiction that was reported.
   Withheld withheld_;
   LastAnswers<PassProduct> answers_;
 };

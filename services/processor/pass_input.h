@@ -16,21 +16,20 @@
 
 namespace spindrift {
 
-/// What a pass is to work on next.
 struct PassInput {
-  std::size_t spacecraft = 0;                ///< Index of its mission.
-  std::string run_id;                        ///< Another one than before: a new pass begins.
-  TelemetryValues values = {};               ///< `arrival`: the place of each among all in here.
-  std::vector<OperatorAction> actions = {};  ///< Likewise, in a place of their own.
-  std::vector<std::int64_t> silences = {};   ///< Each before what has that place.
-  NamesOfSenders senders = {};               ///< Of those of `values`.
-  /// When the last of it came. Empty: it came before a restart, or nothing came that made it due.
+  std::size_t spacecraft = 0;                ///< Index of the spacecraft's mission.
+  std::string run_id;                        ///< A change of this begins a new pass.
+  TelemetryValues values = {};               ///< Their `arrival` is the place within this input.
+  std::vector<OperatorAction> actions = {};  ///< Their `arrival` is a place of the same series.
+  std::vector<std::int64_t> silences = {};   ///< Place of the element that follows each silence.
+  NamesOfSenders senders = {};               ///< Names of the senders of `values`.
+  /// Arrival time of the last sample. Empty after a restart, or when no sample made the input due.
   std::optional<std::chrono::steady_clock::time_point> came = {};
 };
 
 inline std::size_t sample_count(const PassInput& input) { return count_of(input.values); }
 
-/// Of what comes next.
+/// Returns the place that the next element of this input gets.
 inline std::int64_t next_place(const PassInput& input) {
   return static_cast<std::int64_t>(sample_count(input) + input.actions.size());
 }

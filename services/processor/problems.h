@@ -1,5 +1,5 @@
 /// @file
-/// What is wrong, for whoever reports on the service.
+/// Present problems, for the parts that report on the health of the service.
 
 #pragma once
 
@@ -12,13 +12,12 @@
 
 namespace spindrift {
 
-/// A source whose time is wrong.
 struct SourceProblem {
   std::string text;
-  std::chrono::steady_clock::time_point heard;  ///< When it last was.
+  std::chrono::steady_clock::time_point heard;  ///< Time at which the source was last heard.
 };
 
-/// Used by any thread.
+/// Collects problems. May be used by any thread.
 class Problems {
  public:
   void set_sources(std::vector<SourceProblem> sources) {
@@ -26,7 +25,7 @@ class Problems {
     sources_ = std::move(sources);
   }
 
-  /// That computing failed, which nothing heals.
+  /// Adds a failure of the computation. It stays for the life of the process.
   void add_fault(std::string text) {
     const std::lock_guard lock{mutex_};
     if (std::find(faults_.begin(), faults_.end(), text) == faults_.end()) {
@@ -34,7 +33,7 @@ class Problems {
     }
   }
 
-  /// The worst first. Of the sources, of those that were heard since.
+  /// Returns the faults, then the problems of sources that were heard at or after `heard`.
   std::vector<std::string> since(std::chrono::steady_clock::time_point heard) const {
     const std::lock_guard lock{mutex_};
     std::vector<std::string> texts = faults_;

@@ -15,13 +15,13 @@
 namespace spindrift {
 namespace {
 
-/// So much of what was stored last is made again: longer than a pass holds anything back, since an
-/// orderly stop has settled early what was held.
+/// Products of this much telemetry time before the last stored one are made again. It is longer
+/// than a pass holds anything back: an orderly stop settles early what was held.
 constexpr std::chrono::minutes kMadeAgain{10};
 
-/// Products from here on are made again; all before are stored, for no table is behind what was
-/// made last and each is filled in order. An orderly stop may have made products of samples from
-/// beyond what the pass has `reached`.
+/// Returns the time from which products are made again. All before it are stored: each table is
+/// filled in order, and none is behind what was made last. `reached` limits the time because an
+/// orderly stop may have made products of samples from beyond it.
 TaiTime made_again_from(const StoredPass& stored, std::optional<TaiTime> reached) {
   const auto last = stored.last_made ? stored.last_made : stored.earliest;
   return last && reached ? std::min(*last, *reached) - kMadeAgain : TaiTime::min();
@@ -37,7 +37,7 @@ std::variant<SpinRun, ThreeAxisRun> computing_side(const Mission& mission,
   return SpinRun{mission, run.run_id(), plan};
 }
 
-/// A run holds what one configuration made.
+/// Says why a run is not continued: a run holds results of one configuration only.
 std::string why_not_continued(const LastRun& last, const RunStart& now) {
   std::string changed;
   const auto note = [&](bool differs, std::string_view what) {
@@ -197,7 +197,7 @@ Routed Processor::route(SampleBatch samples, const Moment& moment) {
     add(runs_.at(run).take(std::move(of_run), moment), routed);
   }
   if (!told_of_others_.empty() && runs_.front().has_begun()) {
-    // Like bad input it stands with the first run.
+    // As with rejected input, these notices are stored with the first run.
     ArchiveBatch& told = routed.samples.emplace_back();
     told.run_id = runs_.front().run_id();
     told.spacecraft_id = runs_.front().spacecraft_id();
@@ -209,7 +209,7 @@ Routed Processor::route(SampleBatch samples, const Moment& moment) {
 template <class Value>
 void Processor::distribute(SamplesOfKind<Value>& samples,
                            std::map<std::size_t, SampleBatch>& by_run) {
-  // The bus gives samples spacecraft by spacecraft: most are of the same one as the one before.
+  // The bus delivers samples spacecraft by spacecraft, so most need no new lookup.
   const std::string* last = nullptr;
   SamplesOfKind<Value>* place = nullptr;
   for (TelemetrySample<Value>& sample : samples) {

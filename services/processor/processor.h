@@ -1,6 +1,6 @@
 /// @file
 /// The one path of data: samples of all spacecraft in, batches for the archive out. Live, offline
-/// and in replay only the source of the samples differs.
+/// and replay differ only in the source of the samples.
 
 #pragma once
 
@@ -26,78 +26,77 @@
 
 namespace spindrift {
 
-/// Samples as they came in, for the archive, and the work that they are for the pipelines.
+/// Holds the received samples for the archive and the work for the pipelines that they give.
 struct Routed {
   std::vector<ArchiveBatch> samples;
   std::vector<PassInput> work;
 };
 
-/// What a restarted service goes on with.
 struct GoneOn {
   Routed routed;
-  LastOrigins last_origins;  ///< Of all the samples in it; a session may stand there twice.
-  /// By spacecraft, where none goes on: what is known last, until the next run begins.
+  LastOrigins last_origins;  ///< Of all samples in `routed`; may list a session twice.
+  /// By spacecraft that continues no run: its last run, until the next one begins.
   std::map<std::string, LastRun> last_runs = {};
 };
 
-/// Has two sides, each for one thread: `route` takes samples in, `compute` works on them. The
-/// batches of `route` go to the archive before its work is computed. The other calls need both
-/// sides at rest.
+/// Processes the telemetry of all spacecraft. It has two sides, each for one thread: `route` takes
+/// samples in, `compute` works on them. The batches of `route` go to the archive before its work is
+/// computed. The other calls need both sides at rest.
 class Processor {
  public:
-  /// @return InvalidConfiguration with every mission that is the second of one spacecraft.
+  /// @return InvalidConfiguration naming every mission whose spacecraft already has a mission.
   static Expected<Processor> make(const std::vector<Mission>& missions,
                                   const TelemetrySource& source);
 
-  /// Before either of the two below: whatever the wall clock says, what a new run takes arrives
-  /// later than all that `archive` holds of its spacecraft. @return the error of reading it.
+  /// Makes new runs arrive later than all samples that `archive` holds of their spacecraft,
+  /// whatever the wall clock says. To be called before `begin` or `go_on`.
+  /// @return The error of reading the archive.
   Expected<void> arrive_after(const std::filesystem::path& archive);
 
   std::vector<ArchiveBatch> begin();
 
-  /// In place of `begin`: goes on with those runs that `archive` holds. Of the other spacecraft the
-  /// first run begins now, and a later one with its first sample or action, so that until then the
-  /// run before it is the last. Its
-  /// batches are committed before the next of `route` are submitted; its work comes first.
-  /// @return the error of reading the archive.
+  /// Called instead of `begin`: continues the runs that `archive` holds. For a spacecraft without a
+  /// stored run the first run begins now. When its last run cannot be continued, the new run begins
+  /// with its first sample or action, so that until then the last run stays the newest. The
+  /// returned batches must be committed before those of the next `route` are submitted, and the
+  /// returned work comes before that of `route`. @return The error of reading the archive.
   Expected<GoneOn> go_on(const std::filesystem::path& archive, const Moment& moment = {});
 
-  /// What belongs to no spacecraft, rejected inputs and the counts of the sources, is stored under
-  /// the first run only, so that sums over runs hold. A sample of a spacecraft without a mission
-  /// here is another service's: it is counted and not stored.
+  /// Sorts samples by spacecraft. Rejected inputs and the counts of the sources belong to no
+  /// spacecraft and are stored under the first run only, so that sums over runs hold. A sample of a
+  /// spacecraft without a mission here belongs to another service: it is counted and not stored.
   Routed route(SampleBatch samples, const Moment& moment = {});
 
-  /// The streams of these spacecraft, which have missions here, gave nothing for so long that what
-  /// is held is to be computed. As `route`, on its thread.
-  /// That nothing comes may also tell whose time is right.
+  /// Notes that the streams of these spacecraft, which must have missions here, have been silent
+  /// for so long that held samples are to be computed. The silence may also decide which source's
+  /// time is right. To be called on the thread of `route`.
   Routed fall_silent(const std::vector<std::string>& spacecraft, const Moment& moment = {});
 
-  /// When that nothing comes may tell whose time is right. Empty: not for now.
+  /// Returns when a lack of samples may decide which source's time is right; empty when it cannot.
   std::optional<std::chrono::steady_clock::time_point> next_decision() const;
-  /// Of all spacecraft. On the thread of `route`.
+  /// Returns the source problems of all spacecraft. To be called on the thread of `route`.
   std::vector<SourceProblem> source_problems() const;
 
   std::vector<ArchiveBatch> compute(const PassInput& work);
 
-  /// What became due in the last `compute` of that work.
+  /// Returns the tasks that became due in the last `compute` of that work.
   std::vector<BackgroundTask> take_background_tasks(const PassInput& work);
 
-  /// Both, for those who have one thread.
+  /// Calls `route` and `compute`, for callers with one thread.
   std::vector<ArchiveBatch> take(SampleBatch samples);
 
   std::vector<ArchiveBatch> finish();
-  /// One of them. @param spacecraft As PassInput::spacecraft.
+  /// Finishes one spacecraft's run. @param spacecraft Index as in PassInput::spacecraft.
   std::vector<ArchiveBatch> finish(std::size_t spacecraft);
 
   bool is_live() const;
 
-  /// Those with a mission here.
   std::vector<std::string> spacecraft() const;
 
-  /// Spacecraft by spacecraft, all runs of each.
   std::vector<RunSummary> summaries() const;
 
-  /// Samples of spacecraft without a mission here; beyond 256 of them together, under "(others)".
+  /// Returns counts of samples of spacecraft without a mission here. Beyond 256 such spacecraft
+  /// they are counted together under "(others)".
   const OtherSpacecraft& other_spacecraft() const { return other_spacecraft_; }
 
  private:
@@ -110,11 +109,12 @@ class Processor {
   void begin_behind(std::size_t i, LastRun last, GoneOn& gone_on);
   void count_other(const std::string& spacecraft, std::int64_t samples);
 
-  std::unordered_map<std::string, std::size_t> index_of_;  ///< Of a spacecraft, in both below.
+  /// Index of a spacecraft in `runs_` and `passes_`.
+  std::unordered_map<std::string, std::size_t> index_of_;
   std::vector<SpacecraftRun> runs_;
-  std::vector<std::variant<SpinRun, ThreeAxisRun>> passes_;  ///< By kind of spacecraft.
+  std::vector<std::variant<SpinRun, ThreeAxisRun>> passes_;
   OtherSpacecraft other_spacecraft_;
-  std::vector<Product> told_of_others_;  ///< Not with a run yet.
+  std::vector<Product> told_of_others_;  ///< Notices not yet stored with a run.
 };
 
 }  // namespace spindrift

@@ -1,6 +1,5 @@
 /// @file
-/// How far the samples of a run reach, how much of the planned contact they cover, and where they
-/// leave gaps.
+/// The reach of a run's samples, their gaps, and their share of the planned contact.
 
 #pragma once
 
@@ -17,13 +16,14 @@ namespace spindrift {
 
 class ReachWatch {
  public:
-  /// The row of a run is wide: while samples come, its end follows them by no more than this.
+  /// While samples come, the stored end of the run lags behind them by at most this: the row of a
+  /// run is wide, and is not rewritten for every sample.
   static constexpr std::chrono::minutes kFollows{1};
   static constexpr std::chrono::seconds kSpan{10};
-  /// No sensor is silent so long within a pass.
+  /// Within a pass no sensor is silent for as long as this.
   static constexpr std::chrono::minutes kSilence{5};
 
-  /// Telemetry time without a sample, all longer than kSilence.
+  /// Spans of telemetry time without a sample, each longer than kSilence.
   struct Silences {
     std::int64_t count = 0;
     TaiTime longest_from = {};
@@ -32,14 +32,13 @@ class ReachWatch {
 
   explicit ReachWatch(std::optional<Contact> contact) : contact_{contact} {}
 
-  /// A sample of the run.
   void note(TaiTime t);
-  /// The pass has come to `t` with it, see PassWatch: a time that is wrong does not bring it there.
+  /// Notes that the pass has reached `t` (PassWatch). A sample with a wrong time does not get here.
   void carry_on(TaiTime t);
 
-  /// What the archive should know now; empty: it knows.
+  /// Returns the reach if it differs enough from the one taken last; otherwise empty.
   std::optional<RunReach> take_news();
-  /// Likewise, of a run that ends.
+  /// Returns the reach of a run that ends; empty when it had no sample.
   std::optional<RunReach> take_last();
   const Silences& silences() const { return silences_; }
 
@@ -47,9 +46,9 @@ class ReachWatch {
   RunReach reach() const;
 
   std::optional<Contact> contact_;
-  std::optional<TaiTime> first_;  ///< Empty: no sample yet.
-  std::optional<TaiTime> last_;   ///< To which the pass has come.
-  std::set<std::int64_t> spans_;  ///< Of the contact, from 0, in which samples came.
+  std::optional<TaiTime> first_;  ///< Empty before the first sample.
+  std::optional<TaiTime> last_;   ///< Time that the pass has reached.
+  std::set<std::int64_t> spans_;  ///< Indices of contact spans with samples, from 0.
   Silences silences_;
   std::optional<RunReach> stored_;
 };

@@ -117,7 +117,6 @@ void RunNotices::tell_silences(const ReachWatch::Silences& silences,
                        count == 1 ? "" : ", the longest", format_utc(from), format_utc(to))));
 }
 
-/// Of each kind once.
 void RunNotices::tell_undescribed(const TelemetrySamples& samples, std::vector<Product>& products) {
   TelemetryKinds::for_each([&]<class Value>(Kind<Value> /*kind*/) {
     constexpr std::string_view kSensor = Telemetry<Value>::kSensor;

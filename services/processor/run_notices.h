@@ -1,5 +1,5 @@
 /// @file
-/// What people are told of the telemetry of a spacecraft while it comes, each thing once.
+/// Reports to the user about the telemetry of a spacecraft while it arrives, each fact once.
 
 #pragma once
 
@@ -22,28 +22,28 @@ class RunNotices {
  public:
   explicit RunNotices(const Mission& mission);
 
-  /// Which are left out, or agree again; that the one followed has the host's clock against it.
-  /// @param products Receive each notice that is told; likewise below.
+  /// Reports which sources are left out or agree again, or disagree with the host's clock.
+  /// @param products Receive each notice that is reported; the same holds for the functions below.
   void tell_sources(SourceWatch& sources, const Moment& moment, std::vector<Product>& products);
-  /// @param carrier Followed until now, to `before`; empty: several.
+  /// Logs that a new run begins with another source.
+  /// @param carrier Source that was followed until now; empty when there were several.
+  /// @param before Time that the pass had reached with it.
   void tell_new_run(const SourceId& successor, TaiTime t, const std::optional<SourceId>& carrier,
                     TaiTime before) const;
-  /// Sources that are left out.
   std::vector<SourceProblem> problems(const SourceWatch& sources) const;
-  /// That both pulses and coded frames have arrived.
+  /// Reports that both pulses and coded frames have arrived.
   void tell_both(std::vector<Product>& products);
-  /// That telemetry has gaps.
   void tell_silences(const ReachWatch::Silences& silences, std::vector<Product>& products) const;
-  /// Of each kind once: the mission has no sensor for it.
+  /// Reports, once per kind, samples for which the mission has no sensor.
   void tell_undescribed(const TelemetrySamples& samples, std::vector<Product>& products);
 
  private:
   std::string spacecraft_id_;
   SpacecraftKind spacecraft_kind_;
-  std::set<std::string> tables_;  ///< Of the mission file.
+  std::set<std::string> tables_;  ///< Names of the tables in the mission file.
   bool told_both_ = false;
   std::array<bool, kTelemetryKindCount> told_undescribed_{};
-  std::set<std::string> told_host_;  ///< Sources, by name.
+  std::set<std::string> told_host_;  ///< Names of sources reported as apart from the host.
 };
 
 }  // namespace spindrift

@@ -1,5 +1,5 @@
 /// @file
-/// The counts and the answer of a run, gathered as its products pass by.
+/// Counts of a run and its latest results, gathered from its products.
 
 #pragma once
 
@@ -25,42 +25,44 @@ struct RunSummary {
   std::string run_id;
   std::string spacecraft_id;
   SpacecraftKind kind = SpacecraftKind::Spin;
-  std::map<std::string_view, std::int64_t> samples_received = {};  ///< "gyro samples"; what came.
-  std::int64_t edges_received = 0;         ///< Those of coded frames too, as everywhere here.
-  std::int64_t edges_stored = 0;           ///< Whoever knows the archive fills it in.
-  std::int64_t coded_frames_received = 0;  ///< Each holds up to six edges.
+  /// Counts by plural name of the kind, e.g. "gyro samples".
+  std::map<std::string_view, std::int64_t> samples_received = {};
+  std::int64_t edges_received = 0;         ///< Includes edges of coded frames.
+  std::int64_t edges_stored = 0;           ///< Filled in by the caller that reads the archive.
+  std::int64_t coded_frames_received = 0;  ///< A frame holds up to six edges.
   std::int64_t edges_accepted = 0;
-  std::map<std::string_view, std::int64_t> edges_rejected;  ///< By the test that did it.
-  std::int64_t input_rejected = 0;                          ///< Rows and samples that are none.
+  std::map<std::string_view, std::int64_t> edges_rejected;  ///< By name of the rejecting test.
+  std::int64_t input_rejected = 0;  ///< Rows and samples that are not valid input.
   std::int64_t revolutions = 0;
   std::int64_t fixes = 0;
   std::int64_t fixes_accepted = 0;
   std::map<int, std::int64_t> fixes_by_case;
-  std::map<std::string_view, std::int64_t> fixes_by_resolution;  ///< AMBIGUOUS among them.
-  std::map<SpinEstimator, SpinEstimate> estimates;               ///< The last of each.
+  std::map<std::string_view, std::int64_t> fixes_by_resolution;  ///< By name; includes AMBIGUOUS.
+  std::map<SpinEstimator, SpinEstimate> estimates;               ///< The latest of each estimator.
   std::optional<BatchSolution> batch;
-  /// @name Of a three-axis spacecraft
+  /// @name Three-axis spacecraft only
   /// @{
   SensorHealths sensors = {};
-  /// By kind, and by the test that did it.
+  /// Rejected samples by kind, then by name of the rejecting test.
   std::array<std::map<std::string_view, std::int64_t>, kSampleKinds> samples_rejected = {};
-  std::optional<AttitudeEstimate> attitude;                 ///< The last.
-  std::vector<ReconstructionProduct> reconstructions = {};  ///< Of the separation, by each method.
+  std::optional<AttitudeEstimate> attitude;                 ///< The latest estimate.
+  std::vector<ReconstructionProduct> reconstructions = {};  ///< One per method.
   /// @}
-  std::vector<Disagreement> disagreements = {};             ///< Likewise from the archive.
-  std::vector<RunFault> faults = {};                        ///< Likewise.
-  std::map<std::string, std::int64_t> contradictions = {};  ///< Likewise; by kind of sample.
-  PassVerdict verdict = {};                                 ///< Likewise.
-  /// What edges said to `sequential`, or samples to the filter.
+  std::vector<Disagreement> disagreements = {};  ///< Read from the archive.
+  std::vector<RunFault> faults = {};             ///< Read from the archive.
+  std::map<std::string, std::int64_t> contradictions = {};
+  PassVerdict verdict = {};  ///< Read from the archive.
+  /// Residuals of the edges in `sequential`, or of the samples in the attitude filter.
   Ledger ledger{kShownRules};
 
   void count(const SpinProduct& product);
   void count(const ThreeAxisProduct& product);
 
-  /// The last solution of `batch` or of a reconstruction, if it is among them.
+  /// Counts the solution of `batch` or of a reconstruction if `products` contains one.
   void count_solution(const std::vector<Product>& products);
 
-  /// Case of every revolution whose fix is AMBIGUOUS: it may be given again, decided.
+  /// Geometry case of every revolution whose fix is AMBIGUOUS, by revolution. A resolved fix may
+  /// replace it later, and is then not counted twice.
   std::map<std::int64_t, int> ambiguous = {};
 };
 

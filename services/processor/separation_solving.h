@@ -1,5 +1,5 @@
 /// @file
-/// The reconstruction of a separation as a product to be stored.
+/// Reconstructs a separation and gives the result as products to be stored.
 
 #pragma once
 
@@ -14,11 +14,11 @@
 namespace spindrift {
 
 struct SolvedSeparation {
-  std::vector<ReconstructionProduct> methods;  ///< `batch` first.
-  std::vector<std::string> failures;           ///< Why others are missing, each once.
+  std::vector<ReconstructionProduct> methods;  ///< The solution of `batch` first.
+  std::vector<std::string> failures;           ///< Why methods gave no solution, each reason once.
 };
 
-/// By one method, or by both.
+/// Solves by `method`, or by both methods when it is empty.
 SolvedSeparation solve_separation(const ReconstructionRequest& request,
                                   const std::optional<LauncherAttitude>& launcher,
                                   std::optional<ReconstructionMethod> method);

@@ -24,7 +24,7 @@ SourceWatch::Verdict SourceWatch::judge(const Origin& origin, TaiTime t, const M
 
 SourceWatch::Place SourceWatch::place_of(const Source& source, std::optional<Reach> others,
                                          TaiTime t, Instant now) const {
-  // Where a pause says nothing, who pauses would hold the others back.
+  // In a replay a pause says nothing, so there a paused source must not hold the others back.
   auto pass = reach_of_pass(now);
   if (others && (pace_.is_of_the_clock || !pass)) {
     pass = others;
@@ -54,7 +54,7 @@ void SourceWatch::note_level(Source& source, TaiTime t, const Moment& moment) {
   }
 }
 
-/// @param counts Whether it may be the last word.
+/// @param counts Whether the sample counts towards `has_last_word`.
 void SourceWatch::note_apart(Source& source, TaiTime t, bool counts, const Moment& moment) const {
   source.carries = false;
   source.apart_since = source.apart_since.value_or(moment.now);
@@ -67,7 +67,7 @@ void SourceWatch::note_apart(Source& source, TaiTime t, bool counts, const Momen
   }
 }
 
-/// Of those that nobody contradicts, `successor` decides first.
+/// Reports a source as apart. One that no other source contradicts is left to `successor`.
 void SourceWatch::tell(Entry& entry, TaiTime t, std::optional<Reach> others, const Moment& moment) {
   Source& source = entry.second;
   const bool may_catch_up =
@@ -237,7 +237,7 @@ std::optional<SourceWatch::Reach> SourceWatch::reach_of_pass(Instant now) const 
   return pass_.time() ? std::optional{reach(*pass_.time(), pass_heard_, now)} : std::nullopt;
 }
 
-/// Of those that carry the pass, as far as any has come.
+/// Returns the reach of the other sources that carry the pass: as far as the furthest has come.
 std::optional<SourceWatch::Reach> SourceWatch::reach_of_others(const Source& source,
                                                                Instant now) const {
   std::optional<Reach> all;
@@ -259,7 +259,7 @@ bool SourceWatch::is_heard(const Source& source, Instant now) const {
   return now - source.heard < pace_.silence;
 }
 
-/// By name: one that begins session after session is one.
+/// Counts names, not sessions: a source that starts session after session has one vote.
 std::size_t SourceWatch::supporters(const Reach& reach_of_one, Instant now) const {
   std::set<std::string_view> names;
   for (const auto& [id, source] : sources_) {
@@ -271,8 +271,8 @@ std::size_t SourceWatch::supporters(const Reach& reach_of_one, Instant now) cons
   return names.size();
 }
 
-/// 1: for what is there; -1: for the pass; 0: for neither, since it is far from both or they are
-/// equally near.
+/// Returns 1 if the host's clock is nearer to `there`, -1 if it is nearer to the pass, and 0 if it
+/// is far from both or equally near.
 std::ptrdiff_t SourceWatch::vote_of_host(const Reach& there, const Moment& moment) const {
   if (!moment.host || !pass_.time()) {
     return 0;
@@ -288,7 +288,6 @@ std::ptrdiff_t SourceWatch::vote_of_host(const Reach& there, const Moment& momen
   return nearer(there, pass) ? 1 : nearer(pass, there) ? -1 : 0;
 }
 
-/// How many votes more than the pass.
 std::ptrdiff_t SourceWatch::lead_over_pass(const Reach& there, const Moment& moment) const {
   const auto of = [&](const Reach& reach) {
     return static_cast<std::ptrdiff_t>(supporters(reach, moment.now));

@@ -1,5 +1,5 @@
 /// @file
-/// Whose time the pass of a spacecraft goes by, when its senders disagree.
+/// Decides which source's time the pass of a spacecraft follows when its sources disagree.
 
 #pragma once
 
@@ -25,43 +25,44 @@ struct SourceId {
   friend auto operator<=>(const SourceId&, const SourceId&) = default;
 };
 
-/// When samples are looked at. Given, so that who looks knows no clock.
+/// The moment at which samples are judged. It is passed in so that the judging code needs no clock.
 struct Moment {
   std::chrono::steady_clock::time_point now = {};
-  std::optional<TaiTime> host = {};  ///< Where samples are of now, what the host takes for now.
+  std::optional<TaiTime> host = {};  ///< Host clock; empty unless the telemetry is live.
 };
 
-/// How the time of telemetry goes.
+/// How telemetry time relates to wall-clock time.
 struct Pace {
-  bool is_of_the_clock;              ///< As on the wall: while a source pauses, its time goes on.
-  std::chrono::nanoseconds silence;  ///< After so long on the wall a source is silent.
-  std::chrono::nanoseconds ahead;    ///< Further ahead of the others one is apart.
+  bool is_of_the_clock;              ///< Telemetry time goes on while a source pauses.
+  std::chrono::nanoseconds silence;  ///< Wall time after which a source is silent.
+  std::chrono::nanoseconds ahead;    ///< A source further ahead of the others is apart.
 };
-/// A source that is ahead makes the samples of all others late. Links differ by a few seconds; UTC
-/// and the time of GPS taken for TAI are 37 and 19 s off.
+/// Pace of live telemetry. The limit `ahead` is small because a source that is ahead makes the
+/// samples of all others late. Links differ by a few seconds; UTC and GPS time taken for TAI by 37
+/// s and 19 s.
 inline constexpr Pace kLivePace{true, std::chrono::minutes{1}, std::chrono::seconds{5}};
-/// A replay is as fast as it likes.
+/// Pace of a replay, whose speed has no relation to the wall clock.
 inline constexpr Pace kReplayPace{false, std::chrono::seconds{5}, kApart};
 
-/// A sample ahead of the other sources, or more than kApart behind them, is apart: it does not
-/// count, and is held until it is known who is right. One that is less behind is late, which the
-/// pipelines see to, and has no say. Only the jumps ahead of a source that carries the pass alone
-/// are left to PassWatch and the pipelines.
-///
-/// A source that is apart or late carries the pass on when it gave enough and the others are
-/// silent, or when it has more votes than the pass: those of the sources that agree, and that of
-/// the host's clock, which goes to the nearer. One behind, which may be sending its last minutes
-/// again, has as long as a silence to catch up, if not the host is for it.
-///
-/// Memory is bounded: beyond kMostSources the one not heard for longest is forgotten, and beyond
-/// kMostHeld samples those of the source that has most.
+/// Judges the time of each source of a spacecraft against the other sources.
+/// A sample ahead of the other sources, or more than kApart behind them, is apart: it is held and
+/// not computed until it is known which source is right. A sample that is less far behind is late;
+/// the pipelines handle it, and it does not move the time of the pass. The jumps ahead of a source
+/// that carries the pass alone are left to PassWatch and the pipelines.
+/// A source that is apart or late takes over the pass when it gave enough samples and the others
+/// are silent, or when it has more votes than the pass. The sources that agree with one another
+/// vote, and so does the host's clock, for the nearer of the two times. A source that is behind may
+/// be sending its last minutes again: unless the host's clock votes for it, it has one silence to
+/// catch up.
+/// Memory is bounded: above kMostSources the source not heard for longest is forgotten, and above
+/// kMostHeld the samples of the source that holds most are dropped.
 class SourceWatch {
  public:
   static constexpr std::chrono::minutes kHostApart{10};
   static constexpr std::size_t kMostSources = 64;
   static constexpr std::size_t kMostHeld = 1'000'000;
 
-  /// Healed: in time again, and some of the source are held.
+  /// Healed: the sample is in time, and earlier samples of its source are still held.
   enum class Verdict { InTime, Healed, Apart };
 
   explicit SourceWatch(const Pace& pace) : pace_{pace} {}
@@ -75,32 +76,32 @@ class SourceWatch {
     return verdict;
   }
 
-  /// It sent something again, which tells nothing of its time.
+  /// Notes that the source is alive: it repeated a sample, which says nothing of its time.
   void hear(const Origin& origin, const Moment& moment);
 
-  /// Of one that has healed: what was only late. What is from ahead stays left out.
+  /// Returns the held samples of a healed source; drops those from ahead of the pass.
   TelemetryValues take_held(const Origin& origin);
 
-  /// The source that carries the pass on from now on, if another than before.
+  /// Returns the source whose time the pass follows from now on; empty when nothing changes.
   std::optional<SourceId> successor(const Moment& moment) const;
-  /// The same when nothing more comes: the one that gave enough since the others, and more than
-  /// `samples`.
+  /// Returns the source to follow when no more samples come: one that gave enough samples since any
+  /// other source carried the pass, and holds more than `samples`.
   std::optional<SourceId> successor_at_end(std::size_t samples) const;
-  /// Where `successor` may have one, though nothing comes.
+  /// Returns when `successor` may change its answer without a sample; empty: never.
   std::optional<std::chrono::steady_clock::time_point> next_decision() const;
-  /// @return What is held of it.
+  /// Makes the pass follow this source. @return The samples held of the source.
   TelemetryValues follow(const SourceId& successor);
 
   std::size_t held() const { return held_; }
-  /// How far the pass has come; empty: nobody can tell yet.
+  /// Returns the time that the pass has reached; empty until enough samples have come.
   std::optional<TaiTime> pass_time() const { return pass_.time(); }
-  /// Whose sample was in time last; empty: none yet, or it is forgotten.
+  /// Returns the source of the last sample in time; empty when there is none or it is forgotten.
   std::optional<SourceId> carrier() const {
     return carrier_ == nullptr ? std::nullopt : std::optional{*carrier_};
   }
   TaiTime recent(const SourceId& source) const { return sources_.at(source).time.recent(); }
 
-  /// A source that is apart from the others, or no longer.
+  /// Reports that a source came apart from the others or agrees with them again.
   struct News {
     SourceId source;
     TaiTime t;
@@ -108,18 +109,19 @@ class SourceWatch {
     bool healed;
   };
   std::vector<News> take_news() { return std::exchange(news_, {}); }
-  /// Those of the news that are not healed, with when they were heard last.
+  /// Returns the sources that are reported as apart, with the time each was last heard.
   std::vector<std::pair<News, std::chrono::steady_clock::time_point>> apart() const;
 
-  /// @name After a restart, in this order
+  /// @name To be called after a restart, in this order
   /// @{
   void restore(TaiTime in_time, const Moment& moment) {
     pass_.see(in_time);
     pass_heard_ = moment.now;
   }
-  /// It gave some of what is in time.
+  /// Restores a source that gave stored samples that are in time.
   void restore_carrier(const Origin& origin, const Moment& moment);
-  /// @param last_word Nothing in time came since.
+  /// Restores a sample of a source that was apart.
+  /// @param last_word Whether no sample in time was stored after it.
   template <class Value>
   void restore_apart(const Origin& origin, const Arrived<Value>& arrived, bool last_word,
                      const Moment& moment) {
@@ -134,16 +136,16 @@ class SourceWatch {
   struct Source {
     SteadyTime time;
     Instant heard;
-    bool carries = false;                ///< Its last sample was level with the others.
-    std::optional<Instant> apart_since;  ///< Empty: it is not.
-    std::size_t alone = 0;               ///< Apart, since the last level one of another.
-    std::uint64_t carried = 0;           ///< How many were level then.
+    bool carries = false;                ///< Its last sample agreed with the others.
+    std::optional<Instant> apart_since;  ///< Empty when it is not apart.
+    std::size_t alone = 0;               ///< Samples apart since another source was level.
+    std::uint64_t carried = 0;           ///< Value of `carried_` when `alone` began.
     bool told = false;
     TelemetryValues held;
   };
   using Entry = std::pair<const SourceId, Source>;
 
-  /// Where a stream is: from where its samples have come to where it may be by now.
+  /// Where a stream may be: from the time of its samples to that plus the wall time since then.
   struct Reach {
     TaiTime from;
     TaiTime to;
@@ -176,11 +178,11 @@ class SourceWatch {
 
   Pace pace_;
   std::map<SourceId, Source> sources_;
-  Entry* last_ = nullptr;  ///< Whose sample was seen last.
+  Entry* last_ = nullptr;  ///< Source of the sample seen last.
   const SourceId* carrier_ = nullptr;
   SteadyTime pass_;
   Instant pass_heard_{};
-  std::uint64_t carried_ = 0;  ///< Samples that were level.
+  std::uint64_t carried_ = 0;  ///< Number of samples that were level.
   std::size_t held_ = 0;
   std::vector<News> news_;
 };

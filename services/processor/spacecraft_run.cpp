@@ -22,9 +22,9 @@
 namespace spindrift {
 namespace {
 
-// More samples than a run can have.
+// No run has as many samples as this.
 constexpr std::int64_t kArrivalsOfARun = 1'000'000'000'000;
-// So many are worked on before anybody looks whether there is time for more.
+// After this many samples the computing side looks again whether there is time for more.
 constexpr std::size_t kSamplesPerInput = 1024;
 
 SequenceCounts counts_of(const SourceCount& count) {
@@ -56,8 +56,8 @@ SpacecraftRun::SpacecraftRun(const Mission& mission, const TelemetrySource& sour
              .label = source.label,
              .telemetry = source.telemetry,
              .started_utc = {},
-             // Sets runs of different archives apart, should they be merged. Order does not rest on
-             // the clock: arrive_after.
+             // The clock keeps arrivals of different archives apart in case they are merged. Order
+             // within an archive does not rest on it: see arrive_after.
              .first_arrival = tai_ns(tai_now())},
       orbit_doubts_{mission.orbit_doubts},
       run_id_{unique_id()},
@@ -91,7 +91,7 @@ SpacecraftRun::Taken SpacecraftRun::begin() {
   if (begins_with_) {
     first.batches.front().products.emplace_back(*std::exchange(begins_with_, std::nullopt));
   }
-  // Whoever loads the mission warns of it before there is a run.
+  // No warning is issued here: the code that loads the mission warns before a run exists.
   for (const std::string& doubt : orbit_doubts_) {
     first.batches.front().products.emplace_back(notice_of(
         "orbit_doubt",
@@ -101,7 +101,7 @@ SpacecraftRun::Taken SpacecraftRun::begin() {
   return first;
 }
 
-/// What was counted before stands in it.
+/// Begins the run with the source counts that came before it.
 SpacecraftRun::Taken SpacecraftRun::begin_with(SampleBatch& samples) {
   samples.counts.insert(latest_counts_.begin(), latest_counts_.end());
   return begin();
@@ -162,7 +162,7 @@ void SpacecraftRun::go_on(const StoredPass& stored, const Moment& moment, Taken&
   }
   watch_ = {};
   sources_ = SourceWatch{pace_};
-  // Not finished, whatever becomes of this service; nothing of it is withdrawn yet.
+  // Marks the run as unfinished, whatever happens to this service, and withdraws nothing.
   out.batches.push_back(batch());
   out.batches.back().continuation = Continuation{.t = TaiTime::max()};
   out.inputs.push_back({.spacecraft = index_, .run_id = run_id_});
@@ -193,7 +193,7 @@ void SpacecraftRun::go_on(const StoredPass& stored, const Moment& moment, Taken&
 
 SpacecraftRun::Taken SpacecraftRun::take(SampleBatch samples, const Moment& moment) {
   if (!has_begun() && size_of(samples) == 0) {
-    // Counts alone are of what another service stores. They are the run's once it begins.
+    // Counts without samples belong to samples of another service; the run takes them later.
     static_cast<void>(source_counts(samples.counts));
     return nothing_taken();
   }
@@ -259,7 +259,7 @@ SpacecraftRun::Taken SpacecraftRun::fall_silent() {
 
 void SpacecraftRun::hand_on_silence(std::int64_t arrival, std::vector<PassInput>& inputs) {
   silent_before_ = arrival;
-  // Samples that came again have an arrival and are not stored: the next one is behind them.
+  // Repeated samples have an arrival but are not stored, so the next one is behind them.
   next_arrival_ = std::max(next_arrival_, arrival);
   inputs.back().silences.push_back(next_place(inputs.back()));
 }
@@ -269,7 +269,7 @@ void SpacecraftRun::hand_on(OperatorAction action, std::vector<PassInput>& input
   inputs.back().actions.push_back(std::move(action));
 }
 
-/// Without a time of its own it is of now, as far as telemetry has come.
+/// An action without a time applies from the time that the telemetry has reached.
 void SpacecraftRun::accept(OperatorAction&& action, Taken& out) {
   action.t = action.t ? *action.t : watch_.reached().value_or(tai_now());
   action.arrival = next_arrival_++;
@@ -280,7 +280,7 @@ void SpacecraftRun::accept(OperatorAction&& action, Taken& out) {
   actions_.push_back(std::move(action));
 }
 
-/// To the run that begins in `out`; they apply to its telemetry as to what came before.
+/// Hands earlier actions to the run that begins in `out`; they apply to its telemetry too.
 void SpacecraftRun::repeat_actions_before(std::int64_t first_arrival, Taken& out) {
   for (const OperatorAction& action : actions_) {
     if (action.arrival < first_arrival) {
@@ -309,14 +309,15 @@ SpacecraftRun::Taken SpacecraftRun::finish() {
   return rest;
 }
 
-/// What is news of it; a run that has begun in the batch may have told some already.
+/// Puts changes of the reach into `batch`, and leaves it alone when there are none: a run that
+/// began in this batch may already have put its reach there.
 void SpacecraftRun::note_reach(ArchiveBatch& batch) {
   if (const auto news = reach_.take_news()) {
     batch.reach = news;
   }
 }
 
-/// Live an alert says when telemetry falls silent. Of files nobody does.
+/// Only a run of files reports silences at its end: live, an alert reports them as they happen.
 void SpacecraftRun::end_reach(ArchiveBatch& batch) {
   batch.reach = reach_.take_last();
   if (start_.mode == RunMode::Process) {
@@ -355,7 +356,7 @@ SourceWatch::Verdict SpacecraftRun::judge(const TelemetrySample<Value>& sample,
                       Arrived<Value>{.arrival = next_arrival_, .value = sample.value}, moment);
 }
 
-/// In the order in which they came, but now.
+/// Accepts held samples in the order in which they came, with new arrival numbers.
 void SpacecraftRun::accept(const TelemetryValues& held, Taken& out) {
   in_order_of_arrival(held, [&]<class Value>(const Arrived<Value>& left_out) {
     const Arrived<Value> arrived{.arrival = next_arrival_++, .value = left_out.value};
@@ -374,11 +375,11 @@ void SpacecraftRun::accept(TelemetrySample<Value>&& sample, Taken& out) {
   if (!is_known(sample.value)) {
     place(Arrived<Value>{.arrival = sample.arrival, .value = sample.value}, out);
   }
-  // A new pass that it begins has made a batch of its own.
+  // A new pass that the sample begins has appended a batch of its own.
   out.batches.back().samples.of<Value>().push_back(std::move(sample));
 }
 
-/// Sent again: one sample is not to be believed for two.
+/// Returns whether the sample was sent before: a repeated sample must not count as two.
 template <class Value>
 bool SpacecraftRun::is_known(const Value& value) {
   if (stored_ && stored_->hold(value)) {
@@ -389,7 +390,7 @@ bool SpacecraftRun::is_known(const Value& value) {
     return is_the_same_sample(arrived.value, value);
   });
   if constexpr (HasSender<Value>) {
-    // As in the archive, the preferred source stands for what another gave, too.
+    // As in the archive, the preferred source replaces another source of the same sample.
     if (same != held.end() && value.sender == Sender::Preferred) {
       same->value.sender = value.sender;
     }
@@ -472,8 +473,7 @@ std::vector<SourceCount> SpacecraftRun::source_counts(
     SequenceCounts count = find(counts_before_, source);
     count += since_start;
     const SequenceCounts earlier = find(counts_of_earlier_runs_, source);
-    // A gap of an earlier run that was filled since is less than none of this one: sums over runs
-    // hold.
+    // When a gap of an earlier run is filled now, this count is negative: sums over runs hold.
     const auto of_run = [](std::uint64_t all, std::uint64_t before) {
       return static_cast<std::int64_t>(all) - static_cast<std::int64_t>(before);
     };

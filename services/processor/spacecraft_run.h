@@ -1,6 +1,6 @@
 /// @file
-/// The taking side of one spacecraft's run: samples in, batches of them for the archive and work
-/// for its computing side out.
+/// The receiving side of one spacecraft's run: takes samples in and gives batches for the archive
+/// and work for the computing side.
 
 #pragma once
 
@@ -30,18 +30,18 @@
 
 namespace spindrift {
 
-/// Where the samples of a run come from, kept with it.
+/// Describes where the samples of a run come from; stored with the run.
 struct TelemetrySource {
   RunMode mode;
-  std::vector<std::string> telemetry;      ///< Absolute paths, or DDS domain and partition.
-  std::optional<std::string> sha256 = {};  ///< Of all bytes of the files.
-  std::optional<std::string> label = {};   ///< That somebody gives the run.
+  std::vector<std::string> telemetry;      ///< Absolute file paths, or DDS domain and partition.
+  std::optional<std::string> sha256 = {};  ///< Digest of all bytes of the files.
+  std::optional<std::string> label = {};   ///< Label that the user gives the run.
 };
 
-/// What arrived of a run.
 struct Received {
-  std::array<std::int64_t, kTelemetryKindCount> samples{};  ///< By kind; duplicates too.
-  std::int64_t frame_edges = 0;                             ///< That coded frames hold.
+  std::array<std::int64_t, kTelemetryKindCount>
+      samples{};                 ///< Number of samples by kind, with duplicates.
+  std::int64_t frame_edges = 0;  ///< Edges that the coded frames hold.
   std::int64_t rejected_inputs = 0;
 
   template <class Value>
@@ -57,65 +57,65 @@ struct Received {
   }
 };
 
-/// Everything that arrived goes to the archive at once, whatever is computed from it and when.
-/// After a silence that ends a pass (PassWatch), or when the time of another source is the right
-/// one (SourceWatch), what arrives is of a new run. A run begins in the batch of the sample that
-/// makes its first ones accepted; they have a place in the order of arrival again, so that the
-/// samples of a run have one without gaps. Files are read in order of time, whatever source they
-/// name.
+/// Numbers, sorts and stores the samples of one spacecraft. Every sample goes to the archive at
+/// once, independently of what is computed from it and when.
+/// A new run begins after a silence that ends a pass (PassWatch), or when the time of another
+/// source turns out to be right (SourceWatch). It begins in the batch of the sample that decides
+/// this; the samples held until then get new places in the order of arrival, so that the samples of
+/// a run are numbered without gaps. Files are read in order of time, whatever source they name.
 class SpacecraftRun {
  public:
-  /// @param index Of the mission among all.
   SpacecraftRun(const Mission& mission, const TelemetrySource& source, std::size_t index);
 
   const std::string& spacecraft_id() const { return spacecraft_id_; }
   const std::string& run_id() const { return run_id_; }
-  /// What a stored run must have in common with this one to be continued.
+  /// Returns the properties that a stored run must share with this one to be continued.
   const RunStart& start() const { return start_; }
-  /// @param run_id Of the run, or of one before it.
+  /// @param run_id Id of the current run or of an earlier one.
   Received received(const std::string& run_id) const;
 
-  /// What it reads back from an archive has numbers of these.
+  /// Returns the table of sender numbers, which samples read back from an archive must use too.
   SenderNames& senders() { return senders_; }
 
-  /// The archive holds a run that began so: what a new one takes is later than all of that run.
+  /// Makes new arrivals later than all of the stored run that begins at `first_arrival`.
   void arrive_after(std::int64_t first_arrival);
 
-  /// What operators have said to runs of the same mode, in order of arrival: those to come obey it.
+  /// Takes over operator actions of earlier runs, in order of arrival; new runs obey them too.
   void take_up(std::vector<OperatorAction> actions) { actions_ = std::move(actions); }
 
   struct Taken {
     std::vector<ArchiveBatch> batches;
-    std::vector<PassInput> inputs;  ///< Some may be empty.
-    /// Of `go_on`, run by run: how far its pass has come, see PassWatch.
+    std::vector<PassInput> inputs;  ///< May hold empty inputs.
+    /// Set by `go_on` only: for each run the time that its pass has reached (PassWatch).
     std::vector<std::optional<TaiTime>> reached = {};
   };
-  /// The run itself, before its first sample.
   Taken begin();
 
-  /// In place of `begin`: with the first of what `take` gets to store. @param notice Of the run.
+  /// Called instead of `begin`: the run begins with the first samples or actions that `take` gets.
+  /// @param notice Stored with the run when it begins.
   void begin_later(RunNotice notice) { begins_with_ = std::move(notice); }
   bool has_begun() const { return !begins_with_; }
 
   Taken take(SampleBatch samples, const Moment& moment);
 
-  /// Nothing came for a while: a silence among the samples. None when none has come since the last.
+  /// Inserts a silence among the samples because none came for a while. Does nothing when no sample
+  /// has come since the last silence.
   Taken fall_silent();
 
-  /// In place of `begin`: the runs of `stored`, oldest first, at the point to which their samples
-  /// brought them. The last of them is the one that goes on.
+  /// Called instead of `begin`: brings the runs of `stored`, oldest first, to the state their
+  /// samples had brought them to. The last of them is continued.
   Taken go_on(const std::vector<StoredPass>& stored, const Moment& moment);
 
-  /// Time has gone by since samples were taken: sources may have fallen silent.
+  /// Looks for sources that have fallen silent, because time has passed since samples were taken.
   Taken decide(const Moment& moment);
-  /// When that may tell something.
+  /// Returns when `decide` may have an effect; empty when it has none before the next sample.
   std::optional<std::chrono::steady_clock::time_point> next_decision() const {
     return sources_.next_decision();
   }
-  /// Sources that are left out, in words, and when each was heard last.
+  /// Describes the sources that are left out, with the time each was last heard.
   std::vector<SourceProblem> source_problems() const { return notices_.problems(sources_); }
 
-  /// What waited for a sample to tell which pass it belongs to, and none came.
+  /// Settles samples that are still held because no later one has shown their pass.
   Taken finish();
 
  private:
@@ -155,15 +155,15 @@ class SpacecraftRun {
   RunStart start_;
   std::vector<std::string> orbit_doubts_;
   std::string run_id_;
-  std::optional<RunNotice> begins_with_;  ///< Empty: it has begun.
+  std::optional<RunNotice> begins_with_;  ///< Empty once the run has begun.
   std::int64_t next_arrival_;
-  std::int64_t silent_before_;  ///< The arrival before which it was silent last.
+  std::int64_t silent_before_;  ///< Arrival number at the last silence.
   Received received_;
-  std::map<std::string, Received> received_before_;  ///< Of the earlier runs, by run_id.
+  std::map<std::string, Received> received_before_;  ///< Counts of the earlier runs, by run_id.
   std::optional<Contact> contact_;
   ReachWatch reach_;
-  std::map<std::string, SequenceCounts> latest_counts_;  ///< Since the service started.
-  std::map<std::string, SequenceCounts> counts_before_;  ///< The run's, before a restart.
+  std::map<std::string, SequenceCounts> latest_counts_;  ///< Counts since the service started.
+  std::map<std::string, SequenceCounts> counts_before_;  ///< Counts of the run before a restart.
   std::map<std::string, SequenceCounts> counts_of_earlier_runs_;
   SenderNames senders_;
   RunNotices notices_;
@@ -171,9 +171,9 @@ class SpacecraftRun {
   Pace pace_;
   SourceWatch sources_;
   PassWatch watch_;
-  std::optional<StoredSamples> stored_;  ///< After a restart, until the pass has gone on.
-  TelemetryValues held_;                 ///< Until the pass is known.
-  std::vector<OperatorAction> actions_;  ///< To this run and those before it, in order of arrival.
+  std::optional<StoredSamples> stored_;  ///< Set from a restart until the pass goes on.
+  TelemetryValues held_;                 ///< Held until their pass is known.
+  std::vector<OperatorAction> actions_;  ///< For this run and earlier ones, in order of arrival.
 };
 
 }  // namespace spindrift

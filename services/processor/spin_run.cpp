@@ -31,7 +31,7 @@ Expected<BatchSolution> solve_edges(SpinConfig config, const Orbit& orbit, PassE
   return solution;
 }
 
-/// Its estimate, and what else it says.
+/// Returns the solution as products: its estimate, its choice of the axis and the solution itself.
 Expected<std::vector<Product>> batch_products(BatchSolution solution, bool keeps_residuals) {
   if (!keeps_residuals) {
     solution.said = {};
@@ -78,7 +78,7 @@ std::vector<ArchiveBatch> SpinRun::compute(const PassInput& input) {
   return batches;
 }
 
-/// By the time of telemetry, so that the same telemetry gives the same solutions.
+/// Uses telemetry time, so that the same telemetry gives the same solutions.
 void SpinRun::note_time(TaiTime t) {
   if (plan_ == SolvingPlan::AtTheEnd || (next_batch_ && t < *next_batch_)) {
     return;
@@ -89,9 +89,10 @@ void SpinRun::note_time(TaiTime t) {
   next_batch_ = t + kBetweenBatches;
 }
 
-/// Perhaps nothing comes any more: the answer shall not be one of before.
+/// A silence may be the end of the stream, so a solution of all edges so far is made.
 void SpinRun::note(FellSilent /*silence*/) {
-  // In the first minute one would stand, as it is, against estimates of more telemetry.
+  // In the first minute of the pass a solution would rest on too little telemetry, and would stand
+  // beside estimates that rest on more.
   const auto last = last_batch_ ? edges_.last() : std::nullopt;
   if (last && (!last_silence_ || *last >= *last_silence_ + kBetweenSilences)) {
     last_silence_ = last;
@@ -102,7 +103,7 @@ void SpinRun::note(FellSilent /*silence*/) {
 void SpinRun::make_batch_due() {
   edges_.keep_last(kLastRevolutions);
   const auto last = edges_.last();
-  // Its last edge names a solution: there is one only.
+  // A solution is identified by the time of its last edge, so there is only one per last edge.
   if (last && last != last_batch_ && !is_stored(*last)) {
     due_.push_back({.batch = computing_.batch(), .solve = [this, edges = edges_, known = known()] {
                       return solve(edges, known, Solution::OnTheWay);
@@ -111,7 +112,7 @@ void SpinRun::make_batch_due() {
   last_batch_ = last;
 }
 
-/// And is not withdrawn.
+/// Returns whether this solution is stored and will not be made again.
 bool SpinRun::is_stored(TaiTime batch) const {
   const MadeBefore* const made = computing_.made_before();
   return made != nullptr && batch < made->again_from &&
@@ -120,7 +121,7 @@ bool SpinRun::is_stored(TaiTime batch) const {
 
 std::vector<BackgroundTask> SpinRun::take_background_tasks() { return std::exchange(due_, {}); }
 
-/// What the edges say is kept of the last solution only: each would replace it.
+/// Only the last solution keeps residuals of the edges: each would replace those before.
 Expected<std::vector<Product>> SpinRun::solve(const PassEdges& edges, const Known& known,
                                               Solution which) const {
   const bool keeps_residuals = which == Solution::Last;
@@ -133,7 +134,7 @@ Expected<std::vector<Product>> SpinRun::solve(const PassEdges& edges, const Know
                          });
 }
 
-/// What was still held. Then the last batch solution is due, whatever became due before.
+/// Ends the pass and drops the solutions that this makes due: the last solution covers them.
 void SpinRun::settle(std::vector<Product>& products) {
   const std::size_t due = due_.size();
   computing_.finish(products, [this](const SpinOutput& output) { note(output); });
@@ -169,8 +170,8 @@ ArchiveBatch SpinRun::finish() {
   return last;
 }
 
-/// Where solutions of the run may be waiting to be solved it is finished behind them, so that a run
-/// that is finished lacks none.
+/// When solutions of the run may still wait to be solved, the run is finished by a task behind
+/// them, so that a finished run lacks none.
 void SpinRun::end_run(std::vector<ArchiveBatch>& batches) {
   if (plan_ == SolvingPlan::AtTheEnd) {
     batches.push_back(finish());

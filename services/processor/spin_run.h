@@ -1,5 +1,5 @@
 /// @file
-/// The computing side of a spinner's run: samples in, products for the archive out.
+/// The computing side of a spinner's run: takes samples in and gives products for the archive.
 
 #pragma once
 
@@ -19,40 +19,39 @@
 
 namespace spindrift {
 
-/// The estimator `batch` runs over all edges at the end of the pass; meanwhile every minute of
-/// telemetry, and from then on when the stream falls silent; then each time, in the end too, over
-/// the last revolutions.
-///
-/// What throws while it is computed becomes a RunFault: a run that fails so computes nothing more
-/// (pass_computing.h), of a batch solution that does only this one is missing.
+/// Runs the pass of a spinner and its `batch` estimator. Offline `batch` runs once, over all edges,
+/// at the end of the pass. Otherwise it also runs every minute of telemetry and, after the first
+/// minute, when the stream falls silent; then every solution, the last one included, uses only the
+/// last kLastRevolutions revolutions.
+/// An exception in the pass becomes a RunFault, and nothing more is computed for the run
+/// (pass_computing.h). An exception in a batch solution becomes a RunFault too, but only that
+/// solution is missing.
 class SpinRun {
  public:
   static constexpr std::int64_t kLastRevolutions = 1000;
 
-  /// What `batch` is given of the pass beside its edges.
+  /// What `batch` needs to know about the pass beside its edges.
   struct Known {
-    std::optional<SpinPrior> prior;  ///< In the place of the mission's.
+    std::optional<SpinPrior> prior;  ///< Used instead of the mission's prior.
     std::optional<AxisChoice> choice;
   };
 
-  /// @param mission Of a spinner.
   SpinRun(const Mission& mission, const std::string& run_id, SolvingPlan plan);
 
-  /// The runs of `made`, of which `first` is the oldest, are stored, and their samples come again
-  /// first.
+  /// Prepares for stored runs whose samples will come again, from the oldest, `first`, on.
   void go_on(const std::string& first, AllMadeBefore made);
 
   std::vector<ArchiveBatch> compute(const PassInput& input);
 
-  /// What became due while computing; to be solved by whoever has the time. A run that has ended is
-  /// finished by the last of its tasks.
+  /// Returns the due tasks. The last task of an ended run also finishes it.
   std::vector<BackgroundTask> take_background_tasks();
 
-  /// The pass has ended: what was still held, its batch solution, and the end of the run.
+  /// Ends the pass: returns the products it still held back, its batch solution and the end of the
+  /// run.
   ArchiveBatch finish();
 
-  /// Of all runs so far, but for what was received, which this side does not see. Once all tasks
-  /// are solved.
+  /// Returns the summaries of all runs so far, without the counts of received samples, which this
+  /// side does not see. To be called when all tasks are solved.
   std::vector<RunSummary> summaries() const;
 
  private:
@@ -72,14 +71,15 @@ class SpinRun {
 
   SpinConfig config_;
   Orbit orbit_;
-  std::deque<RunSummary> finished_;  ///< They stay where they are: their last tasks point to them.
+  std::deque<RunSummary> finished_;  ///< A deque, since tasks point to its elements.
   RunSummary summary_;
   PassComputing<SpinPass> computing_;
   SolvingPlan plan_;
   PassEdges edges_;
   std::optional<TaiTime> next_batch_;
-  std::optional<TaiTime> last_batch_;    ///< The last edge of the solution that was due last.
-  std::optional<TaiTime> last_silence_;  ///< Its last edge, when one was solved.
+  std::optional<TaiTime> last_batch_;  ///< Time of the last edge of the newest due solution.
+  /// Time of the last edge at the last silence that made a solution due.
+  std::optional<TaiTime> last_silence_;
   std::vector<BackgroundTask> due_;
 };
 

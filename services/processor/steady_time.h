@@ -1,5 +1,5 @@
 /// @file
-/// How far a stream has come in telemetry time, whatever single samples of it say.
+/// The telemetry time that a stream has reached, robust against single samples with a wrong time.
 
 #pragma once
 
@@ -15,18 +15,19 @@
 
 namespace spindrift {
 
-/// Further apart two streams do not agree. The pipelines do not take it for disorder either.
+/// Two streams whose times differ by more than this disagree. It equals the limit from which the
+/// pipelines no longer take a difference for disorder.
 inline constexpr std::chrono::nanoseconds kApart = ReorderWindow::kFarAhead;
 
 constexpr bool are_apart(TaiTime a, TaiTime b, std::chrono::nanoseconds limit = kApart) {
   return span_between(std::min(a, b), std::max(a, b)) > limit;
 }
 
-/// Eight samples that go on from one another say where it is; later ones carry it on, and eight in
-/// a row elsewhere move it there. One that is sent again says nothing.
+/// Tracks the time of a stream. Eight consecutive samples establish the time; later samples carry
+/// it on, and eight consecutive samples elsewhere move it there. A repeated sample is ignored.
 class SteadyTime {
  public:
-  /// @return Whether it goes on from the one before, or begins elsewhere.
+  /// @return Whether the sample is later than the one before it, or starts a new sequence.
   bool see(TaiTime t) {
     const bool begins = in_a_row_ == 0 || are_apart(recent_, t);
     if (!begins && t <= recent_) {
@@ -40,11 +41,11 @@ class SteadyTime {
     return true;
   }
 
-  /// Empty: nobody can tell yet.
+  /// Returns the time of the stream; empty until enough samples have come.
   std::optional<TaiTime> time() const { return time_; }
-  /// Of the newest sample.
+  /// Returns the time of the newest sample that is not a repetition.
   TaiTime recent() const { return recent_; }
-  /// Whether the newest samples are enough to be believed, wherever they are.
+  /// Returns whether the newest samples are enough to be believed, whatever their time.
   bool goes_on() const { return in_a_row_ >= PassWatch::kEnoughToAccept; }
 
  private:

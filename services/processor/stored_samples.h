@@ -1,5 +1,5 @@
 /// @file
-/// What a service had stored of a pass before it was restarted.
+/// Samples of a pass that were stored before the service restarted.
 
 #pragma once
 
@@ -15,12 +15,14 @@
 
 namespace spindrift {
 
-/// A front-end sends its last minutes again: that tells nothing of the pass, and is no news to it.
+/// Recognises samples that are stored already. After a restart a front-end sends its last minutes
+/// again; such samples are not new and say nothing about the time of the pass.
 class StoredSamples {
  public:
   explicit StoredSamples(const StoredPass& stored);
 
-  /// That the preferred sender says the same as another did is news.
+  /// Returns whether this sample is stored already. A sample of the preferred sender is new even if
+  /// another sender gave the same values.
   template <class Value>
   bool hold(const Value& value) const {
     const auto holds = [&](bool preferred) {
@@ -30,7 +32,8 @@ class StoredSamples {
   }
 
  private:
-  /// Where it stands, and a digest of what it says: what says something else is news.
+  /// Position of the sample in telemetry order, and a digest of its values: a sample with other
+  /// values at the same position is new.
   using Key = std::pair<TelemetryOrder, std::size_t>;
 
   template <class Value>
@@ -53,7 +56,7 @@ class StoredSamples {
     return {order_of(value), digest};
   }
 
-  std::vector<Key> keys_;  ///< In order.
+  std::vector<Key> keys_;  ///< Sorted.
 };
 
 }  // namespace spindrift

@@ -21,7 +21,8 @@ namespace {
 
 constexpr std::string_view kReconstruction = "reconstruction of the separation";
 
-/// @return Unobservable where no method gives an answer. One that alone gives none is said.
+/// Returns the solutions as products, with a notice when only one method gave a solution.
+/// @return Unobservable when no method gave one.
 Expected<std::vector<Product>> products_of(const std::string& spacecraft_id,
                                            SolvedSeparation solved) {
   const std::string why = fmt::format("{}", fmt::join(solved.failures, "; "));
@@ -89,7 +90,7 @@ std::vector<ArchiveBatch> ThreeAxisRun::compute(const PassInput& input) {
   return batches;
 }
 
-/// As they arrive, what the order of time still holds back included.
+/// Records samples as they arrive, even those that the pass still holds back.
 void ThreeAxisRun::record(const PassInput& input) {
   if (!record_) {
     return;
@@ -139,7 +140,8 @@ void ThreeAxisRun::hand_out_solutions() {
   }
 }
 
-/// Or one that rests on more, unless that may be what was forgotten.
+/// Returns whether a solution of at least as many samples is stored. After samples were dropped a
+/// stored solution may rest on them, so it does not count.
 bool ThreeAxisRun::is_stored(ReconstructionMethod method) const {
   const MadeBefore* const made = computing_.made_before();
   if (made == nullptr || has_forgotten_) {
@@ -163,7 +165,7 @@ BackgroundTask ThreeAxisRun::solving(std::shared_ptr<const ReconstructionRequest
           .is_awaited = true};
 }
 
-/// Of all that has arrived, by both methods.
+/// Returns the solution of all samples that have arrived, by both methods.
 BackgroundTask ThreeAxisRun::solving_at_end() const {
   return solving(std::make_shared<const ReconstructionRequest>(record_->request()), std::nullopt);
 }
@@ -172,7 +174,6 @@ std::vector<BackgroundTask> ThreeAxisRun::take_background_tasks() {
   return std::exchange(due_, {});
 }
 
-/// Something of it has come.
 bool ThreeAxisRun::has_separation() const {
   return record_ && sample_count(record_->request()) > 0;
 }
@@ -200,7 +201,7 @@ ArchiveBatch ThreeAxisRun::finish() {
   return last;
 }
 
-/// Behind its solutions, as SpinRun does.
+/// Finishes the run behind its waiting solutions, as SpinRun does.
 void ThreeAxisRun::end_run(std::vector<ArchiveBatch>& batches) {
   if (plan_ == SolvingPlan::AtTheEnd || !has_separation()) {
     batches.push_back(finish());

@@ -1,5 +1,5 @@
 /// @file
-/// The computing side of a three-axis spacecraft's run: samples in, products for the archive out.
+/// The computing side of a three-axis spacecraft's run: samples in, products out.
 
 #pragma once
 
@@ -20,9 +20,10 @@
 
 namespace spindrift {
 
-/// Called as SpinRun is. Where the mission tells of a separation it is reconstructed at the end of
-/// the pass, from all that arrived; meanwhile whenever SeparationRecord says: then `batch`
-/// first, and `sequential` behind it.
+/// Runs the pass of a three-axis spacecraft; its functions are called as those of SpinRun. When the
+/// mission describes a separation, the separation is reconstructed at the end of the pass from all
+/// samples. Except offline, it is also reconstructed whenever SeparationRecord says so, by `batch`
+/// first and then by `sequential`.
 class ThreeAxisRun {
  public:
   ThreeAxisRun(const Mission& mission, const std::string& run_id, SolvingPlan plan);
@@ -52,15 +53,15 @@ class ThreeAxisRun {
 
   ThreeAxisConfig config_;
   std::optional<Orbit> orbit_;
-  std::optional<MainFieldModel> field_;  ///< Where there is a magnetometer.
+  std::optional<MainFieldModel> field_;  ///< Set when there is a magnetometer.
   std::optional<SeparationPlan> separation_;
-  std::deque<RunSummary> finished_;  ///< They stay where they are: their last tasks point to them.
+  std::deque<RunSummary> finished_;  ///< A deque, since tasks point to its elements.
   RunSummary summary_;
   PassComputing<ThreeAxisPass> computing_;
   SolvingPlan plan_;
-  std::optional<SeparationRecord> record_;  ///< Where the mission tells of a separation.
-  Exclusions<SampleKind> excluded_;         ///< From it.
-  bool has_forgotten_ = false;              ///< What a solution rested on.
+  std::optional<SeparationRecord> record_;  ///< Set when the mission describes a separation.
+  Exclusions<SampleKind> excluded_;         ///< Samples that operators exclude from `record_`.
+  bool has_forgotten_ = false;              ///< A sample that a solution used was dropped.
   std::vector<BackgroundTask> due_;
 };
 

@@ -1,5 +1,5 @@
 /// @file
-/// What a person is told of a run, which the archive keeps.
+/// Notices to the user about a run, which the archive keeps.
 
 #pragma once
 
@@ -13,7 +13,8 @@
 
 namespace spindrift {
 
-/// Warns (standard_error/warning.h). @param t As RunNotice. @return as notice_of.
+/// Issues a warning (services/base/warning.h) and returns it as a product.
+/// @param t Time from which it holds; empty when it holds for the whole run (RunNotice).
 RunNotice told(std::string_view code, const nlohmann::json& values, const std::string& text,
                std::optional<TaiTime> t = std::nullopt);
 

@@ -1,11 +1,11 @@
 /// @file
-/// Which program it was: kept with every run.
+/// The version of the program, stored with every run.
 
 #pragma once
 
 namespace spindrift {
 
-/// Version and, where the tree was a git checkout, commit; "-dirty" when it had changes.
+/// Version and, for a git checkout, its commit, with "-dirty" when it had changes.
 extern const char* const kSoftwareVersion;
 
 }  // namespace spindrift

@@ -1,5 +1,5 @@
 /// @file
-/// Where one spacecraft's computing fails, and another's does not.
+/// Confines the exceptions of one spacecraft's computation to that spacecraft.
 
 #pragma once
 
@@ -10,8 +10,8 @@
 
 namespace spindrift {
 
-/// Calls `compute`. No memory is not one spacecraft's failure: std::bad_alloc goes through.
-/// @return what it threw; nothing: it came to its end.
+/// Calls `compute`. A std::bad_alloc passes through: it concerns every spacecraft.
+/// @return The message of the exception; empty when `compute` returned.
 template <class Compute>
 std::optional<std::string> what_is_thrown(const Compute& compute) {
   try {

@@ -1,5 +1,5 @@
 /// @file
-/// Products that are not for the archive.
+/// Products that must not be stored.
 
 #pragma once
 
@@ -18,9 +18,9 @@
 
 namespace spindrift {
 
-/// A number that is none breaks a rule of the archive, and everything that is stored with it would
-/// be refused: such a product is withheld. The run goes on, and its samples are stored.
-/// @return NotFinite, or nothing: the archive takes the product.
+/// Returns why a product is withheld: a value that is not finite violates a constraint of the
+/// archive, which would refuse the whole batch. The run goes on, and its samples are stored.
+/// @return A NotFinite notice; empty when the archive accepts the product.
 template <class... Kinds>
 std::optional<Notice> why_withheld(const std::variant<Kinds...>& product) {
   const auto found = std::visit([](const auto& value) { return not_finite(value); }, product);
@@ -32,11 +32,11 @@ std::optional<Notice> why_withheld(const std::variant<Kinds...>& product) {
       .values = {{"table", std::string{found->table}}, {"column", std::string{found->column}}}};
 }
 
-/// Remembers what was said, so that each reason is among the notices once.
+/// Removes withheld products and remembers the reasons, so that each is reported once.
 class Withheld {
  public:
-  /// Leaves out products that are withheld, and adds why to the notices. In the place of an answer
-  /// the one before stands once more, DOUBTFUL.
+  /// Removes withheld products from `output` and adds the reasons to its notices. In place of a
+  /// withheld answer the previous answer is repeated as DOUBTFUL.
   template <class Output, class PassProduct>
   void take_from(Output& output, LastAnswers<PassProduct>& answers) {
     for (PassProduct& product : std::exchange(output.products, {})) {

@@ -1,5 +1,5 @@
 /// @file
-/// An alert as a kind of product: each of its changes is one.
+/// An alert as a kind of product; each change of an alert is a product.
 
 #pragma once
 
@@ -65,14 +65,14 @@ struct ProductKind<Alert> {
   static constexpr const char* kTopic = "spindrift/alert";
   static constexpr bool is_announced(const Alert& /*alert*/) { return true; }
   static std::string_view instance(const Alert& alert) { return alert.key; }
-  /// Whatever the time: a later run may be of earlier telemetry. Revisions are fewer than a
-  /// million.
+  /// Does not depend on time, since a later run may process earlier telemetry. An alert has fewer
+  /// than a million revisions.
   static std::int64_t number(const Alert& alert) {
     return alert.count * 1'000'000 + alert.revision;
   }
   static constexpr bool is_settled(const Alert& /*alert*/) { return true; }
 
-  /// Without its last change.
+  /// Restores an alert without its latest transition.
   template <class Row>
   static Alert from_row(const Row& row) {
     Alert alert;

@@ -1,9 +1,9 @@
 /// @file
 /// The attitude of a three-axis spacecraft, as a kind of product.
 ///
-/// The pass gives at most ten a second of telemetry time (AttitudeEstimator), beside those at which
-/// it begins, falls silent or is lost: that is the only place that thins them. Each of them is
-/// archived and announced.
+/// AttitudeEstimator gives at most ten estimates per second of telemetry time, besides those where
+/// the pass begins, falls silent or loses the attitude. All of them are archived and announced;
+/// nothing else thins them.
 
 #pragma once
 
@@ -30,7 +30,7 @@ struct AttitudeTable {
   static constexpr std::string_view kName = "attitude";
   static constexpr std::array<std::string_view, 2> kKey{"t_tai_ns", "source"};
   static constexpr bool kSaysWhenAnnounced = true;
-  /// What was reconstructed afterwards stands there, too (reconstruction.h).
+  /// Excludes reconstructed attitudes, which are in the same table (reconstruction.h).
   static constexpr std::string_view kCondition = "source NOT IN ('batch', 'sequential')";
 
   template <int kRow, int kColumn>
@@ -72,7 +72,7 @@ struct AttitudeTable {
                     [](const AttitudeEstimate& one) { return one.innovations.freedom; }});
 };
 
-/// The bias of the gyro, of those estimates that bring it.
+/// The gyro bias of estimates that include one.
 struct GyroBiasTable {
   static constexpr std::string_view kName = "gyro_bias";
   static constexpr std::array<std::string_view, 2> kKey{"t_tai_ns", "estimator"};

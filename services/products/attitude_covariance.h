@@ -1,5 +1,5 @@
 /// @file
-/// The covariance of an attitude, from the columns that hold it.
+/// Reads the covariance of an attitude from its columns.
 
 #pragma once
 
@@ -9,7 +9,7 @@
 
 namespace spindrift {
 
-/// From the columns cov_xx_deg2 to cov_zz_deg2.
+/// Reads the columns cov_xx_deg2 to cov_zz_deg2.
 template <class Row>
 Eigen::Matrix3d attitude_covariance_rad2_of(const Row& row) {
   const double xy = row.real("cov_xy_deg2");

@@ -1,5 +1,5 @@
 /// @file
-/// Columns of a spin axis with its covariance, to and from.
+/// Columns for a spin axis with its covariance, and back.
 
 #pragma once
 
@@ -10,8 +10,8 @@
 
 namespace spindrift {
 
-/// Where a product has its axis and covariance. East and north are of the tangent plane at the
-/// axis.
+/// Column values of a product with an axis and covariance. East and north span the tangent plane at
+/// the axis.
 template <class Product>
 struct AxisColumns {
   static double ra_deg(const Product& product) { return place_deg(product.axis_icrf).ra_deg; }
@@ -29,7 +29,7 @@ inline Eigen::Vector3d axis_icrf_from(double ra_deg, double dec_deg) {
   return direction_icrf({.ra_rad = ra_deg * kRadPerDeg, .dec_rad = dec_deg * kRadPerDeg});
 }
 
-/// From the columns of these names.
+/// Reads the columns cov_east_east_deg2, cov_east_north_deg2 and cov_north_north_deg2.
 template <class Row>
 Eigen::Matrix2d covariance_rad2_of(const Row& row) {
   const double east_north = row.real("cov_east_north_deg2");

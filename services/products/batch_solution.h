@@ -1,5 +1,5 @@
 /// @file
-/// What the estimator `batch` finds out of a pass, as a kind of product.
+/// The solution of the estimator `batch` for a pass, as a kind of product.
 
 #pragma once
 
@@ -20,7 +20,7 @@
 
 namespace spindrift {
 
-/// Its estimate is a product by itself. Shared, since it is several times as large as any other.
+/// Shared because of its size. Its estimate is a separate product.
 using BatchProduct = std::shared_ptr<const BatchSolution>;
 
 inline std::int64_t batch_t_tai_ns(const BatchProduct& solution) {
@@ -52,7 +52,7 @@ struct SpinBatchTable {
                     }});
 };
 
-/// An element of a list of the solution.
+/// An element of a list in the solution.
 template <class Value>
 struct NumberedRow {
   std::int64_t t_tai_ns;
@@ -60,7 +60,7 @@ struct NumberedRow {
   Value value;
 };
 
-/// `kKey`, `rows` and `group` of the table of such a list.
+/// Provides `kKey`, `rows` and `group` for the table of such a list.
 template <class Value, std::vector<Value> BatchSolution::*kList>
 struct NumberedTable {
   static constexpr std::array<std::string_view, 2> kKey{"t_tai_ns", "position"};
@@ -76,7 +76,7 @@ struct NumberedTable {
     }
     return rows;
   }
-  /// @param stored What is stored of a value.
+  /// @param stored Returns the stored form of a value.
   template <class Stored>
   static constexpr auto numbered(std::string_view name, Stored stored) {
     return columns(ProductColumn{"t_tai_ns", [](const Row& row) { return row.t_tai_ns; }},
@@ -103,7 +103,7 @@ struct SpinBiasTable {
   static std::string_view group(const BatchProduct& solution) {
     return name_of(solution->estimate.estimator);
   }
-  /// A channel that fell silent has no row.
+  /// Gives no row for a channel that fell silent.
   static const std::vector<BiasEstimate>& rows(const BatchProduct& solution) {
     return solution->biases;
   }
@@ -128,7 +128,7 @@ struct SpinBiasTable {
       ProductColumn{"estimated", [](const BiasEstimate& bias) { return bias.estimated; }});
 };
 
-/// Of what a search has found. Without a value where it has found nothing.
+/// Makes a column about the nutation that was found; null when none was found.
 template <class Get>
 constexpr auto nutation_column(std::string_view name, Get get) {
   return ProductColumn{name, [get](const BatchProduct& solution) {
@@ -171,7 +171,7 @@ struct SpinNutationTable {
                     }});
 };
 
-/// Without a value where no coning was detected.
+/// Makes a column about the detected coning; null when none was detected.
 template <class Get>
 constexpr auto coning_column(std::string_view name, Get get) {
   return ProductColumn{name, [get](const BatchProduct& solution) {
@@ -200,8 +200,8 @@ struct SpinConingTable {
 
 inline std::int64_t whole_ns(double t_s) { return std::llround(t_s * 1e9); }
 
-/// A part of the view edge_residual. In whole nanoseconds and numbers of channels, which take less
-/// room than seconds and names.
+/// Part of the view edge_residual. Whole nanoseconds and channel numbers take less room than
+/// seconds and names.
 struct BatchResidualTable {
   static constexpr std::string_view kName = "batch_residual";
   static constexpr std::array<std::string_view, 3> kKey{"is_last", "t_tai_ns", "channel"};

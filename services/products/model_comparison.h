@@ -1,5 +1,5 @@
 /// @file
-/// What came of a channel that was held against the ground model, as a kind of product.
+/// The comparison of a channel with the ground model, as a kind of product.
 
 #pragma once
 
@@ -15,7 +15,7 @@
 
 namespace spindrift {
 
-/// Without a value where there was no sample.
+/// Makes a column about the residuals; null when there was no sample.
 constexpr auto residual_column(std::string_view name, double (ResidualStatistics::*get)() const) {
   return ProductColumn{name, [get](const ChannelComparison& compared) {
                          const ResidualStatistics& residuals = compared.residuals;
@@ -24,7 +24,7 @@ constexpr auto residual_column(std::string_view name, double (ResidualStatistics
                        }};
 }
 
-/// Without a value where it did not depart.
+/// Makes a column about the departure from the model; null when there was none.
 template <class Get>
 constexpr auto departure_column(std::string_view name, Get get) {
   return ProductColumn{name, [get](const ChannelComparison& compared) {
@@ -61,7 +61,7 @@ struct ModelComparisonTable {
 template <>
 struct ProductKind<ChannelComparison> {
   static constexpr ProductWeight kWeight = ProductWeight::Result;
-  static constexpr bool kStays = true;  ///< It is of a whole pass.
+  static constexpr bool kStays = true;  ///< The comparison covers a whole pass.
   using Tables = std::tuple<ModelComparisonTable>;
 };
 

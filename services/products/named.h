@@ -1,5 +1,5 @@
 /// @file
-/// Values of enumerations from their names.
+/// Converts names to enumeration values.
 
 #pragma once
 
@@ -7,8 +7,8 @@
 
 namespace spindrift {
 
-/// The value of an enumeration whose name_of is `name`; `last` where none before it is, for the
-/// schema allows no other names.
+/// Returns the enumeration value whose name_of is `name`, searching before `last`; else `last`,
+/// since the schema allows no other names.
 template <class Value>
 Value named(std::string_view name, Value last) {
   int value = 0;

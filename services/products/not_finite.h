@@ -1,5 +1,5 @@
 /// @file
-/// Whether a product has a number that is none.
+/// Finds numbers in a product that are not finite.
 
 #pragma once
 
@@ -28,13 +28,13 @@ inline bool is_finite(const Reason& reason) {
   });
 }
 
-/// Where a product is not finite.
+/// Place of a number that is not finite.
 struct NotFinite {
   std::string_view table;
   std::string_view column;
 };
 
-/// The first such place in the rows of a product of any kind. Empty: all its numbers are finite.
+/// Returns the first such place in the rows of a product; empty when all numbers are finite.
 template <class Kind>
 std::optional<NotFinite> not_finite(const Kind& product) {
   std::optional<NotFinite> found;
@@ -47,7 +47,7 @@ std::optional<NotFinite> not_finite(const Kind& product) {
       }
     }
   };
-  // Of these the column has a text.
+  // Reasons are text in their column, so their values are checked here.
   const auto look_at = [&](const std::vector<Reason>& reasons) {
     if (!std::all_of(reasons.begin(), reasons.end(),
                      [](const Reason& reason) { return is_finite(reason); })) {

@@ -1,5 +1,5 @@
 /// @file
-/// What the archive keeps of a warning.
+/// Converts a warning to the notice in the archive.
 
 #pragma once
 
@@ -13,8 +13,8 @@
 
 namespace spindrift {
 
-/// @param values As `warn` takes them (standard_error/warning.h), likewise `code` and `text`.
-/// @param t      As RunNotice.
+/// @param values The values of `warn` (base/warning.h), as are `code` and `text`.
+/// @param t      When the notice became true, as in RunNotice.
 inline RunNotice notice_of(std::string_view code, const nlohmann::json& values,
                            const std::string& text, std::optional<TaiTime> t = std::nullopt) {
   return {.t = t,

@@ -1,5 +1,5 @@
 /// @file
-/// Whether to act on what a run gave, as the archive's view pass_verdict has it.
+/// Whether a run's result can be acted on, as in the archive's view pass_verdict.
 
 #pragma once
 
@@ -10,24 +10,24 @@
 
 namespace spindrift {
 
-/// Of a run without an answer, or that does not exist, as it stands here.
+/// The default values describe a run without an answer and a run that does not exist.
 struct PassVerdict {
-  bool finished = false;  ///< Otherwise the run goes on, or was interrupted or killed.
-  /// @name Empty: the run has no answer
+  bool finished = false;  ///< False: it goes on, or was interrupted or killed.
+  /// @name Empty when the run has no answer
   /// @{
-  std::string estimator = {};           ///< To report.
-  std::optional<Quality> quality = {};  ///< There is one of a run that failed, too.
+  std::string estimator = {};           ///< Estimator whose answer to report.
+  std::optional<Quality> quality = {};  ///< May be set for a failed run.
   std::optional<double> sigma_deg = {};
   /// @}
-  /// @name The spin axis, ICRF, and the rate of that estimator; empty: it gives none
+  /// @name Spin axis (ICRF) and spin rate of that estimator, empty when it gives none
   /// @{
   std::optional<double> ra_deg = {};
   std::optional<double> dec_deg = {};
   std::optional<double> spin_rate_rpm = {};
   std::optional<double> sigma_rpm = {};
   /// @}
-  std::string why = "no estimate";      ///< First what speaks against it.
-  std::string against = "no estimate";  ///< What does. Empty: nothing.
+  std::string why = "no estimate";      ///< Sentence, objections first.
+  std::string against = "no estimate";  ///< Objections; empty when there are none.
 };
 
 }  // namespace spindrift

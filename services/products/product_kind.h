@@ -1,5 +1,5 @@
 /// @file
-/// What is said of each kind of product, and how to go over its rows.
+/// Traits of each kind of product, and iteration over its rows.
 
 #pragma once
 
@@ -11,12 +11,12 @@
 
 namespace spindrift {
 
-/// Results are announced, or wait for by somebody; details are what results rest on: announced to
-/// nobody, and not to be waited for.
+/// Results are announced or awaited by somebody. Details support the results: they are not
+/// announced, and nobody waits for them.
 enum class ProductWeight { Result, Detail };
 
-/// `name` of a column, and how its value is had from a row: a std::int64_t, double, bool or
-/// std::string, a std::string_view of a literal, or a std::optional of one of these.
+/// Column name and a getter of the value from a row: a std::int64_t, double, bool or std::string, a
+/// std::string_view of a literal, or a std::optional of one of these.
 template <class Get>
 struct ProductColumn {
   std::string_view name;
@@ -25,43 +25,43 @@ struct ProductColumn {
 template <class Get>
 ProductColumn(std::string_view, Get) -> ProductColumn<Get>;
 
-/// What calls `see(column...)`. A std::tuple of so many types takes long to compile.
+/// Calls `see(column...)`. A std::tuple of so many types is slow to compile.
 template <class... Get>
 constexpr auto columns(ProductColumn<Get>... column) {
   return [=](const auto& see) { return see(column...); };
 }
 
-/// Specialised for each kind, with
+/// Traits of a kind of product, with
 ///   kWeight        a ProductWeight
-///   Tables         a std::tuple of its tables; the first has one row a product
-/// and, of those that are announced,
-///   kTopic         on the bus; or
-///   announced_as   products of kinds with a topic, in their order, in its place
-///   is_announced   whether this one is
-///   instance       of the bus, beside the spacecraft: of each only the latest is in force
-///   number         rises within an instance: the same number is the same product, given again
+///   Tables         a std::tuple of its tables; the first has one row per product
+/// and, if products of the kind are announced,
+///   kTopic         topic on the bus; or instead
+///   announced_as   products of kinds with a topic to announce, in their order
+///   is_announced   whether this product is announced
+///   instance       instance on the bus, per spacecraft: only its latest product is in force
+///   number         rises within an instance; the same number means a repeated product
 ///   is_settled     whether it will not be given again with another answer
-///   from_row       the product as the archive has it; with
-///   Parts          a table of which it is given its rows besides
-/// and where it needs it
-///   kStays         true: it is not withdrawn in part, but stays until another takes its place
-///   without_residuals  what is stored of it by runs that do not store residuals
+///   from_row       restores the product from its row in the archive; and from the rows of
+///   Parts          a second table, if defined
+/// and optionally
+///   kStays         true: it is never withdrawn in part, but replaced by a later product
+///   without_residuals  the product as stored by runs that do not store residuals
 ///
 /// A table has
 ///   kName
-///   kKey           columns that, behind the run's, tell its rows apart; in the order of their
+///   kKey           columns that identify its rows within a run, in the order of
 ///   kColumns       its columns, from columns(ProductColumn...)
-/// and where it needs them
-///   kOfSpacecraft  true: the spacecraft's column stands behind the run's
+/// and optionally
+///   kOfSpacecraft  true: the spacecraft's column follows the run's
 ///   kOfResiduals   true: it has no rows of runs that do not store residuals
-///   kSaysWhenAnnounced  true: the column announced_utc stands behind the run's, of live runs
-///   kCondition     an SQL condition that tells its rows from those of other kinds there
-///   kReplaces      an SQL condition on which a row takes the place of one with the same key
-///   rows(product)  a range of rows to which the columns apply: the product has none or many. Then
-///   group(product) is the value of the first column of the key, which they all have: rows of it
-///                  that stand there already go
-///   has_row(product)  whether there is any
-///   t_tai_ns(product)  when it was, as in the main table: only rows of the latest product stay
+///   kSaysWhenAnnounced  true: in live runs the column announced_utc follows the run's
+///   kCondition     SQL condition that selects its rows from those of other kinds in the table
+///   kReplaces      SQL condition under which a row replaces one with the same key
+///   rows(product)  a range of rows to which the columns apply, if there may be none or many; then
+///   group(product) is the value of the first key column in all of them: stored rows of the
+///                  group are removed first
+///   has_row(product)  whether there is a row
+///   t_tai_ns(product)  its time, as in the main table: only rows of the latest product are kept
 template <class Product>
 struct ProductKind;
 
@@ -97,12 +97,12 @@ constexpr bool has_column(std::string_view name) {
       [name](const auto&... column) { return (... || (column.name == name)); });
 }
 
-/// Place of a column of `Table`; a name that it does not have does not compile.
+/// Index of a column in `Table`; an unknown name does not compile.
 template <class Table>
 struct ColumnOf {
   int index = 0;
 
-  // Not explicit: a name stands for its column.
+  // Implicit, so that a name can stand for its column.
   consteval ColumnOf(const char* name)  // NOLINT(google-explicit-constructor)
       : index{with_columns<Table>([name](const auto&... column) {
           const std::array<std::string_view, sizeof...(column)> names{column.name...};

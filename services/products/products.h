@@ -26,17 +26,16 @@
 
 namespace spindrift {
 
-/// The list.
 using Product = std::variant<PulseUse, RevolutionProduct, SpinMeasurement, SpinFix, SpinEstimate,
                              BatchProduct, RunFault, RejectedSample, AttitudeEstimate,
                              SampleObservation, ReconstructionProduct, ChannelComparison,
                              SampleContradiction, Alert, RunNotice, AxisChoice>;
 
-/// Its place in the list.
+/// Index of a kind in Product.
 template <class Kind>
 inline const std::size_t kProductKind = Product{Kind{}}.index();
 
-/// Calls `see.template operator()<Kind>()` for each, in order.
+/// Calls `see.template operator()<Kind>()` for each kind, in order.
 template <class See>
 constexpr void for_each_product_kind(const See& see) {
   [&]<std::size_t... I>(std::index_sequence<I...>) {
@@ -45,7 +44,7 @@ constexpr void for_each_product_kind(const See& see) {
   (std::make_index_sequence<std::variant_size_v<Product>>{});
 }
 
-/// One of a pipeline's products as one of all.
+/// Converts a product of one pipeline to Product.
 template <class... Kinds>
 Product product_of(std::variant<Kinds...> product) {
   return std::visit([](auto& value) { return Product{std::move(value)}; }, product);

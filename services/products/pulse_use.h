@@ -1,5 +1,5 @@
 /// @file
-/// What became of an edge, as a kind of product.
+/// The use or rejection of an edge, as a kind of product.
 
 #pragma once
 
@@ -14,19 +14,19 @@
 
 namespace spindrift {
 
-/// The name of a test that left something out.
+/// Returns the name of the test that left something out.
 inline std::optional<std::string_view> name_of(const std::optional<Rejection>& rejected_by) {
   return rejected_by ? std::optional{name_of(*rejected_by)} : std::nullopt;
 }
 
-/// Of what an edge said to `sequential`; without a value where it was not asked.
+/// Makes a column about the edge's observation in `sequential`; null when it had none.
 template <class Get>
 constexpr auto said_column(std::string_view name, Get get) {
   return ProductColumn{name, [get](const PulseUse& use) {
                          return use.said ? std::optional{get(*use.said)} : std::nullopt;
                        }};
 }
-/// Likewise, of one that was expected.
+/// Makes a column about the residual, in ns; null when the estimator expected no edge.
 template <class Get>
 constexpr auto residual_ns_column(std::string_view name, Get get) {
   return ProductColumn{
@@ -54,8 +54,7 @@ struct PulseUseTable {
                     return std::int64_t{std::llround(1e3 * std::sqrt(said.limit))};
                   }),
       said_column("used", [](const Observation& said) { return !said.rejected_by; }));
-  /// An edge that is late is not said to be so when something else has become of it: it arrived
-  /// twice.
+  /// An edge that arrived twice keeps its first use, so 'late' does not replace it.
   static constexpr std::string_view kReplaces = "excluded.rejected_by IS NOT 'late'";
 };
 

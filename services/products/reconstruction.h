@@ -1,5 +1,5 @@
 /// @file
-/// The attitude at separation and up to the star fixes, reconstructed, as a kind of product.
+/// The reconstructed attitude from separation to the star fixes, as a kind of product.
 
 #pragma once
 
@@ -26,14 +26,14 @@
 
 namespace spindrift {
 
-/// Shared, since it is as large as its history is long.
+/// Shared because its attitude history is long.
 using ReconstructionProduct = std::shared_ptr<const ReconstructedSeparation>;
 
 inline std::string_view method_of(const ReconstructionProduct& product) {
   return name_of(product->solution.method);
 }
 
-/// One of its events as what gives attitudes while they happen says them.
+/// Converts a reconstructed event to the type of an attitude estimate made during a pass.
 inline AttitudeEstimate estimate_of(const Reconstruction& solution,
                                     const ReconstructedEvent& event) {
   const ReconstructedAttitude& attitude = event.attitude;
@@ -46,7 +46,7 @@ inline AttitudeEstimate estimate_of(const Reconstruction& solution,
                                                                    : AttitudeSource::Sequential};
 }
 
-/// Without a value where nothing was checked.
+/// Makes a column about the launcher check; null when nothing was checked.
 template <class Get>
 constexpr auto launcher_column(std::string_view name, Get get) {
   return ProductColumn{name, [get](const ReconstructionProduct& product) {
@@ -60,7 +60,7 @@ struct ReconstructionTable {
   static constexpr std::array<std::string_view, 1> kKey{"method"};
 
   using Product = ReconstructionProduct;
-  /// Without a value where no bias was estimated.
+  /// Returns null when no bias was estimated.
   template <int kAxis>
   static std::optional<double> bias_rad_s(const Product& product) {
     const auto& bias = product->solution.bias;
@@ -172,7 +172,7 @@ struct ReconstructionEventTable {
                     }});
 };
 
-/// Rows of `attitude`, beside those of filters (attitude.h).
+/// Rows of table `attitude`, which also holds those of filters (attitude.h).
 struct ReconstructedAttitudeTable {
   static constexpr std::string_view kName = "attitude";
   static constexpr std::array<std::string_view, 2> kKey{"source", "t_tai_ns"};
@@ -230,7 +230,7 @@ struct ReconstructedAttitudeTable {
               ProductColumn{"status", [](const Row& row) { return row.status; }});
 };
 
-/// Rows of `sample_residual`, beside those of filters (sample_residual.h).
+/// Rows of table `sample_residual`, which also holds those of filters (sample_residual.h).
 struct ReconstructionResidualTable {
   static constexpr std::string_view kName = "sample_residual";
   static constexpr std::array<std::string_view, 3> kKey{"estimator", "t_tai_ns", "kind"};
@@ -264,7 +264,7 @@ struct ProductKind<ReconstructionProduct> {
   static std::int64_t number(const ReconstructionProduct& product) { return product->samples; }
   static constexpr bool is_settled(const ReconstructionProduct& /*product*/) { return true; }
 
-  /// Its events, T1 last: the bus keeps the last one of a method for those who come later.
+  /// Returns the events, T1 last, since the bus keeps a method's last one for late subscribers.
   static std::vector<AttitudeEstimate> announced_as(const ReconstructionProduct& product) {
     const Reconstruction& solution = product->solution;
     std::vector<AttitudeEstimate> events;
@@ -274,7 +274,7 @@ struct ProductKind<ReconstructionProduct> {
     return events;
   }
 
-  /// With what is announced of it only.
+  /// Restores only what is announced.
   using Parts = ReconstructionEventTable;
   template <class Row, class EventRows>
   static ReconstructionProduct from_row(const Row& row, const EventRows& for_each_event) {

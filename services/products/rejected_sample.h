@@ -15,12 +15,12 @@
 
 namespace spindrift {
 
-/// What a test finds is stored in: rates in deg/s, all else is a number.
+/// Returns the factor to the stored unit: rates are stored in deg/s, other values are pure numbers.
 inline double unit_of_test(Rejection test) {
   const bool is_rate = test == Rejection::Saturated || test == Rejection::Outlier;
   return is_rate ? kDegPerRad : 1.0;
 }
-/// Of the gyro.
+/// Returns the unit of the value in a gyro test.
 inline std::string_view name_of_test_unit(Rejection test) {
   switch (test) {
     case Rejection::Saturated:
@@ -58,12 +58,11 @@ struct RejectedSampleTable {
                                                            unit_of_test(sample.rejected_by)}
                                            : std::nullopt;
                     }});
-  /// A sample that is late is not said to be so when something else has become of it: it arrived
-  /// twice.
+  /// A sample that arrived twice keeps its first fate, so 'late' does not replace it.
   static constexpr std::string_view kReplaces = "excluded.rejected_by <> 'late'";
 };
 
-/// Of a gyro sample, beside what the samples of the other sensors said (sample_residual.h).
+/// Residual row of a gyro sample, in the table of the other sensors' residuals (sample_residual.h).
 struct GyroResidualTable {
   static constexpr std::string_view kName = "sample_residual";
   static constexpr std::array<std::string_view, 3> kKey{"estimator", "t_tai_ns", "kind"};
@@ -93,8 +92,8 @@ struct GyroResidualTable {
 
 template <>
 struct ProductKind<RejectedSample> {
-  /// Stored with the attitudes between which it lies, so that a restarted service goes on where the
-  /// last of them is.
+  /// Stored together with the attitudes around it, so that a restarted service continues after the
+  /// last one.
   static constexpr ProductWeight kWeight = ProductWeight::Result;
   using Tables = std::tuple<RejectedSampleTable, GyroResidualTable>;
 };

@@ -1,5 +1,5 @@
 /// @file
-/// A turn of the body, as a kind of product.
+/// A revolution of the body, as a kind of product.
 
 #pragma once
 

@@ -1,5 +1,5 @@
 /// @file
-/// That computing failed, as a kind of product.
+/// A failure of the computation, as a kind of product.
 
 #pragma once
 
@@ -14,8 +14,8 @@
 namespace spindrift {
 
 struct RunFault {
-  TaiTime t = {};  ///< Of the sample that was computed, of the last edge of a batch solution.
-  std::string what = {};  ///< Of the exception.
+  TaiTime t = {};         ///< Time of the sample, or of the last edge in a batch solution.
+  std::string what = {};  ///< Text of the exception.
 };
 
 struct RunFaultTable {

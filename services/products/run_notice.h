@@ -1,5 +1,5 @@
 /// @file
-/// What a person should know of a run beside its numbers, as a kind of product.
+/// A notice about a run that its numbers do not show, as a kind of product.
 
 #pragma once
 
@@ -14,12 +14,12 @@
 
 namespace spindrift {
 
-/// A warning as `--json` gives it.
+/// A warning with the members of `--json` output.
 struct RunNotice {
-  std::optional<TaiTime> t = {};  ///< When it became true; empty: it is true of the whole run.
-  std::string code = {};          ///< In words with underscores: "late_edges".
+  std::optional<TaiTime> t = {};  ///< When it became true; empty: for the whole run.
+  std::string code = {};          ///< Name such as "late_edges".
   std::string arguments = {};     ///< A JSON object.
-  std::string says = {};          ///< A sentence.
+  std::string says = {};          ///< A sentence for people.
 };
 
 struct NoticeTable {

@@ -1,5 +1,5 @@
 /// @file
-/// That a sample came with more than one value, as a kind of product.
+/// A sample received with more than one value, as a kind of product.
 
 #pragma once
 
@@ -12,8 +12,8 @@
 
 namespace spindrift {
 
-/// Its table is written with the samples, whose values it has: this tells which of them count
-/// (archive/batch_writer.h).
+/// It has no table of its own: its rows are written with the samples, and it selects those that
+/// count (archive/batch_writer.h).
 template <>
 struct ProductKind<SampleContradiction> {
   static constexpr ProductWeight kWeight = ProductWeight::Result;
@@ -21,7 +21,7 @@ struct ProductKind<SampleContradiction> {
   using Tables = std::tuple<>;
 };
 
-/// It has no number of its own.
+/// A contradiction contains no number.
 inline std::optional<NotFinite> not_finite(const SampleContradiction& /*contradiction*/) {
   return std::nullopt;
 }

@@ -1,5 +1,5 @@
 /// @file
-/// What a sample of a three-axis spacecraft said to the filter, as a kind of product.
+/// The residual of a three-axis spacecraft's sample in the filter, as a kind of product.
 
 #pragma once
 
@@ -16,10 +16,10 @@
 
 namespace spindrift {
 
-/// A gyro sample, which is there only where it was left out (rejected_sample.h).
+/// Gyro samples occur only when left out (rejected_sample.h).
 inline bool is_gyro(const Observation& said) { return said.source == SampleSource::Gyro; }
 
-/// Angles are stored in degrees, fields in nT, of the gyro what its tests find.
+/// Returns the factor to degrees, to nT, or to the unit of a gyro test.
 inline double unit_of_residual(const Observation& said) {
   if (is_gyro(said)) {
     return unit_of_test(said.rejected_by.value());
@@ -33,7 +33,7 @@ inline std::string_view name_of_unit(const Observation& said) {
   return said.source == SampleSource::Magnetometer ? "nT" : "deg";
 }
 
-/// Of a component; without a value beyond the freedom.
+/// Returns one component of the residual; null beyond the degrees of freedom.
 template <int kComponent>
 std::optional<double> residual_of(const Observation& said) {
   return kComponent < said.residual.freedom
@@ -46,7 +46,7 @@ std::optional<double> sigma_of(const Observation& said) {
              ? std::optional{said.residual.sigma[kComponent] * unit_of_residual(said)}
              : std::nullopt;
 }
-/// Without one where nothing was expected.
+/// Returns null when nothing was expected.
 inline std::optional<double> nis_of(const Observation& said) {
   return said.residual.freedom > 0 && !is_gyro(said) ? std::optional{said.nis} : std::nullopt;
 }

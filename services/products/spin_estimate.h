@@ -1,5 +1,5 @@
 /// @file
-/// Axis and rate as an estimator has them, as a kind of product.
+/// Spin axis and rate by one estimator, as a kind of product.
 
 #pragma once
 

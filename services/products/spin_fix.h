@@ -56,7 +56,7 @@ struct SpinFixTable {
                     }});
 };
 
-/// All other axes of a fix that has more than the one of its own row (view spin_fix_candidate).
+/// The other candidate axes of a fix, besides the first alternate (view spin_fix_candidate).
 struct SpinFixOtherTable {
   static constexpr std::string_view kName = "spin_fix_other";
   static constexpr std::array<std::string_view, 2> kKey{"revolution", "candidate"};
@@ -93,16 +93,16 @@ struct ProductKind<SpinFix> {
   using Tables = std::tuple<SpinFixTable, SpinFixOtherTable>;
 
   static constexpr const char* kTopic = "spindrift/spin_fix";
-  /// A fix from measurements that contradict each other could not be told from a good one.
+  /// A fix from contradictory measurements would look like a good one on the bus.
   static bool is_announced(const SpinFix& fix) {
     return fix.accepted || fix.resolution == Resolution::Ambiguous;
   }
   static constexpr std::string_view instance(const SpinFix& /*fix*/) { return {}; }
   static std::int64_t number(const SpinFix& fix) { return fix.revolution; }
-  /// One that is AMBIGUOUS may be given again, decided.
+  /// An AMBIGUOUS fix may be given again once it is decided.
   static bool is_settled(const SpinFix& fix) { return fix.accepted; }
 
-  /// With its best alternate only, and without its covariance.
+  /// Restores a fix with its best alternate only, without the misfits.
   template <class Row>
   static SpinFix from_row(const Row& row) {
     SpinFix fix{.revolution = row.integer("revolution"),
@@ -122,11 +122,11 @@ struct ProductKind<SpinFix> {
   }
 };
 
-/// Which axis a pass has taken: that of the answer in force.
+/// The axis that a pass has selected: that of the answer in force.
 struct AxisChoiceTable {
   static constexpr std::string_view kName = "axis_choice";
   static constexpr std::array<std::string_view, 1> kKey{"run_id"};
-  /// Where `batch` has an answer, that is the one in force.
+  /// An answer by `batch` is in force before any other.
   static constexpr std::string_view kReplaces =
       "excluded.estimator = 'batch' OR axis_choice.estimator <> 'batch'";
 

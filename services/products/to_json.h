@@ -1,5 +1,5 @@
 /// @file
-/// A product as an object: its columns by their names, null where there is no value.
+/// Converts a product to a JSON object of its columns, null where a value is missing.
 
 #pragma once
 
@@ -11,7 +11,7 @@
 
 namespace spindrift {
 
-/// A row of `Table`.
+/// Converts a row of `Table`.
 template <class Table, class Row>
 nlohmann::json json_of_row(const Row& row) {
   nlohmann::json object = nlohmann::json::object();
@@ -26,7 +26,7 @@ nlohmann::json json_of_row(const Row& row) {
   return object;
 }
 
-/// Of the first of its tables.
+/// Converts a product's row in its main table.
 template <class Product>
 nlohmann::json json_of(const Product& product) {
   return json_of_row<MainTable<Product>>(product);

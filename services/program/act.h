@@ -1,5 +1,5 @@
 /// @file
-/// `spindrift act`: an operator's word on the telemetry of a spacecraft, to the running service.
+/// `spindrift act`: sends an operator's action for a spacecraft to the running service.
 
 #pragma once
 
@@ -35,11 +35,11 @@ struct ActOptions {
 
 inline constexpr std::string_view kActionRequest = "action";
 
-/// Prints the id under which it is stored. @return InvalidConfiguration with what is wrong;
-/// Unavailable where no service holds the archive.
+/// Prints the id under which the service stored the action. @return InvalidConfiguration with the
+/// reason of a refusal; Unavailable when no service holds the archive.
 Expected<void> act(const ActOptions& options);
 
-/// What a service answers to the request that `act` made.
+/// Returns the service's answer to the request that `act` sends.
 nlohmann::json answer_action(nlohmann::json request, ActionInbox& inbox);
 
 }  // namespace spindrift

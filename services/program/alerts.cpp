@@ -32,7 +32,7 @@ namespace {
 
 constexpr std::chrono::milliseconds kPoll{100};
 
-/// A service neither shows nor changes those of a run of another mode than its own.
+/// The run mode is shown because a service changes only alerts of its own mode.
 std::string to_text(const StoredAlert& stored) {
   const Alert& alert = stored.alert;
   const std::string until =
@@ -48,7 +48,7 @@ nlohmann::json json_of(const StoredAlert& stored) {
   return object;
 }
 
-/// Whose revision is another one than was told. @param first Of those that are over nothing is.
+/// Prints alerts with a new revision. @param first Whether cleared alerts are skipped.
 void tell_changes(const std::vector<StoredAlert>& alerts, bool json, bool first,
                   std::map<std::string, std::int64_t>& told) {
   for (const StoredAlert& stored : alerts) {
@@ -71,7 +71,7 @@ void print_changed(const nlohmann::json& alert, bool json) {
                                       alert.value("key", ""), alert.value("state", "")));
 }
 
-/// Of the service that holds the archive. What it refuses may be in the archive all the same.
+/// A refused alert may still be in the archive, under a run of another mode.
 std::string why_refused(const AlertsOptions& options, const nlohmann::json& answer) {
   const std::string mode = answer.value("mode", "");
   for (const StoredAlert& stored : find_alerts(options.db).value_or(std::vector<StoredAlert>{})) {
@@ -86,7 +86,7 @@ std::string why_refused(const AlertsOptions& options, const nlohmann::json& answ
   return answer.value("error", "");
 }
 
-/// Holds the archive before it looks, so that nobody else's word comes between.
+/// Opens the archive before reading the alert, so that no other writer can change it in between.
 Expected<nlohmann::json> changed_here(const AlertsOptions& options) {
   auto archive = find_alerts(options.db).and_then([&](const auto& /*an archive it is*/) {
     return Archive::open(options.db, {});
@@ -137,7 +137,7 @@ Expected<void> follow_alerts(const AlertsOptions& options) {
   std::atomic<bool> stopped = false;
   signal.on_stop([&] { stopped = true; });
   const auto follow = [&](SQLite::Database& archive) {
-    std::map<std::string, std::int64_t> told;  // Revisions.
+    std::map<std::string, std::int64_t> told;  // Revision printed last, by alert id.
     std::optional<int> seen;
     bool is_read = true;
     for (; is_read && !stopped; std::this_thread::sleep_for(kPoll)) {

@@ -1,5 +1,5 @@
 /// @file
-/// `spindrift alerts`: the alerts of an archive, and an operator's word on them.
+/// `spindrift alerts`: lists, acknowledges and shelves the alerts of an archive.
 
 #pragma once
 
@@ -17,25 +17,25 @@ struct AlertsOptions {
   std::filesystem::path db;
   bool json = false;
   bool follow = false;
-  std::string alert_id = {};  ///< Of ack and shelve, as what follows.
+  std::string alert_id = {};  ///< Used by `ack` and `shelve` only, as are the members below.
   std::string by = {};
   std::string note = {};
-  int minutes = 0;  ///< Shelved for so long; 0: acknowledged.
+  int minutes = 0;  ///< Duration of shelving; 0 means acknowledge.
 };
 
 inline constexpr std::string_view kAlertRequest = "alert";
 
-/// Prints those that are open, and with `json` all, in one object.
+/// Prints the open alerts as text, or with `json` all alerts as one object.
 Expected<void> list_alerts(const AlertsOptions& options);
 
-/// Prints those that are open, then each change as it is stored, a line each, until SIGINT or
-/// SIGTERM, or nobody reads.
+/// Prints the open alerts, then one line for each change as it is stored, until SIGINT or SIGTERM
+/// arrives or the reader of standard output is gone.
 Expected<void> follow_alerts(const AlertsOptions& options);
 
-/// Acknowledges or shelves one: by the service that holds the archive, else here.
+/// Changes one alert, through the service that holds the archive or else directly.
 Expected<void> change_alert(const AlertsOptions& options);
 
-/// What a service answers to the request that the other one made.
+/// Returns the service's answer to the request that `change_alert` sends.
 nlohmann::json answer_alert(const nlohmann::json& request, AlertDesk& desk, Archive& archive);
 
 }  // namespace spindrift

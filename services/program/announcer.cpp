@@ -91,7 +91,6 @@ void Announcer::run() {
   }
 }
 
-/// To the console, the bus and the terminal.
 void Announcer::hand_out(const Announcement& result) {
   if (feed_ != nullptr) {
     feed_->put(result.spacecraft, result.run_id, result.product);
@@ -111,7 +110,7 @@ void Announcer::hand_out(const Announcement& result) {
   }
 }
 
-/// Of an alert a revision that comes behind a later one is none either.
+/// Returns false also for a revision of an alert that arrives after a later one.
 bool Announcer::is_news(const Announcement& result) {
   const auto* const alert = std::get_if<Alert>(&result.product);
   if (alert == nullptr) {

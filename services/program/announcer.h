@@ -1,7 +1,7 @@
 /// @file
-/// Announces results once they are stored, on a thread of its own: on the bus, and in the log each
-/// change of an alert, each reconstruction of a separation and, where no status line has it, the
-/// latest estimate every now and then.
+/// Announces results once they are stored, on a thread of its own: every result on the bus; in the
+/// log every change of an alert, every reconstruction of a separation and, where no status line
+/// shows it, the latest estimate from time to time.
 
 #pragma once
 
@@ -26,7 +26,7 @@ namespace spindrift {
 
 class Announcer {
  public:
-  /// All of them outlive it. @param feed Null: there is no console.
+  /// The arguments outlive the announcer. @param feed Null when there is no console.
   Announcer(const ResultPublisher& publisher, ConsoleFeed* feed, ServiceTerminal& terminal,
             ThreadFailures& failures);
   ~Announcer();
@@ -35,15 +35,15 @@ class Announcer {
   Announcer(Announcer&&) = delete;
   Announcer& operator=(Announcer&&) = delete;
 
-  /// A run goes on that has announced `stored`: of that only what is in force is announced again.
-  /// Before anything of the run is committed.
+  /// Registers a continued run, whose `stored` results were announced before; only those in force
+  /// are announced again. Call it before anything of the run is committed.
   void go_on(const std::string& run_id, const std::string& spacecraft, StoredResults stored);
 
-  /// What the service says of itself: before it is stored, since the archive may make it wait.
+  /// Announces the service's own alerts before they are stored, since the archive may block.
   void announce(const ArchiveBatch& batch);
 
-  /// Of what the archive has just committed; never waits. An alert that was announced before it
-  /// was stored is known.
+  /// Takes the batches that the archive has just committed for announcement; never blocks. Alerts
+  /// that were announced before they were stored are not announced twice.
   void committed(std::span<const ArchiveBatch> batches);
 
  private:
@@ -56,12 +56,12 @@ class Announcer {
   ConsoleFeed* feed_;
   ServiceTerminal& terminal_;
   Announcements waiting_;
-  std::map<std::string, StoredResults> announced_before_;              ///< By run.
+  std::map<std::string, StoredResults> announced_before_;              ///< Results by run.
   std::set<std::string> unannounced_;                                  ///< Runs of other commands.
-  std::map<std::string, std::chrono::steady_clock::time_point> said_;  ///< When, by spacecraft.
+  std::map<std::string, std::chrono::steady_clock::time_point> said_;  ///< Last, by spacecraft.
   std::map<std::pair<std::string, std::string>, std::int64_t>
-      alerts_;          ///< The last number by spacecraft and key.
-  std::thread thread_;  // Last: it uses the others.
+      alerts_;          ///< Highest revision announced, by spacecraft and alert key.
+  std::thread thread_;  // Last member, since the thread uses the others.
 };
 
 }  // namespace spindrift

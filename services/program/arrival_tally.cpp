@@ -31,7 +31,7 @@ template <class Samples>
 void note_samples(const Samples& samples, TalliedArrivals& arrivals) {
   samples.for_each([&](const auto& of_kind) {
     for (const auto& sample : of_kind) {
-      // A sample that is left out has a negative one.
+      // The arrival of a sample that is left out is negative.
       if (sample.arrival >= 0) {
         note_value(sample.value, arrivals);
       }
@@ -50,7 +50,7 @@ void ArrivalTally::note(const ArchiveBatch& batch) {
   note_samples(batch.samples, arrivals);
   note_samples(batch.moved, arrivals);
   if (batch.run_id != arrivals.run_id) {
-    return;  // Late products of the run before.
+    return;  // These are late products of the previous run.
   }
   for (const Product& product : batch.products) {
     // Fixes are stored at once, revolutions a second late.

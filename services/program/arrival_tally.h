@@ -1,5 +1,5 @@
 /// @file
-/// What has come of each spacecraft, for those who watch.
+/// Counts the samples received from each spacecraft, for the status line.
 
 #pragma once
 
@@ -16,16 +16,16 @@
 namespace spindrift {
 
 struct TalliedArrivals {
-  std::string run_id = {};   ///< Of which all but `samples` is.
-  std::int64_t samples = 0;  ///< Edges, those of coded frames too; or samples of sensors.
-  std::optional<std::int64_t> revolution = {};    ///< The last that is known of the run.
-  std::map<std::string_view, TaiTime> last = {};  ///< By channel, or by kind of sensor.
+  std::string run_id = {};   ///< Run that the other members except `samples` describe.
+  std::int64_t samples = 0;  ///< Number of edges (coded frames included) or sensor samples.
+  std::optional<std::int64_t> revolution = {};    ///< Latest one known in the run.
+  std::map<std::string_view, TaiTime> last = {};  ///< By channel or kind of sensor.
 };
 
-/// Used by any thread.
+/// Safe to use from any thread.
 class ArrivalTally {
  public:
-  /// Its samples and revolutions; of samples that are left out none.
+  /// Counts the samples and revolutions of `batch`; samples left out of processing are not counted.
   void note(const ArchiveBatch& batch);
 
   TalliedArrivals of(const std::string& spacecraft) const;

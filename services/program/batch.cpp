@@ -21,7 +21,7 @@ bool is_same_mission(const StoredEdges& stored, const Mission& mission) {
   return stored.config_sha256 == mission.sha256 && stored.orbit_sha256 == mission.orbit_sha256;
 }
 
-/// To try another mission is what the command is for, and nobody must do so without knowing.
+/// Using another mission is a legitimate use of the command, but the user must be told.
 void warn_of_another_mission(const StoredEdges& stored, const Mission& mission) {
   const auto compare = [&](const char* what, const std::string& now, const std::string& then) {
     if (now != then) {

@@ -1,6 +1,6 @@
 /// @file
-/// `spindrift batch`: the maximum-likelihood solution of a stored run, on demand. Only reads: also
-/// while a service writes the archive.
+/// `spindrift batch`: computes the maximum-likelihood solution of a stored run on demand. It only
+/// reads the archive, so it works while a service writes it.
 
 #pragma once
 
@@ -16,8 +16,8 @@ namespace spindrift {
 struct BatchOptions {
   std::filesystem::path mission;
   std::filesystem::path db;
-  std::optional<std::string> run;                ///< Empty: the newest of the spacecraft.
-  std::optional<std::int64_t> last_revolutions;  ///< Empty: all.
+  std::optional<std::string> run;                ///< Empty means the newest run of the spacecraft.
+  std::optional<std::int64_t> last_revolutions;  ///< Empty means all revolutions.
   bool json = false;
 };
 

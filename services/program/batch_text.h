@@ -1,5 +1,5 @@
 /// @file
-/// A solution of the estimator `batch` for people and for programs.
+/// Formats a solution of the estimator `batch` as text and as JSON.
 
 #pragma once
 
@@ -10,10 +10,10 @@
 
 namespace spindrift {
 
-/// Bound, biases and what the edges leave open; several lines, each ending in a line end.
+/// Returns several lines on bound, biases and undetermined directions, each with a line end.
 std::string to_text(const BatchSolution& solution);
 
-/// What an estimate of another kind does not have: to be added to its own object.
+/// Returns only the members to be merged into the JSON object of the estimate.
 nlohmann::json to_json(const BatchSolution& solution);
 
 }  // namespace spindrift

@@ -16,23 +16,23 @@
 namespace spindrift {
 namespace {
 
-// Of --speed, times real time.
+// Limits of --speed, multiples of real time.
 constexpr double kSlowest = 0.001;
 constexpr double kFastest = 1e6;
 
-/// A partition is one by name: a pattern would let a rehearsal reach live subscribers.
+/// A partition must be a plain name: a pattern would let a rehearsal reach live subscribers.
 std::string check_partition(const std::string& name) {
   return name.empty() || name.find_first_of("*?[") != std::string::npos
              ? fmt::format("'{}': must be a name, not empty and without * ? [", name)
              : std::string{};
 }
 
-/// An unset variable of a script leaves one empty.
+/// An unset variable in a script yields an empty path.
 std::string check_path(const std::string& path) {
   return path.empty() ? "must be a path, not empty" : std::string{};
 }
 
-/// Another suffix promises what is not written.
+/// Any suffix but .svg would promise a format that is not written.
 std::string check_svg(const std::string& path) {
   return std::filesystem::path{path}.extension() == ".svg"
              ? std::string{}
@@ -48,7 +48,7 @@ std::string check_count(const std::string& text) {
              : fmt::format("'{}': must be a positive integer", text);
 }
 
-/// Written so that NaN fails.
+/// The condition is written so that NaN fails.
 void check_speed(double speed) {
   if (!(speed == 0.0 || (speed >= kSlowest && speed <= kFastest))) {
     throw CLI::ValidationError{
@@ -56,7 +56,7 @@ void check_speed(double speed) {
   }
 }
 
-/// A command that ran to its end may have found that not all is well.
+/// Sets the exit status: a command that ran to its end may still have found problems.
 Expected<void> with_status(const Expected<bool>& is_well, Request& request) {
   return is_well.map([&](bool yes) { request.status = yes ? EXIT_SUCCESS : kFailed; });
 }
@@ -307,7 +307,7 @@ void add_alert_change(CLI::App& alerts, Request& request, const char* name, cons
   command.callback([&] { request.run = [&] { return change_alert(request.alerts); }; });
 }
 
-/// The archive may be named before or behind `ack` and `shelve`.
+/// `--db` may precede or follow `ack` and `shelve`.
 void add_alerts(CLI::App& app, Request& request) {
   AlertsOptions& options = request.alerts;
   CLI::App& command = *app.add_subcommand("alerts", "List the alerts of an archive");
@@ -382,7 +382,7 @@ void add_commands(CLI::App& app, Request& request) {
   add_act(app, request);
 }
 
-/// Names first what nothing takes: it may be meant for what is missing.
+/// Names unknown arguments first: one may be a misspelling of an argument that is missing.
 std::string what_is_wrong(const CLI::App& app, const CLI::ParseError& error) {
   std::string wrong;
   if (const auto unknown = app.remaining(true); !unknown.empty()) {

@@ -1,5 +1,5 @@
 /// @file
-/// The subcommands, their options, and what a bad command line says.
+/// The subcommands, their options, and the messages for a bad command line.
 
 #pragma once
 
@@ -30,7 +30,6 @@ inline constexpr int kFailed = 1;
 inline constexpr int kBadInput = 2;
 /// @}
 
-/// What the command line asks for.
 struct Request {
   BatchOptions batch;
   ProcessOptions process;
@@ -45,13 +44,13 @@ struct Request {
   AlertsOptions alerts;
   ActOptions act;
   std::function<Expected<void>()> run;
-  int status = EXIT_SUCCESS;  ///< Of a run that came to its end.
+  int status = EXIT_SUCCESS;  ///< Exit status of a run that came to its end.
 };
 
-/// @param request Outlives `app`. Parsing fills it in.
+/// @param request Filled in by parsing; must outlive `app`.
 void add_commands(CLI::App& app, Request& request);
 
-/// For people. @param error Of parsing `app`.
+/// Returns a message for people. @param error The exception thrown by parsing with `app`.
 std::string what_is_wrong(const CLI::App& app, const CLI::ParseError& error);
 
 }  // namespace spindrift

@@ -30,7 +30,7 @@
 namespace spindrift {
 namespace {
 
-/// The comparison, and all that it told on its way.
+/// Runs the comparison and collects its notices.
 class Telling {
  public:
   Telling(std::shared_ptr<const GroundModel> model, double band_sigmas)
@@ -81,7 +81,7 @@ Expected<void> see_files(const CompareOptions& options, const std::string& space
       }
     });
   }
-  static_cast<void>(told_bad_rows(input->bad_rows()));  // Nothing is stored of files.
+  static_cast<void>(told_bad_rows(input->bad_rows()));  // Results of files are not stored.
   return {};
 }
 
@@ -94,8 +94,8 @@ Expected<void> see_archive(const CompareOptions& options, const Mission& mission
       });
 }
 
-/// Those that are open of earlier runs: one that goes on is not raised twice, one that is over
-/// ends.
+/// Hands the open departure alerts of earlier runs to `desk`, so that a continuing departure is not
+/// raised twice and one that is over is cleared.
 Expected<void> take_up_departures(const std::filesystem::path& db, const std::string& spacecraft_id,
                                   AlertDesk& desk) {
   return find_alerts(db).map([&](const std::vector<StoredAlert>& alerts) {
@@ -108,7 +108,7 @@ Expected<void> take_up_departures(const std::filesystem::path& db, const std::st
   });
 }
 
-/// A run of its own with what came of each channel, and the alerts. @return its id.
+/// Stores a run with the result of each channel and the alerts. @return The run's id.
 Expected<std::string> store(const CompareOptions& options, const Mission& mission,
                             const Telling& telling) {
   auto processor = Processor::make(

@@ -1,5 +1,5 @@
 /// @file
-/// `spindrift compare`: recorded telemetry, or that of the archive, against the ground model.
+/// `spindrift compare`: compares recorded or archived telemetry with the ground model.
 
 #pragma once
 
@@ -12,15 +12,15 @@ namespace spindrift {
 
 struct CompareOptions {
   std::filesystem::path mission;
-  std::vector<std::filesystem::path> telemetry;  ///< Empty: what the archive holds.
-  std::filesystem::path db;                      ///< Empty: there is telemetry.
-  std::filesystem::path model;                   ///< A scenario's file.
-  std::filesystem::path plot;                    ///< Empty: none.
+  std::vector<std::filesystem::path> telemetry;  ///< Empty means the telemetry in the archive.
+  std::filesystem::path db;                      ///< Empty when telemetry files are given.
+  std::filesystem::path model;                   ///< Path of a scenario file.
+  std::filesystem::path plot;                    ///< Empty means no plot.
   bool json = false;
 };
 
-/// Prints the residuals of each channel, and since when flight is away, on standard output. Of an
-/// archive a run is stored with both, and an alert for each departure.
+/// Prints the residuals of each channel and when it departed from the model. Of archived telemetry
+/// it stores a run with both, and an alert for each departure.
 /// @return InvalidConfiguration for bad input, and where nothing can be compared; Unavailable for a
 ///         failure while running.
 Expected<void> compare(const CompareOptions& options);

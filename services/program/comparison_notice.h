@@ -1,5 +1,5 @@
 /// @file
-/// Estimators of one pass that disagree: the rule is that of the view spin_comparison.
+/// Notices about estimators of one pass that disagree, by the rule of the view spin_comparison.
 
 #pragma once
 
@@ -16,21 +16,21 @@
 
 namespace spindrift {
 
-/// Warns of each two that do, by what is stored.
+/// Warns of every pair of estimators in the stored run that disagree, and returns the notices.
 std::vector<RunNotice> told_disagreements(const std::filesystem::path& db,
                                           const std::string& spacecraft_id,
                                           const std::string& run_id);
 
-/// Those of the runs of a service, whose archive is still open when they end.
+/// Collects the disagreement notices of a service's runs; the archive is still open when they end.
 class DisagreementNotices {
  public:
   explicit DisagreementNotices(std::filesystem::path db) : db_{std::move(db)} {}
 
-  /// Warns of those of runs that end in what was just stored, and keeps the notices: the thread
-  /// that stores must not wait for room in its own queue.
+  /// Warns of disagreements in the runs that end in `stored`, and keeps the notices instead of
+  /// submitting them: the storing thread must not wait for room in its own queue.
   void tell(std::span<const ArchiveBatch> stored);
 
-  /// The notices of all that was submitted until now. On another thread.
+  /// Stores the notices of everything submitted so far. Never call it on the storing thread.
   Expected<void> store(Archive& archive);
 
  private:

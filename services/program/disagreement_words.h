@@ -9,7 +9,8 @@
 
 namespace spindrift {
 
-/// "mean and batch disagree: their axes are 0.310 deg apart, 4.2 times the larger sigma".
+/// Returns for example "mean and batch disagree: their axes are 0.310 deg apart, 4.2 times the
+/// larger sigma".
 std::string sentence_of(const Disagreement& disagreement);
 
 }  // namespace spindrift

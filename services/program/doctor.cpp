@@ -62,7 +62,7 @@ Expected<std::vector<doctor::MissionFacts>> look_at_missions(
   return missions;
 }
 
-/// Each step needs the one before.
+/// Checks the bus step by step; each step needs the previous one.
 std::vector<Check> check_bus(const bus::BusConfig& bus) {
   const auto network = doctor::network_facts(bus.domain);
   std::vector<Check> checks = doctor::check_network(network);

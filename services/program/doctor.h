@@ -1,5 +1,5 @@
 /// @file
-/// `spindrift doctor`: what is wrong before a pass, and what to do about it.
+/// `spindrift doctor`: reports what is wrong before a pass, and what to do about it.
 
 #pragma once
 
@@ -14,12 +14,12 @@ namespace spindrift {
 
 struct DoctorOptions {
   std::vector<std::filesystem::path> missions;
-  std::filesystem::path db;  ///< Empty: no archive and no disk is looked at.
+  std::filesystem::path db;  ///< Empty means that neither archive nor disk is checked.
   std::uint32_t domain = 0;
   std::string partition = "live";
-  std::string from;  ///< Of the coming pass, UTC; empty: the moment of now is judged.
+  std::string from;  ///< Start of the coming pass, UTC; empty means now.
   std::string to;
-  bool verbose = false;  ///< What is sound, too.
+  bool verbose = false;  ///< Also print the checks that passed.
   bool json = false;
 };
 

@@ -38,7 +38,7 @@ constexpr std::array kColumns = {PointColumn{"lat_deg", -90.0, 90.0},
                                  PointColumn{"lon_deg", -360.0, 360.0},
                                  PointColumn{"height_km", -100.0, 1e6}};
 
-/// As kColumns.
+/// Values in the order of kColumns.
 using Point = std::array<double, kColumns.size()>;
 
 struct FieldAtPoint {
@@ -46,7 +46,7 @@ struct FieldAtPoint {
   Eigen::Vector3d ned_nt;
 };
 
-/// @return InvalidInput naming column, field and what is allowed.
+/// @return InvalidConfiguration naming column, field and what is allowed.
 Expected<Point> point_of(const FileLine& line) {
   const CsvFields fields{line.text};
   if (line.too_long || fields.count() != kColumns.size()) {
@@ -76,7 +76,7 @@ Expected<FieldAtPoint> field_at(const MainField& field, const Point& point) {
       });
 }
 
-/// All points of the file, or the first of its lines that is none.
+/// Returns the field at all points of the file, or the error of the first bad line.
 Expected<std::vector<FieldAtPoint>> fields_at(const std::filesystem::path& path,
                                               const MainField& field) {
   auto file = InputFile::open(path, kMostTextBytes);

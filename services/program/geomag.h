@@ -1,5 +1,5 @@
 /// @file
-/// `spindrift geomag field`: the Earth's main magnetic field at points.
+/// `spindrift geomag field`: evaluates the Earth's main magnetic field at points.
 
 #pragma once
 
@@ -10,13 +10,13 @@
 namespace spindrift {
 
 struct GeomagFieldOptions {
-  double year = 0.0;             ///< With decimals.
+  double year = 0.0;             ///< Decimal year.
   std::filesystem::path points;  ///< CSV: lat_deg,lon_deg,height_km, geodetic WGS-84.
   bool json = false;
 };
 
-/// Prints the points with the field to north, east and down on standard output.
-/// @return InvalidConfiguration for a year outside the model and for what is no file of points,
+/// Prints the points with the north, east and down components of the field on standard output.
+/// @return InvalidConfiguration for a year outside the model and for a malformed points file,
 ///         naming line, column and what is allowed; Unavailable when reading fails.
 Expected<void> geomag_field(const GeomagFieldOptions& options);
 

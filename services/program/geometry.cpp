@@ -34,10 +34,10 @@ constexpr double kUsualRate_rpm = 60.0;
 constexpr double kRows = 60.0;
 constexpr double kMostRows = 10'000.0;
 constexpr double kLongest_s = 7.0 * 86'400.0;
-// So many steps make curves smooth.
+// This many steps give smooth curves.
 constexpr double kPlotSteps = 480.0;
 
-/// Collects what is wrong, one a line.
+/// Collects the problems, one per line.
 struct Refusals {
   std::string text;
   void add(const std::string& problem) { text += (text.empty() ? "" : "\n") + problem; }
@@ -53,7 +53,7 @@ std::optional<TaiTime> utc_of(std::string_view option, const std::string& text,
   return *t;
 }
 
-/// The whole text as a number.
+/// Parses the whole text as a number.
 std::optional<double> number_of(std::string_view text) {
   double number = 0.0;
   const auto* const end = text.data() + text.size();
@@ -61,7 +61,7 @@ std::optional<double> number_of(std::string_view text) {
   return error == std::errc{} && rest == end ? std::optional{number} : std::nullopt;
 }
 
-/// Written so that NaN fails.
+/// The range checks are written so that NaN fails.
 Eigen::Vector3d axis_of(const std::string& text, Refusals& refusals) {
   const std::size_t comma = std::min(text.find(','), text.size());
   const auto ra_deg = number_of(std::string_view{text}.substr(0, comma));

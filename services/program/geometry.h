@@ -1,5 +1,5 @@
 /// @file
-/// `spindrift geometry`: what a coming pass will show, and how well the axis can be known from it.
+/// `spindrift geometry`: predicts a coming pass and how well it determines the spin axis.
 
 #pragma once
 
@@ -14,17 +14,17 @@ namespace spindrift {
 struct GeometryOptions {
   std::filesystem::path mission;
   std::string from;      ///< UTC, ISO 8601 ending in Z.
-  std::string to;        ///< Likewise.
+  std::string to;        ///< UTC, ISO 8601 ending in Z.
   std::string attitude;  ///< "RA,DEC" of the spin axis in deg, ICRF.
   std::optional<double> rate_rpm;
   std::optional<double> step_s;
-  std::filesystem::path plot;  ///< An SVG to write; empty: none.
+  std::filesystem::path plot;  ///< Path of an SVG to write; empty means none.
   bool json = false;
 };
 
 /// Prints the plan on standard output.
-/// @return InvalidConfiguration for a bad mission file or bad arguments, every one of them named,
-///         and for an orbit that does not reach; Unavailable where the plot cannot be written.
+/// @return InvalidConfiguration for a bad mission file, an orbit that does not cover the pass, or
+///         bad arguments, every one of them named; Unavailable where the plot cannot be written.
 Expected<void> geometry(const GeometryOptions& options);
 
 }  // namespace spindrift

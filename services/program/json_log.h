@@ -1,11 +1,11 @@
 /// @file
-/// The log for programs.
+/// The machine-readable log.
 
 #pragma once
 
 namespace spindrift {
 
-/// From here on each message is an object on one line: `utc`, `level`, `text`.
+/// Makes each later log message a JSON object on one line with `utc`, `level` and `text`.
 void log_as_json();
 
 }  // namespace spindrift

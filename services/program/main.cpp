@@ -1,5 +1,5 @@
 /// @file
-/// The program: its streams, its log and its exit status.
+/// The program entry: standard streams, log and exit status.
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -36,8 +36,8 @@ using spindrift::ErrorCode;
 using spindrift::kBadInput;
 using spindrift::kFailed;
 
-/// Message for people on standard error; with --json, which even a bad command line may hold, an
-/// object on standard output as well.
+/// Prints the message for people on standard error; with --json, which even a bad command line may
+/// contain, also an object on standard output.
 void tell_failure(const std::string& message, std::span<char* const> arguments) {
   fmt::print(stderr, "spindrift: {}\n", message);
   const auto is_json = [](const char* argument) { return std::string_view{argument} == "--json"; };
@@ -78,8 +78,8 @@ int run_safely(int argc, char** argv) {
   }
 }
 
-/// A closed one's number would become that of a file or socket, which messages are then written
-/// into. As before, writing to it fails.
+/// Opens /dev/null on closed standard streams, since their numbers would otherwise go to a file or
+/// socket that messages would then be written into. Writing to such a stream still fails.
 void reserve_standard_streams() {
   int descriptor = STDIN_FILENO;
   while (descriptor >= 0 && descriptor <= STDERR_FILENO) {
@@ -88,7 +88,6 @@ void reserve_standard_streams() {
   ::close(descriptor);
 }
 
-/// Standard output is for results, standard error for people.
 void log_to_standard_error(bool in_terminal) {
   const bool in_colour = in_terminal && spdlog::details::os::is_color_terminal();
   spdlog::set_default_logger(std::make_shared<spdlog::logger>(
@@ -99,7 +98,7 @@ void log_to_standard_error(bool in_terminal) {
                       spdlog::pattern_time_type::utc);
 }
 
-/// As `run_safely`; what cannot be written of its results is a failure, too.
+/// Calls `run_safely` and treats a failure to write its results as a failure of the run.
 int run_and_flush(int argc, char** argv) {
   const int status = run_safely(argc, argv);
   if (std::fflush(stdout) != 0) {
@@ -113,8 +112,7 @@ int run_and_flush(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   try {
-    // A full disk and a reader who is gone shall be errors of the write, not the end of the
-    // process.
+    // A full disk or a reader that is gone must fail the write, not kill the process.
     std::signal(SIGXFSZ, SIG_IGN);
     std::signal(SIGPIPE, SIG_IGN);
     reserve_standard_streams();
@@ -123,7 +121,7 @@ int main(int argc, char** argv) {
     const int status = run_and_flush(argc, argv);
     const bool all_is_out = standard_error.close();
     if (!all_is_out || spindrift::is_solution_given_up()) {
-      ::_exit(status);  // Threads go on that nobody can wait for.
+      ::_exit(status);  // Abandoned solution threads may still run and cannot be joined.
     }
     return status;
   } catch (const std::exception& exception) {

@@ -1,5 +1,5 @@
 /// @file
-/// When a mission has been loaded, says what is doubtful about its orbit.
+/// Warnings about a doubtful orbit of a loaded mission.
 
 #pragma once
 
@@ -9,7 +9,7 @@
 
 namespace spindrift {
 
-/// A warning for each doubt. `file` is the mission file.
+/// Logs a warning for each doubt. @param file The mission file.
 void warn_of_orbit(const std::filesystem::path& file, const Mission& mission);
 
 }  // namespace spindrift

@@ -1,5 +1,5 @@
 /// @file
-/// How a command ends that does not end well.
+/// Errors with which a command ends.
 
 #pragma once
 
@@ -10,12 +10,12 @@
 
 namespace spindrift {
 
-/// Of a bad command line or input.
+/// Returns the error for a bad command line or input.
 inline Unexpected refused(std::string message) {
   return Unexpected{{ErrorCode::InvalidConfiguration, std::move(message)}};
 }
 
-/// Of two things that had to end well both, when both failed: the first one's code, both messages.
+/// When both operations failed, the error has the first one's code and both messages.
 inline Expected<void> outcome_of(const Expected<void>& run, const Expected<void>& closing) {
   if (!run && !closing) {
     return Unexpected{{run.error().code, run.error().message + "\n" + closing.error().message}};

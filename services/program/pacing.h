@@ -1,5 +1,5 @@
 /// @file
-/// Samples at the pace of their own time.
+/// Paces samples by their own time stamps.
 
 #pragma once
 
@@ -13,24 +13,24 @@
 
 namespace spindrift {
 
-/// The first sample is due at once, a later one by as much later as its time is, over the speed.
+/// Makes the first sample due at once, and later ones after the time difference over the speed.
 class Pacing {
  public:
   using Clock = std::chrono::steady_clock;
 
-  /// @param speed Times real time; 0: everything is due at once.
+  /// @param speed Multiple of real time; 0 makes everything due at once.
   explicit Pacing(double speed) : speed_{speed} {}
 
-  /// As if `t` had been due at `instant`.
+  /// Sets the reference so that a sample of time `t` is due at `instant`.
   void begin_at(TaiTime t, Clock::time_point instant) {
     first_ = t;
     start_ = instant;
   }
 
-  /// Empty: now, or the time has passed.
+  /// Returns when a sample of time `t` is due; empty when that is now or has passed.
   std::optional<Clock::time_point> due(TaiTime t);
 
-  /// Or until a stop is requested.
+  /// Blocks until `due` or until a stop is requested.
   void wait_until(Clock::time_point due, const std::stop_token& stop);
 
  private:

@@ -30,7 +30,7 @@ namespace {
 // NOLINTNEXTLINE(cppcoreguidelines-avoid-non-const-global-variables): a signal handler has no other
 volatile std::sig_atomic_t interrupted = 0;
 
-/// The second signal does what it does without a handler.
+/// The second signal gets the default action, which ends the program.
 void stop_at_first_signal() {
   struct sigaction action {};
   action.sa_handler = [](int /*signal*/) { interrupted = 1; };
@@ -39,7 +39,7 @@ void stop_at_first_signal() {
   sigaction(SIGTERM, &action, nullptr);
 }
 
-/// Until all is computed, or a signal. @return whether all is.
+/// Processes until the input ends or a signal arrives. @return Whether the input ended.
 Expected<bool> run(Processor& processor, TelemetryInput& telemetry, Archive& archive) {
   if (auto begun = submit_all(archive, processor.begin()); !begun) {
     return Unexpected{begun.error()};
@@ -61,10 +61,10 @@ Expected<bool> run(Processor& processor, TelemetryInput& telemetry, Archive& arc
   return false;
 }
 
-/// Of a spinner without edges (who has some is told by the pass why they give no axis), and of
-/// estimators that disagree.
-/// @param of_files Of all files. Where passes follow each other in one recording nobody knows whose
-///                 the bad rows are: they stand with the first.
+/// Returns notices about spinners without edges (where edges exist, the pass itself says why they
+/// give no axis) and about estimators that disagree.
+/// @param of_files Notices about all files. When passes follow each other in one recording, the bad
+///        rows cannot be attributed and go with the first pass.
 std::vector<ArchiveBatch> told_at_the_end(const Processor& processor,
                                           std::vector<RunNotice> of_files, const BadRows& bad_rows,
                                           const std::filesystem::path& db) {
@@ -99,7 +99,7 @@ std::vector<ArchiveBatch> told_at_the_end(const Processor& processor,
   return batches;
 }
 
-/// What `run` has computed is stored, and what is known of it only then is told and stored.
+/// Flushes what `run` computed, then logs and stores the notices that are known only then.
 Expected<void> tell_at_the_end(Archive& archive, const Processor& processor,
                                const TelemetryInput& telemetry, std::vector<RunNotice> of_files,
                                const std::filesystem::path& db) {
@@ -167,7 +167,7 @@ Expected<bool> process(const ProcessOptions& options) {
                                                  std::move(of_files), options.db)
                               .map([&] { return all; });
                         });
-  // Whatever stopped the run: what was accepted is stored before the archive is let go.
+  // Accepted batches are stored before the archive is closed, whatever stopped the run.
   if (auto outcome = outcome_of(done.map([](bool) {}), (*archive)->close()); !outcome) {
     return Unexpected{outcome.error()};
   }

@@ -35,8 +35,8 @@
 namespace spindrift {
 namespace {
 
-/// That of the newest run in the archive. Its orbit file lies where the run had it, or beside the
-/// archive, which may have come from elsewhere.
+/// Returns the mission of the newest run in the archive. Its orbit file is searched where the run
+/// had it and beside the archive, which may have come from another machine.
 Expected<Mission> stored_mission(const std::filesystem::path& db) {
   const auto stored = find_stored_mission(db);
   if (!stored) {
@@ -69,14 +69,13 @@ Expected<Mission> mission_for(const ReconstructOptions& options) {
   return mission;
 }
 
-/// What a run stores.
 struct ToStore {
-  std::vector<SampleBatch> samples;   ///< Empty: the archive has them.
-  std::vector<Product> products;      ///< Contradictions and notices, then what was made of all.
-  std::optional<std::string> sha256;  ///< Of all bytes of the files; empty: there are none.
+  std::vector<SampleBatch> samples;   ///< Empty when the archive already has them.
+  std::vector<Product> products;      ///< Contradictions and notices, then the reconstructions.
+  std::optional<std::string> sha256;  ///< Hash over all files; empty when there are none.
 };
 
-/// What is reconstructed from, and what of it is not in the archive yet.
+/// Holds the input of the reconstruction and the part of it that is not in the archive yet.
 struct Recorded {
   SeparationSamples samples;
   ToStore to_store;
@@ -93,8 +92,8 @@ void append(const SampleBatch& batch, const std::string& spacecraft_id, SenderNa
   }
 }
 
-/// Leaves those that count, and says what was contested.
-/// @param products Receive it.
+/// Keeps one value where senders contradict each other, and reports the contradictions.
+/// @param products Receives the contradictions.
 template <class Value>
 void settle(const std::string& spacecraft_id, const std::vector<std::string>& senders,
             std::vector<Value>& values, std::vector<Product>& products) {
@@ -165,7 +164,7 @@ Expected<Recorded> recorded(const ReconstructOptions& options, Mission& mission)
       });
 }
 
-/// @return InvalidConfiguration where no method gives an answer: the samples do not allow one.
+/// @return InvalidConfiguration when the samples allow no method to give an answer.
 Expected<SolvedSeparation> solved(const ReconstructOptions& options, const Mission& mission,
                                   SeparationSamples samples) {
   const ReconstructionRequest request{.sensors = std::get<ThreeAxisConfig>(mission.config),
@@ -184,8 +183,8 @@ Expected<SolvedSeparation> solved(const ReconstructOptions& options, const Missi
   return solved;
 }
 
-/// A run with the samples, by the path on which `process` stores them, and what was made of them.
-/// @return its id.
+/// Stores a run with the samples, by the path on which `process` stores them, and the products.
+/// @return The run's id.
 Expected<std::string> store(const ReconstructOptions& options, const Mission& mission,
                             ToStore to_store, Archive& archive) {
   auto processor = Processor::make(
@@ -218,15 +217,15 @@ Expected<std::string> store(const ReconstructOptions& options, const Mission& mi
       .map([&] { return last.run_id; });
 }
 
-/// What is printed, whoever made it.
+/// The output to print, whether computed here or by the service.
 struct Shown {
   std::string text;
   nlohmann::json object;
-  std::string plot;  ///< Empty: not asked for.
+  std::string plot;  ///< Empty when no plot was asked for.
   std::vector<std::string> failures;
 };
 
-/// @param store_in Is given what to store, and returns the run's id.
+/// @param store_in Called with the mission and what to store; returns the run's id.
 template <class StoreIn>
 Expected<Shown> made(const ReconstructOptions& options, const StoreIn& store_in) {
   auto mission = mission_for(options);
@@ -261,7 +260,7 @@ Expected<Shown> made(const ReconstructOptions& options, const StoreIn& store_in)
   return shown;
 }
 
-/// Here, with the archive opened for it.
+/// Reconstructs in this process, with the archive opened for it.
 Expected<Shown> made_here(const ReconstructOptions& options) {
   return made(options, [&](const Mission& mission, ToStore to_store) {
     return Archive::open(options.db, {}).and_then([&](std::unique_ptr<Archive>&& archive) {
@@ -273,7 +272,7 @@ Expected<Shown> made_here(const ReconstructOptions& options) {
   });
 }
 
-/// By the service that holds the archive. @return empty where none does.
+/// Asks the service that holds the archive to reconstruct. @return Empty when no service holds it.
 Expected<std::optional<Shown>> made_by_holder(const ReconstructOptions& options) {
   nlohmann::json request{{"do", kReconstructRequest},
                          {"mission", nullptr},
@@ -354,7 +353,7 @@ nlohmann::json answer_reconstruct(const nlohmann::json& request, const std::file
 }
 
 Expected<bool> reconstruct(const ReconstructOptions& options) {
-  // What files hold is stored under a run that takes it: not while another is taking it in.
+  // Samples of files need a run of this process, while no service holds the archive.
   auto by_holder = options.telemetry.empty() ? made_by_holder(options)
                                              : Expected<std::optional<Shown>>{std::nullopt};
   if (!by_holder) {

@@ -20,7 +20,7 @@
 namespace spindrift {
 namespace {
 
-/// When each is due: a stray one with the one before it.
+/// Returns when each sample is due; a sample with a stray time is due with the one before it.
 std::vector<TaiTime> due_times(const SampleBatch& batch) {
   std::vector<TaiTime> due;
   in_order_of_arrival(batch.samples, [&](const auto& sample) { due.push_back(sample.value.t); });
@@ -30,7 +30,7 @@ std::vector<TaiTime> due_times(const SampleBatch& batch) {
   return due;
 }
 
-/// `after_each()`: called for every sample that is out.
+/// @param after_each Called after every published sample.
 template <class AfterEach>
 Expected<void> publish(const SampleBatch& batch, TelemetryOutput& output, AfterEach after_each) {
   const std::vector<TaiTime> due = due_times(batch);
@@ -55,7 +55,7 @@ Expected<void> publish(TelemetryInput& telemetry, TelemetryOutput& output) {
     if (is_empty(*batch)) {
       return {};
     }
-    // A batch may take a minute at the pace of real time: its bytes are shared out among it.
+    // A batch may last a minute in real time: progress is counted per sample.
     const std::uint64_t bytes = telemetry.bytes_given() - bytes_before;
     const auto after_each = [&, done = std::uint64_t{0},
                              count = count_of(batch->samples)]() mutable {

@@ -1,5 +1,5 @@
 /// @file
-/// `spindrift replay`: recorded telemetry onto the bus, as the front-end sent them.
+/// `spindrift replay`: publishes recorded telemetry on the bus as the front-end sent it.
 
 #pragma once
 
@@ -15,8 +15,8 @@ namespace spindrift {
 struct ReplayOptions {
   std::filesystem::path mission;
   std::vector<std::filesystem::path> telemetry;
-  double speed = 1.0;  ///< Times real time; 0: as fast as it is taken.
-  bool now = false;  ///< As if it were of the present: subscribers are told by how much it is not.
+  double speed = 1.0;  ///< Multiple of real time; 0 means as fast as subscribers take it.
+  bool now = false;    ///< Tell subscribers how far sample times lie in the past.
   std::uint32_t domain = 0;
   std::string partition = "replay";
   bool json = false;

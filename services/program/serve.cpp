@@ -57,7 +57,7 @@
 namespace spindrift {
 namespace {
 
-// Samples between the thread that takes and the one that routes.
+// Capacity of the queue between the receiving and the routing thread, in samples.
 constexpr std::size_t kSamplesTaken = 65'536;
 constexpr int kUntilRead_ms = 1000;
 
@@ -113,7 +113,7 @@ std::size_t taken_size(const SampleBatch& taken) {
   return std::max<std::size_t>(size_of(taken), 1);
 }
 
-/// Of a queue that nobody empties any more. Whoever said them takes them for taken.
+/// Logs actions left in an unread queue, which their senders believe accepted.
 void tell_actions_left(BoundedQueue<SampleBatch>& taken) {
   taken.close();
   while (const auto batch = taken.take()) {
@@ -124,7 +124,7 @@ void tell_actions_left(BoundedQueue<SampleBatch>& taken) {
   }
 }
 
-/// What other programs ask while this one holds the archive. Where they cannot it is said.
+/// Answers requests of other programs while this one holds the archive.
 Expected<std::unique_ptr<RequestServer>> answer_requests(const std::filesystem::path& db,
                                                          Archive& archive, AlertDesk& desk,
                                                          ActionInbox& inbox) {
@@ -173,7 +173,7 @@ void tell_models(const GroundModels& models) {
   }
 }
 
-/// None of a rehearsal: its alerts must not wake anybody.
+/// Returns null in a rehearsal, whose alerts must not wake anybody.
 Expected<std::unique_ptr<Webhook>> start_webhook(const ServeOptions& options,
                                                  const AlertDesk& desk) {
   if (options.webhook.empty()) {
@@ -224,7 +224,7 @@ Expected<std::unique_ptr<Archive>> open_archive(const std::filesystem::path& db,
                                 }});
 }
 
-/// Of the runs that go on, before they do.
+/// Tells `announcer` what the continued runs have announced; call it before they continue.
 Expected<void> note_announced(const std::filesystem::path& db,
                               const std::vector<ArchiveBatch>& going_on, Announcer& announcer) {
   for (const ArchiveBatch& batch : going_on) {
@@ -240,7 +240,7 @@ Expected<void> note_announced(const std::filesystem::path& db,
   return {};
 }
 
-/// Where the next run has yet to begin. Nobody on the bus is told of it again.
+/// Restores runs of spacecraft whose next run has not begun, without announcing them.
 Expected<void> take_up_last_runs(const std::filesystem::path& db,
                                  const std::map<std::string, LastRun>& last_runs, AlertDesk& desk,
                                  ConsoleFeed* feed) {
@@ -258,8 +258,8 @@ Expected<void> take_up_last_runs(const std::filesystem::path& db,
   return {};
 }
 
-/// Those of the runs of such services, before anything is computed: what a rehearsal has left open
-/// must not wake anybody.
+/// Restores open alerts before anything is computed, only of runs of the same mode: alerts left
+/// open by a rehearsal must not wake anybody.
 Expected<void> take_up_alerts(const std::filesystem::path& db, RunMode mode, AlertDesk& desk,
                               ConsoleFeed* feed) {
   return find_alerts(db).map([&](const std::vector<StoredAlert>& alerts) {
@@ -274,7 +274,7 @@ Expected<void> take_up_alerts(const std::filesystem::path& db, RunMode mode, Ale
   });
 }
 
-/// A pipe that is full and that nobody reads must not keep a service that has stopped.
+/// A full pipe without a reader must not block a stopped service.
 Expected<void> print_if_read(const std::string& text) {
   pollfd out{.fd = STDOUT_FILENO, .events = POLLOUT, .revents = 0};
   if (::poll(&out, 1, kUntilRead_ms) == 0) {
@@ -291,7 +291,7 @@ void show(const Health& health, ServiceTerminal& terminal, ConsoleFeed* feed) {
   }
 }
 
-/// With the runs and alerts of before, whose samples are with the archive again.
+/// Continues the stored runs and alerts and submits the routed samples to the archive again.
 Expected<GoneOn> go_on(const ServiceParts& parts, ConsoleFeed* feed, Announcer& announcer) {
   return parts.processor.arrive_after(parts.db)
       .and_then([&] { return take_up_alerts(parts.db, parts.mode, parts.desk, feed); })
@@ -318,7 +318,7 @@ Expected<void> take_and_answer(const ServeOptions& options, const ServiceParts& 
   auto ran = run_service(std::move(stored), parts);
   terminal.erase();
   tell_actions_left(parts.taken);
-  // Who asks and waits for the archive gets his answer, so that the servers can end.
+  // Closing the archive answers clients that still wait for it, so that the servers can end.
   static_cast<void>(parts.archive.close());
   return ran;
 }
@@ -330,7 +330,7 @@ Expected<void> serve(const ServeOptions& options) {
   if (tell_as == TellAs::JsonLines) {
     log_as_json();
   }
-  // To the end of the process: a solution that was given up may still use it.
+  // The processor lives to the end of the process because an abandoned solution may still use it.
   const auto missions = load_missions(options.missions);
   static auto processor = make_processor(options, missions);
   if (!processor) {

@@ -18,19 +18,19 @@
 
 namespace spindrift {
 
-/// Before anything is opened. @return As ConsoleServer::check, of a console that is wanted.
+/// @return The error of ConsoleServer::check, if a console is wanted.
 Expected<void> check_console(const ServeOptions& options);
 
-/// Null where no console is wanted. @param missions Outlive it. @param name Of the service.
+/// Returns null when no console is wanted. @param missions They outlive the feed.
 std::unique_ptr<ConsoleFeed> make_console_feed(const ServeOptions& options,
                                                const std::vector<Mission>& missions,
                                                const std::string& name);
 
-/// And where the axis of a spinner should be.
+/// Puts the verdict and the expected spin axis of a spinner on the console.
 void show_verdict(ConsoleFeed& feed, const std::string& spacecraft, const std::string& run_id,
                   const PassVerdict& verdict, const AlertDesk& desk);
 
-/// Says where it is. Null where `feed` is. All of them outlive it. @return As ConsoleServer::start.
+/// Logs the console's address. @return Null if `feed` is; the errors of ConsoleServer::start.
 Expected<std::unique_ptr<ConsoleServer>> start_console(const ServeOptions& options,
                                                        ConsoleFeed* feed, AlertDesk& desk,
                                                        Archive& archive, ActionInbox& inbox);

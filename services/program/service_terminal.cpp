@@ -18,7 +18,7 @@
 namespace spindrift {
 namespace {
 
-// How long a silence lasts is said again.
+// Durations of a silence after which it is logged again.
 constexpr std::array<std::chrono::minutes, 2> kToldAfter{std::chrono::minutes{1},
                                                          std::chrono::minutes{5}};
 constexpr std::chrono::seconds kRateOver{10};
@@ -30,7 +30,7 @@ spdlog::level::level_enum level_of(AlertSeverity severity) {
   return kLevels.at(static_cast<std::size_t>(severity));
 }
 
-/// What has come of it, and by whom.
+/// Describes the change of the alert and who made it.
 std::string what_changed(const Alert& alert) {
   if (!alert.from) {
     return alert.message;
@@ -44,13 +44,13 @@ std::string what_changed(const Alert& alert) {
 
 void log_change(const std::string& spacecraft, const Alert& alert) {
   if (alert.state == AlertState::Cleared && alert.severity == AlertSeverity::Info) {
-    return;  // It told of an event, which is over by itself.
+    return;  // An alert of severity Info reports an event; its clearing is no news.
   }
   spdlog::log(alert.from ? spdlog::level::info : level_of(alert.severity), "{}: {}: {}", spacecraft,
               shown(alert.key), what_changed(alert));
 }
 
-/// A line that fills the last column makes some terminals begin another.
+/// Leaves the last column free, since some terminals wrap when it is filled.
 std::size_t columns_of_line() {
   winsize size{};
   const bool known = ::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 1;

@@ -1,5 +1,5 @@
 /// @file
-/// What the running service tells whoever sits before it, on standard error.
+/// Messages of the running service on standard error for the person at the terminal.
 
 #pragma once
 
@@ -22,38 +22,38 @@
 namespace spindrift {
 
 enum class TellAs {
-  StatusLine,  ///< A terminal: the state in its last line, above it what changes.
-  Lines,       ///< Of the log, what changes.
-  JsonLines    ///< Likewise, an object a line.
+  StatusLine,  ///< For a terminal: state in the last line, changes above it.
+  Lines,       ///< Changes as log lines.
+  JsonLines    ///< Changes as log lines, one JSON object each.
 };
-/// By what standard error is. @param json Where it is no terminal.
+/// Chooses by the type of standard error. @param json Selects JSON lines if it is no terminal.
 TellAs how_to_tell(bool json);
 
-/// Used by any thread; nobody waits.
+/// Safe to use from any thread; no call blocks for long.
 class ServiceTerminal {
  public:
-  /// @param missions Outlive it.
+  /// @param missions Must outlive the terminal.
   ServiceTerminal(const std::vector<Mission>& missions, TellAs as);
 
   bool has_status_line() const { return as_ == TellAs::StatusLine; }
 
-  /// Of runs of the service.
+  /// Counts the arrivals in a stored batch of a run of the service.
   void note(const ArchiveBatch& stored) { arrivals_.note(stored); }
-  /// A change of an alert, in the order of changes.
+  /// Logs a change of an alert. Call it in the order of changes.
   void tell(const std::string& spacecraft, const std::string& run_id, const Alert& alert);
-  /// Of each second: how long a silence lasts; and the status line of a spacecraft that was heard,
-  /// one after the other.
+  /// Call it every second. It reminds of continuing silences and draws the status line of each
+  /// spacecraft that was heard, in turn.
   void show(const Health& health);
-  /// Leaves the last line to whoever writes next.
+  /// Erases the status line, so that the next writer gets an empty last line.
   void erase() const;
 
  private:
   using Instant = std::chrono::steady_clock::time_point;
-  /// Samples of a spacecraft in the last seconds.
+  /// Cumulative sample counts of a spacecraft in the last seconds.
   using Counts = std::deque<std::pair<Instant, std::int64_t>>;
   struct Silence {
     AlertSeverity severity;
-    std::size_t told = 0;  ///< Of kToldAfter.
+    std::size_t told = 0;  ///< Number of entries of kToldAfter already logged.
   };
 
   void remind(const SpacecraftHealth& health);
@@ -63,9 +63,9 @@ class ServiceTerminal {
   const std::vector<Mission>& missions_;
   const TellAs as_;
   ArrivalTally arrivals_;
-  std::mutex mutex_;                         // Of what follows.
-  std::map<std::string, Silence> silences_;  ///< By spacecraft, while `link.silent` is open.
-  std::map<std::string, Counts> counts_;     ///< By spacecraft.
+  std::mutex mutex_;                         // Guards the members below.
+  std::map<std::string, Silence> silences_;  ///< By spacecraft, while alert `link.silent` is open.
+  std::map<std::string, Counts> counts_;     ///< Counts by spacecraft.
   std::size_t turn_ = 0;
 };
 

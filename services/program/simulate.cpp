@@ -40,7 +40,7 @@ nlohmann::json counts_json(const std::vector<Counted>& counts) {
   return object;
 }
 
-/// Where a pass went.
+/// Holds what is printed about the pass.
 struct Output {
   nlohmann::json json = nlohmann::json::object();
   std::string text;
@@ -50,7 +50,7 @@ std::string since_text(const nlohmann::ordered_json& t_s) {
   return t_s.is_number() ? fmt::format("since {:.1f} s", t_s.get<double>()) : "never";
 }
 
-/// What the control of an orientation reached.
+/// Describes the performance of an orientation's control.
 std::string control_text(const nlohmann::ordered_json& truth) {
   return fmt::format(
       "  points {}, within 1 deg {}, {:.2g} deg off at the end\n"
@@ -83,7 +83,7 @@ void report(const Scenario& scenario, const SimulatedPass& pass, Output output, 
   fmt::print("{}", output.text);
 }
 
-/// Of a flight by wheels the loops of its control, too. @return their paths.
+/// Plots the flight and, if it has wheels, its control loops. @return The paths.
 Expected<std::vector<std::filesystem::path>> write_plots(const std::filesystem::path& out,
                                                          const Scenario& scenario,
                                                          const SimulatedPass& pass) {
@@ -119,7 +119,7 @@ Expected<void> to_files(const SimulateOptions& options, const Scenario& scenario
     output.json["files"].push_back(path.string());
     output.text += path.string() + '\n';
   }
-  if (options.publish) {  // The service may be started with it now.
+  if (options.publish) {  // The service may now be started with this mission file.
     spdlog::info("{} is written", shown((options.out / "mission.toml").string()));
   }
   return {};
@@ -155,9 +155,9 @@ Expected<void> to_bus(const SimulateOptions& options, const Scenario& scenario,
       });
 }
 
-/// Beside the folders of the runs: runs.csv and histograms.svg.
+/// Makes the Monte Carlo runs and writes runs.csv and histograms.svg beside their folders.
 Expected<void> many(const SimulateOptions& options) {
-  // What the pipelines notice of a run is no news of this command.
+  // Warnings of the pipelines about single runs would flood the log.
   spdlog::set_level(spdlog::level::err);
   return monte_carlo({.scenario = options.scenario,
                       .out = options.out,

@@ -1,5 +1,5 @@
 /// @file
-/// `spindrift simulate`: a pass made from a scenario, into files or onto the bus.
+/// `spindrift simulate`: simulates a pass from a scenario, into files or onto the bus.
 
 #pragma once
 
@@ -15,17 +15,17 @@ struct SimulateOptions {
   std::filesystem::path scenario;
   std::filesystem::path out;  ///< Folder for the files, written before anything is published.
   bool publish = false;
-  double speed = 1.0;  ///< Times real time; 0: as fast as it is taken.
-  bool now = false;    ///< The pass is of the present.
+  double speed = 1.0;  ///< Multiple of real time; 0 means as fast as subscribers take it.
+  bool now = false;    ///< Shift the pass to the present.
   std::uint32_t domain = 0;
   std::string partition = "replay";
-  std::int64_t runs = 0;  ///< So many, of seeds and dispersions; 0: one pass, as it stands.
-  int jobs = 1;           ///< Threads for them.
-  bool plots = false;     ///< With the files of one pass, of a three-axis spacecraft.
+  std::int64_t runs = 0;  ///< Number of Monte Carlo runs; 0 means one pass without dispersions.
+  int jobs = 1;           ///< Number of threads for Monte Carlo runs.
+  bool plots = false;     ///< Also write plots; only for one pass of a three-axis spacecraft.
   bool json = false;
 };
 
-/// Prints what it made on standard output.
+/// Prints a summary of the pass on standard output.
 /// @return InvalidConfiguration for a bad scenario; Unavailable when the files cannot be written,
 ///         nobody subscribes or the bus fails.
 Expected<void> simulate(const SimulateOptions& options);

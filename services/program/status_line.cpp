@@ -15,7 +15,7 @@
 namespace spindrift {
 namespace {
 
-/// What goes first where the line is too long comes last.
+/// Parts of the line by decreasing priority: when it is too long, the last ones are dropped first.
 enum class Need { Always, Name, Quality, Utc, Channels, Revolution, Rate, Estimator, Axis, Date };
 struct Part {
   Need need;
@@ -45,7 +45,7 @@ std::vector<Sensor> sensors_of(const Mission& mission, const TalliedArrivals& ar
   return sensors;
 }
 
-/// In whole s, min or h, of two digits.
+/// Formats an age in whole s, min or h with at most two digits.
 std::string short_age(double age_s) {
   constexpr double kMinute_s = 60.0;
   constexpr double kMost = 100.0;
@@ -55,7 +55,7 @@ std::string short_age(double age_s) {
                                  : fmt::format("{:.0f}h", s / kHour_s);
 }
 
-/// @param now By the clock of the telemetry.
+/// @param now Time by the clock of the telemetry.
 std::string ages(const std::vector<Sensor>& sensors, const TalliedArrivals& arrivals, TaiTime now) {
   std::vector<std::string> texts;
   for (const Sensor& sensor : sensors) {

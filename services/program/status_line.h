@@ -1,5 +1,5 @@
 /// @file
-/// How a spacecraft is doing, in one line of a terminal.
+/// The status of a spacecraft in one line of a terminal.
 
 #pragma once
 
@@ -13,12 +13,11 @@
 
 namespace spindrift {
 
-/// "SPINNER 03:24:04Z age 0.2s rev 597 6.0/s sun 0/0 N 0/0 S -/4 batch OK 0.042deg": telemetry UTC,
-/// how old it is, revolutions, edges (or samples) a second, the age of each channel in s (`-`: has
-/// not come), the answer in force with quality and sigma; where there is room also date and axis.
-/// Sensors are those of the mission, of a three-axis spacecraft those that have come.
-/// @param rate_hz Edges or samples. @param columns At most so many characters: what is needed least
-/// goes first.
+/// "SPINNER 03:24:04Z age 0.2s rev 597 6.0/s sun 0/0 N 0/0 S -/4 batch OK 0.042deg": UTC and age of
+/// the telemetry, revolutions, edges (or samples) per second, the age of each channel in s (`-`:
+/// never received), the estimate in force with quality and sigma; where there is room also date and
+/// axis. A three-axis spacecraft shows only the sensors received.
+/// @param columns Largest number of characters; the least needed parts are dropped first.
 std::string status_line(const Mission& mission, const SpacecraftHealth& health,
                         const TalliedArrivals& arrivals, std::optional<double> rate_hz,
                         std::size_t columns);

@@ -30,7 +30,7 @@
 namespace spindrift {
 namespace {
 
-/// An estimate in the units of people.
+/// Holds an estimate in readable units.
 struct Readable {
   double ra_deg;
   double dec_deg;
@@ -50,7 +50,7 @@ Readable readable(const SpinEstimate& estimate) {
           .utc = format_utc(estimate.t)};
 }
 
-/// "1: 590, 2: 7".
+/// Returns for example "1: 590, 2: 7".
 template <class Key>
 std::string listed(const std::map<Key, std::int64_t>& counts) {
   std::string text;
@@ -88,7 +88,7 @@ std::string axis_text(const RunSummary& summary) {
   if (summary.estimates.empty()) {
     return "  spin axis    not determined\n";
   }
-  int angle = 4;  // Decimals; likewise the following.
+  int angle = 4;  // Number of decimals of angles.
   int rate = 6;
   for (const auto& [estimator, estimate] : summary.estimates) {
     const Readable shown = readable(estimate);
@@ -112,7 +112,7 @@ std::string axis_text(const RunSummary& summary) {
   return text + origins;
 }
 
-/// Of ICRF to body.
+/// Holds the Euler angles of the rotation from ICRF to body, deg.
 struct EulerDeg {
   double phi;
   double theta;
@@ -187,7 +187,7 @@ nlohmann::json sensors_json(const RunSummary& summary) {
   return sensors;
 }
 
-/// What the estimator used of each sensor, and how many times the noise it allows for they had.
+/// Shows per sensor the share used and the residual scatter over the assumed noise.
 std::string residuals_text(const RunSummary& summary) {
   std::vector<std::string> texts;
   for (const SourceSummary& one : summary.ledger.sources()) {
@@ -296,7 +296,7 @@ std::string to_text(const RunSummary& summary) {
   if (!summary.verdict.finished) {
     text += "  interrupted  what follows rests on a part of the telemetry\n";
   }
-  // What the mission wants to know of a separation is the attitude then, not the one now.
+  // After a separation the mission asks for the attitude at that time, so it comes first.
   text += reconstructions_text(summary) + to_text(summary.verdict);
   if (summary.kind == SpacecraftKind::ThreeAxis) {
     text += "  received     ";

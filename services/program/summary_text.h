@@ -1,5 +1,5 @@
 /// @file
-/// A run's summary for people and for programs.
+/// Formats the summary of a run as text and as JSON.
 
 #pragma once
 
@@ -13,22 +13,23 @@
 
 namespace spindrift {
 
-/// Several lines, ending in a line end.
+/// Returns several lines, each with a line end.
 std::string to_text(const RunSummary& summary);
 
 nlohmann::json to_json(const RunSummary& summary);
 
 nlohmann::json to_json(const SpinEstimate& estimate);
 
-/// An estimate on one line, for the log.
+/// Returns the estimate on one line, for the log.
 std::string to_text(const SpinEstimate& estimate);
 std::string to_text(const AttitudeEstimate& attitude);
-/// Its T1.
+/// Returns the attitude at time T1 on one line.
 std::string to_text(const ReconstructionProduct& reconstruction);
 
-/// All runs of one command: text, or one JSON object with `db`, `runs` and `other_spacecraft`.
-/// @param db Read for what is stored: the runs' products and samples must be in it.
-/// @return as count_stored_edges.
+/// Reports on all runs of one command: as text, or one object with `db`, `runs`,
+/// `other_spacecraft`.
+/// @param db Archive that already holds the products and samples of the runs.
+/// @return The errors of count_stored_edges.
 Expected<std::string> report(const Processor& processor, const std::filesystem::path& db,
                              bool json);
 

@@ -39,7 +39,7 @@ Expected<void> find_bad_rows_of(const std::filesystem::path& path, BadRows& bad)
   }
 }
 
-/// A front-end that was stopped before its first line leaves such a file.
+/// A front-end that was stopped before it wrote a line leaves an empty file.
 RejectedInput empty_file(const TelemetryFile& file) {
   return {.source = shown(file.path.string()),
           .line = 1,

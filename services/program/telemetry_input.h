@@ -1,5 +1,5 @@
 /// @file
-/// Recorded telemetry as `process` and `replay` take it.
+/// Recorded telemetry as input of `process` and `replay`.
 
 #pragma once
 
@@ -18,7 +18,7 @@
 
 namespace spindrift {
 
-/// How many rows were bad, and the first few of them.
+/// Holds the number of bad rows and the first few of them.
 struct BadRows {
   std::uint64_t count = 0;
   std::vector<RejectedInput> first = {};
@@ -27,39 +27,39 @@ struct BadRows {
   std::string text() const;
 };
 
-/// The warning of them. @return it; empty: there are none.
+/// Warns of bad rows and returns the notice; empty when there are none.
 std::optional<RunNotice> told_bad_rows(const BadRows& bad);
 
-/// As an archive keeps them, which may be read from another folder.
+/// Returns absolute paths, since an archive may be read from another folder.
 std::vector<std::string> absolute_texts(std::span<const std::filesystem::path> paths);
 
-/// A pass over all files, in constant memory.
-/// @return as TelemetryStream.
+/// Reads all files once in constant memory.
+/// @return The errors of TelemetryStream.
 Expected<BadRows> find_bad_rows(std::span<const TelemetryFile> files);
 
 class TelemetryInput {
  public:
-  /// The telemetry in `paths` (files, or directories of them). An empty file beside others is
-  /// rejected input.
-  /// @param spacecraft Of the rows, where a file does not say.
-  /// @param strict     A bad row anywhere is an error.
+  /// Opens the telemetry in `paths` (files, or directories of them). An empty file beside others
+  /// counts as rejected input.
+  /// @param spacecraft Spacecraft of the rows in files that do not name one.
+  /// @param strict Whether a bad row anywhere is an error.
   /// @return InvalidConfiguration for unreadable files, where there is no row at all, and for bad
   ///         rows when strict.
   static Expected<TelemetryInput> open(std::span<const std::filesystem::path> paths,
                                        const std::string& spacecraft, bool strict);
 
-  /// As TelemetryStream.
+  /// Returns the next batch, with the errors of TelemetryStream.
   Expected<SampleBatch> next();
 
-  /// The preferred source of `mission` by the name that its samples have here. That it is none of
-  /// the files is said, and returned.
+  /// Sets the preferred source of `mission` to the name that its samples have in this input. When
+  /// no file has that source, it warns and returns the notice.
   std::optional<RunNotice> find_preferred(Mission& mission) const;
 
-  /// That there are files of, each once.
+  /// Returns each kind of telemetry found in the files once.
   std::vector<TelemetryKind> kinds() const;
-  /// Of all bytes of the files. @return the errors of InputFile.
+  /// Returns the hash over all bytes of the files, with the errors of InputFile.
   Expected<std::string> sha256() const;
-  const BadRows& bad_rows() const { return bad_rows_; }  ///< Of the batches given.
+  const BadRows& bad_rows() const { return bad_rows_; }  ///< Bad rows returned so far.
   std::uint64_t bytes_given() const { return stream_.bytes_given(); }
   std::uint64_t bytes_total() const { return stream_.bytes_total(); }
 
@@ -69,7 +69,7 @@ class TelemetryInput {
 
   std::vector<TelemetryFile> files_;
   TelemetryStream stream_;
-  SampleBatch first_;  ///< Not given yet.
+  SampleBatch first_;  ///< First batch, until next() returns it.
   BadRows bad_rows_;
 };
 

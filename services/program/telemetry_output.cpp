@@ -23,13 +23,13 @@ namespace {
 
 using std::chrono::steady_clock;
 
-constexpr std::chrono::seconds kWaitInSilence{1};  // One that is there is found within it.
+constexpr std::chrono::seconds kWaitInSilence{1};  // Long enough to find an existing subscriber.
 constexpr std::chrono::seconds kWaitForSubscriber{30};
 constexpr std::chrono::seconds kWaitForArrival{60};
-// Who is told to stop does not wait long for a subscriber that hangs.
+// After a stop request, a subscriber that hangs is not waited for long.
 constexpr std::chrono::seconds kWaitForArrivalWhenStopped{2};
 constexpr std::chrono::milliseconds kSlice{100};
-// Of telemetry time: who receives several topics waits for a second for what precedes a sample.
+// Telemetry time. A subscriber of several topics waits up to one second for earlier samples.
 constexpr std::chrono::milliseconds kLongestPacked{500};
 
 bool has_several(const TelemetryPublishers& publishers) {
@@ -38,8 +38,8 @@ bool has_several(const TelemetryPublishers& publishers) {
   return kinds > 1;
 }
 
-/// `attempt(kSlice)` until it succeeds, for `patience` at most.
-/// @return the last error of `attempt`.
+/// Calls `attempt(kSlice)` until it succeeds, for at most `patience`.
+/// @return The last error of `attempt`.
 template <class Attempt>
 Expected<void> try_for(std::chrono::seconds patience, const std::stop_token& stop,
                        const Attempt& attempt) {
@@ -52,7 +52,7 @@ Expected<void> try_for(std::chrono::seconds patience, const std::stop_token& sto
   }
 }
 
-/// `attempt(publisher)` with each that there is, until one fails.
+/// Calls `attempt(publisher)` for each existing publisher until one fails.
 template <class Attempt>
 Expected<void> with_each(const TelemetryPublishers& publishers, const Attempt& attempt) {
   Expected<void> done;
@@ -177,7 +177,7 @@ PublishedCounts TelemetryOutput::counts() const {
   return counts;
 }
 
-/// In a rehearsal, before the first sample of a spacecraft.
+/// Publishes the rehearsal clock before the first sample of a spacecraft.
 Expected<void> TelemetryOutput::tell_clock(std::string_view spacecraft, const Origin& origin,
                                            TaiTime t) {
   if (!rehearsal_ || told_clock_.contains(spacecraft)) {
@@ -194,8 +194,8 @@ Expected<void> TelemetryOutput::tell_clock(std::string_view spacecraft, const Or
   });
 }
 
-/// What is due together goes out packed; nothing that is out waits for what is not due, and of
-/// several topics none falls behind the others until its packet is full.
+/// Samples that are due together go out packed. Before it waits, and at least every kLongestPacked
+/// of telemetry time when there are several topics, it flushes, so that no sample is held back.
 void TelemetryOutput::wait_until_due(TaiTime t) {
   const auto due = pacing_.due(t);
   if (due || (has_several(publishers_) && t - flushed_.value_or(t) >= kLongestPacked)) {

@@ -1,5 +1,5 @@
 /// @file
-/// Telemetry out on the bus at the pace of its own time, as `replay` and `simulate` send it.
+/// Publishes telemetry on the bus at the pace of its own time stamps, for `replay` and `simulate`.
 
 #pragma once
 
@@ -23,7 +23,7 @@
 
 namespace spindrift {
 
-/// How many samples of each kind went out, of those that were to come.
+/// Counts the samples published, for each kind that the input contains.
 class PublishedCounts {
  public:
   struct Count {
@@ -34,7 +34,7 @@ class PublishedCounts {
   void add(std::string_view plural, std::uint64_t samples) { counts_.push_back({plural, samples}); }
   std::uint64_t all() const;
   std::string text() const;  ///< "3600 edges and 0 coded frames"
-  /// "published" (all), and each kind, "coded_frames". @param prefix Of the names of kinds.
+  /// @return "published" (the total) and each kind, as "coded_frames". @param prefix Of the kinds.
   nlohmann::json json(std::string_view prefix = {}) const;
 
  private:
@@ -43,19 +43,19 @@ class PublishedCounts {
 
 template <class Value>
 using PublisherOfKind = std::optional<TelemetryPublisher<Value>>;
-/// Of those kinds of telemetry that are to be sent.
+/// One publisher for each kind of telemetry to be sent.
 using TelemetryPublishers = ByKind<PublisherOfKind>;
 
-/// What a rehearsal's telemetry is of.
+/// The time that the telemetry of a rehearsal belongs to.
 enum class Rehearsal {
-  OfThePast,     ///< Recorded: its first sample is due now, whatever its time.
+  OfThePast,     ///< Recorded telemetry, whose first sample is due now.
   OfThePresent,  ///< Each sample is due when the host's clock says its time.
 };
 
-/// One source on the topics of the telemetry.
+/// Publishes the telemetry of one source.
 class TelemetryOutput {
  public:
-  /// @param clock Of a rehearsal, by which subscribers learn how the telemetry goes.
+  /// @param clock Tells subscribers of a rehearsal the offset of telemetry time.
   TelemetryOutput(TelemetryPublishers publishers, double speed, std::stop_token stop,
                   std::optional<Rehearsal> rehearsal = {},
                   std::optional<bus::Writer<spindrift_RehearsalClock>> clock = {})
@@ -65,13 +65,13 @@ class TelemetryOutput {
         rehearsal_{rehearsal},
         clock_{std::move(clock)} {}
 
-  /// When its time is due, and for as long as a subscriber pushes back. Its kind is to be sent.
-  /// @return as TelemetryPublisher::publish.
+  /// Publishes a sample when its time is due and subscribers have room. Its kind has a publisher.
+  /// @return The errors of TelemetryPublisher::publish.
   template <class Value>
   Expected<void> publish(std::string_view spacecraft, const Value& value) {
     return publish(spacecraft, value, value.t);
   }
-  /// When `due` is.
+  /// Publishes a sample at time `due` instead of its own time.
   template <class Value>
   Expected<void> publish(std::string_view spacecraft, const Value& value, TaiTime due) {
     auto& publisher = *publishers_.of<Value>();
@@ -85,7 +85,6 @@ class TelemetryOutput {
 
   const TelemetryPublishers& publishers() const { return publishers_; }
   PublishedCounts counts() const;
-  /// Time of the sample published last.
   const std::optional<TaiTime>& reached() const { return reached_; }
 
  private:
@@ -97,24 +96,24 @@ class TelemetryOutput {
   std::stop_token stop_;
   std::optional<Rehearsal> rehearsal_;
   std::optional<bus::Writer<spindrift_RehearsalClock>> clock_;
-  std::optional<std::chrono::nanoseconds> offset_;  ///< Of the host's clock, in a rehearsal.
-  std::set<std::string, std::less<>> told_clock_;   ///< Spacecraft.
+  std::optional<std::chrono::nanoseconds> offset_;  ///< Host clock minus telemetry time.
+  std::set<std::string, std::less<>> told_clock_;   ///< Spacecraft with a clock sent.
   std::optional<TaiTime> reached_;
   std::optional<TaiTime> flushed_;
 };
 
 struct Sending {
   bus::BusConfig bus;
-  std::string source;                  ///< Its name on the bus.
-  double speed;                        ///< Times real time; 0: as fast as it is taken.
-  std::optional<Rehearsal> rehearsal;  ///< At speed 1.
-  std::vector<TelemetryKind> kinds;    ///< That will come, for which there must be a subscriber.
+  std::string source;                  ///< Name of the source on the bus.
+  double speed;                        ///< Multiple of real time; 0 sends as fast as possible.
+  std::optional<Rehearsal> rehearsal;  ///< Set at speed 1 only.
+  std::vector<TelemetryKind> kinds;    ///< Kinds that will be sent; each needs a subscriber.
 };
 
 /// Waits for a subscriber, lets `feed` publish, waits until everything has arrived. SIGINT and
 /// SIGTERM end it early. Call it before any thread is started.
 /// @return the error of `feed`; Unavailable when nobody subscribes, the bus fails, a subscriber
-///         does not take what it was sent, or a signal came: how far it got.
+///         does not take what it was sent, or a signal came, with how far sending got.
 Expected<PublishedCounts> send_telemetry(
     const Sending& sending, const std::function<Expected<void>(TelemetryOutput&)>& feed);
 

@@ -1,5 +1,5 @@
 /// @file
-/// Times on the command line.
+/// Parsing of times on the command line.
 
 #pragma once
 
@@ -11,7 +11,7 @@
 
 namespace spindrift {
 
-/// @param option "--from". @return InvalidConfiguration for what is not UTC ending in Z.
+/// @param option As "--from". @return InvalidConfiguration for text that is not UTC ending in Z.
 Expected<TaiTime> utc_option(std::string_view option, const std::string& text);
 
 }  // namespace spindrift

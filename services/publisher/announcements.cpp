@@ -24,7 +24,8 @@ bool is_announced(const Product& product) {
       product);
 }
 
-/// On the bus, which only the latest of is seen: spacecraft, kind, and what else tells it apart.
+/// Identifies an instance on the bus: spacecraft, kind of product and name within the kind.
+/// Subscribers see only the latest of each instance.
 using Instance = std::tuple<std::string, std::size_t, std::string_view>;
 
 Instance instance_of(const Announcement& announcement) {
@@ -64,7 +65,7 @@ void Announcements::add(const std::string& spacecraft, const std::string& run_id
     }
   }
   if (more.empty()) {
-    return;  // Most of what is stored is not announced: nobody is woken for it.
+    return;  // Most stored products are not announced.
   }
   {
     const std::lock_guard lock{mutex_};

@@ -1,5 +1,5 @@
 /// @file
-/// Results that wait to be published. Who adds them never waits.
+/// Holds results that wait to be published. Adding a result never waits.
 
 #pragma once
 
@@ -20,22 +20,22 @@ struct Announcement {
   std::string spacecraft;
   std::string run_id;
   Product product;                                                 ///< Of a kind that is announced.
-  std::optional<std::chrono::steady_clock::time_point> came = {};  ///< As in ArchiveBatch.
+  std::optional<std::chrono::steady_clock::time_point> came = {};  ///< As ArchiveBatch::came.
 };
 
-/// Any thread adds, one takes. Beyond kMaxWaiting only the latest of each instance on the bus is
-/// kept: that is what a subscriber with keep-last 1 would see of them anyhow.
+/// Queue of results: any thread adds, one takes. Beyond kMaxWaiting only the latest of each
+/// instance on the bus is kept, which is all that a subscriber with keep-last 1 would see.
 class Announcements {
  public:
   static constexpr std::size_t kMaxWaiting = 4096;
 
-  /// Those of `products` that are announced. @param came As in ArchiveBatch.
+  /// Adds those of `products` that are announced. @param came As ArchiveBatch::came.
   void add(const std::string& spacecraft, const std::string& run_id,
            std::span<const Product> products,
            std::optional<std::chrono::steady_clock::time_point> came = {});
 
-  /// Waits for at least one and takes all, those of a spacecraft and kind in the order they came;
-  /// empty only when closed and drained.
+  /// Waits for at least one announcement and takes all. Those of a spacecraft and kind keep their
+  /// order. Empty only when the queue is closed and drained.
   std::vector<Announcement> take_all();
 
   void close();

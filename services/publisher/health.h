@@ -1,5 +1,5 @@
 /// @file
-/// How the service is doing, as told to others once a second.
+/// The health of the service, published once a second.
 
 #pragma once
 
@@ -17,24 +17,25 @@ enum class LinkState { Waiting, Live, Stale };
 
 struct SpacecraftHealth {
   std::string spacecraft;
-  LinkState link;  ///< Waiting: nothing has come yet, which is not known to be good or bad.
-  std::optional<TaiTime> last_sample = {};  ///< Telemetry time of the one that came last.
-  std::optional<double> data_age_s = {};    ///< Since it came; empty: none has since the start.
-  PassVerdict verdict = {};                 ///< Of the run in force.
+  LinkState link;  ///< Waiting when no sample has come yet, so its state is unknown.
+  std::optional<TaiTime> last_sample = {};  ///< Telemetry time of the sample that came last.
+  /// Time since that sample came, s; empty when none has come since the start.
+  std::optional<double> data_age_s = {};
+  PassVerdict verdict = {};  ///< Verdict on the current run.
 };
 
 struct Health {
-  TaiTime t;  ///< Of this report: wall clock.
+  TaiTime t;  ///< Wall-clock time of this report.
   std::uint64_t samples_received;
   std::uint64_t samples_committed;
-  std::uint64_t gaps;  ///< Missing now.
+  std::uint64_t gaps;  ///< Samples that are missing at present.
   std::uint64_t duplicates;
   std::uint64_t queue_depth;
   double commit_p99_ms;
-  std::string status;  ///< For people: "ok" or the worst problem; its first 64 bytes are published.
-  std::string message;  ///< All problems as they are, a line each; empty when there are none.
+  std::string status;   ///< "ok" or the worst problem; 64 bytes of it are published.
+  std::string message;  ///< All problems, one per line; empty when there are none.
   std::vector<SpacecraftHealth> spacecraft = {};
-  bool works = true;  ///< Samples are taken and stored, whatever else is wrong.
+  bool works = true;  ///< Whether samples are taken and stored.
 };
 
 }  // namespace spindrift

@@ -1,5 +1,5 @@
 /// @file
-/// The topics of products, and the generated types of their messages.
+/// Maps products to their topics and to the generated types of their messages.
 
 #pragma once
 
@@ -10,7 +10,7 @@
 
 namespace spindrift {
 
-/// `Type`: the generated one, which to_idl fills. For each kind of product that has a topic.
+/// Has the generated type that to_idl fills as `Type`. Specialised for each product with a topic.
 template <PublishedProduct Product>
 struct ProductMessage;
 

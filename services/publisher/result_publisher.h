@@ -1,5 +1,5 @@
 /// @file
-/// Products and health out on the bus.
+/// Publishes products and health on the bus.
 
 #pragma once
 
@@ -16,29 +16,30 @@
 
 namespace spindrift {
 
-/// A slow subscriber does not hold it up for longer than a tenth of a second: a late result is of
-/// no use, and the next one replaces it.
+/// Publishes results. A slow subscriber holds it up for a tenth of a second at most: a late result
+/// is of no use, and the next one replaces it.
 class ResultPublisher {
  public:
-  /// `participant` outlives it. @param service Names the instance; at most 64 bytes.
+  /// `participant` must outlive the publisher.
+  /// @param service Name of the instance, at most 64 bytes.
   /// @return Unavailable when Cyclone refuses.
   static Expected<ResultPublisher> create(const bus::Participant& participant, std::string service);
 
-  /// On the topic of its kind, or as what it is announced as; what has neither, and what
-  /// is_announced says no to, is not for publishing (see announcements.h).
-  /// @return InvalidInput for a name that does not fit (to_idl.h), Unavailable when the bus
-  /// refuses.
+  /// Publishes a product on the topic of its kind, or as the products it is announced as. A product
+  /// with neither is ignored, and one whose is_announced is false must not be passed (see
+  /// announcements.h). @return InvalidInput for a name that does not fit (to_idl.h), Unavailable
+  /// when the bus refuses.
   Expected<void> publish(std::string_view spacecraft, std::string_view run_id,
                          const Product& product) const;
-  /// On spindrift/health. @return likewise.
+  /// Publishes health on spindrift/health; errors as for products.
   Expected<void> publish(const Health& health) const;
 
-  /// Subscribers in sight that ask for more than is offered, a sentence each; see
-  /// services/bus/endpoints.h. @return Unavailable when Cyclone refuses.
+  /// Describes, one sentence each, the discovered subscribers that request more than is offered;
+  /// see services/bus/endpoints.h. @return Unavailable when Cyclone refuses.
   Expected<std::vector<std::string>> incompatible_readers() const;
 
  private:
-  using Writers = std::map<std::size_t, bus::UntypedWriter>;  ///< By kind.
+  using Writers = std::map<std::size_t, bus::UntypedWriter>;  ///< Writers by kind of product.
 
   ResultPublisher(std::string service, Writers products, bus::Writer<spindrift_Health> health)
       : service_{std::move(service)}, products_{std::move(products)}, health_{std::move(health)} {}

@@ -1,5 +1,5 @@
 /// @file
-/// Recorded or simulated telemetry out on the bus, as a front-end would send it.
+/// Publishes recorded or simulated telemetry on the bus as a front-end would.
 
 #pragma once
 
@@ -17,15 +17,14 @@
 
 namespace spindrift {
 
-/// Of a source that starts: drawn at random.
 std::uint64_t random_session();
 
-/// One topic of one source.
 template <class Value>
 class TelemetryPublisher {
  public:
-  /// @param session  The same for all topics of a source. `participant` outlives the publisher.
-  /// @param sending  Packed: whoever has nothing more to publish for a while calls `flush`.
+  /// `participant` must outlive the publisher.
+  /// @param session Must be the same for all topics of a source.
+  /// @param sending When packed, the caller must call `flush` before a pause in publishing.
   /// @return Unavailable when Cyclone refuses.
   static Expected<TelemetryPublisher> create(const bus::Participant& participant,
                                              const std::string& source,
@@ -38,9 +37,9 @@ class TelemetryPublisher {
         });
   }
 
-  /// With the next seq: 0, 1, 2, ... Waits for as long as a subscriber pushes back.
+  /// Publishes a sample with the next seq (0, 1, ...). Waits while a subscriber holds it back.
   /// @return InvalidInput for a name that does not fit (to_idl.h), Unavailable when stopped
-  ///         meanwhile or the bus refuses; the seq is then not used up.
+  /// meanwhile or when the bus refuses; the seq is then used again.
   Expected<void> publish(std::string_view spacecraft, const Value& value,
                          const std::stop_token& stop) {
     return to_idl(TelemetrySample<Value>{
@@ -50,20 +49,19 @@ class TelemetryPublisher {
         .map([this] { ++next_.seq; });
   }
 
-  /// What is still packed goes out.
+  /// Sends samples that are still packed.
   void flush() const { writer_.flush(); }
 
-  /// Until somebody subscribes. @return Unavailable after `timeout`.
+  /// Waits until a subscriber exists. @return Unavailable after `timeout`.
   Expected<void> wait_for_subscriber(std::chrono::nanoseconds timeout) const {
     return writer_.wait_for_reader(timeout);
   }
 
-  /// Until all subscribers have everything. @return Unavailable after `timeout`.
+  /// Waits until all subscribers have acknowledged everything. @return Unavailable after `timeout`.
   Expected<void> wait_for_acknowledgments(std::chrono::nanoseconds timeout) const {
     return writer_.wait_for_acknowledgments(timeout);
   }
 
-  /// Of the sample to come.
   const Origin& next() const { return next_; }
 
  private:

@@ -14,8 +14,7 @@ namespace {
 
 constexpr double kNotAvailable = std::numeric_limits<double>::quiet_NaN();
 
-/// Cut where it is too long, between words, or within a long one between characters of UTF-8; then
-/// it ends in "...".
+/// Copies text; cuts long text between words or UTF-8 characters and ends it in "...".
 void put_text(std::span<char> field, std::string_view text) {
   constexpr std::string_view kCut = "...";
   const std::size_t room = field.size() - 1;
@@ -42,7 +41,7 @@ Expected<void> put_origin(Result& result, const ResultOrigin& origin) {
       .and_then([&] { return put_name(result.service, origin.service, "service"); });
 }
 
-/// Points into `health`.
+/// The message points into `health`, which must outlive it.
 Expected<spindrift_SpacecraftHealth> to_idl(const SpacecraftHealth& health) {
   const PassVerdict& verdict = health.verdict;
   spindrift_SpacecraftHealth out{
@@ -53,7 +52,7 @@ Expected<spindrift_SpacecraftHealth> to_idl(const SpacecraftHealth& health) {
       .estimator = {},
       .quality = {},
       .sigma_deg = verdict.sigma_deg.value_or(kNotAvailable),
-      // The generated types know no const: a sample that is written is only read.
+      // The generated types have no const, but a message that is written is only read.
       .why = const_cast<char*>(verdict.why.c_str()),           // NOLINT(*-pro-type-const-cast)
       .against = const_cast<char*>(verdict.against.c_str())};  // NOLINT(*-pro-type-const-cast)
   return put_name(out.spacecraft, health.spacecraft, "spacecraft")
@@ -163,7 +162,7 @@ Expected<spindrift_Alert> to_idl(const ResultOrigin& origin, const Alert& alert)
   out.state = static_cast<spindrift_AlertState>(alert.state);
   out.raised_tai_ns = tai_ns(alert.raised);
   out.updated_tai_ns = tai_ns(alert.updated);
-  // The generated types know no const: a sample that is written is only read.
+  // The generated types have no const, but a message that is written is only read.
   out.message = const_cast<char*>(alert.message.c_str());         // NOLINT(*-pro-type-const-cast)
   out.evidence_json = const_cast<char*>(alert.evidence.c_str());  // NOLINT(*-pro-type-const-cast)
   return put_name(out.spacecraft, origin.spacecraft, "spacecraft")
@@ -192,7 +191,7 @@ Expected<HealthSample> to_idl(std::string_view service, const Health& health) {
       .queue_depth = health.queue_depth,
       .commit_p99_ms = health.commit_p99_ms,
       .status = {},
-      // The generated types know no const: a sample that is written is only read.
+      // The generated types have no const, but a message that is written is only read.
       .message = const_cast<char*>(health.message.c_str()),  // NOLINT(*-pro-type-const-cast)
       .spacecraft = {._maximum = count,
                      ._length = count,

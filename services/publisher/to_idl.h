@@ -1,9 +1,8 @@
 /// @file
-/// Values of ours as they go out on the bus: degrees, rpm, fixed-size text. The only place that
-/// fills the generated types.
-///
-/// Names (spacecraft, source, service) that do not fit are InvalidInput: another name would be
-/// another spacecraft. Status text, which is for people, is cut to fit.
+/// Converts values of the domain to messages for the bus: degrees, rpm, fixed-size text. Only this
+/// file fills the generated types.
+/// Names (spacecraft, source, service) that do not fit give InvalidInput, because a shortened name
+/// could be that of another spacecraft. Status text, which is for people, is cut to fit.
 
 #pragma once
 
@@ -26,14 +25,14 @@
 
 namespace spindrift {
 
-/// Whose result it is, and who gave it.
+/// Identifies the spacecraft and run of a result, and the service that gave it.
 struct ResultOrigin {
   std::string_view spacecraft;
   std::string_view run_id;
   std::string_view service;
 };
 
-/// @name One member of a telemetry value into one of its message; what was not received is NaN
+/// @name Copy a member of a telemetry value to its message; a value that was not received is NaN
 /// @{
 inline void put(double member, double& field) { field = member; }
 inline void put(const std::optional<double>& member, double& field) {
@@ -45,7 +44,7 @@ void put(PulseChannel member, Field& field) {
 }
 /// @}
 
-/// `field` is zeroed and keeps its last byte 0.
+/// Copies `name` into `field`, which must be zeroed; its last byte stays 0.
 Expected<void> put_name(std::span<char> field, std::string_view name, std::string_view what);
 
 template <class Value>
@@ -62,23 +61,23 @@ Expected<bus::MessageOf<Value>> to_idl(const TelemetrySample<Value>& sample) {
       .map([&out] { return out; });
 }
 
-/// The IDL has no optional: an absent alternate is NaN in both its members.
+/// Converts a fix. An absent alternate is NaN in both members: the IDL has no optional.
 Expected<spindrift_SpinFix> to_idl(const ResultOrigin& origin, const SpinFix& fix);
 
 Expected<spindrift_SpinEstimate> to_idl(const ResultOrigin& origin, const SpinEstimate& estimate);
 
-/// Rates that are not estimated are NaN.
+/// Converts an estimate. Rates that are not estimated are NaN.
 Expected<spindrift_AttitudeEstimate> to_idl(const ResultOrigin& origin,
                                             const AttitudeEstimate& estimate);
 
-/// @param offset Of the host's clock from the time of the telemetry that is due.
+/// @param offset How far the host's clock is ahead of the telemetry that is due.
 Expected<spindrift_RehearsalClock> to_idl(std::string_view spacecraft, const Origin& origin,
                                           std::chrono::nanoseconds offset);
 
-/// Points into `alert`, which outlives what it gives.
+/// The message points into `alert`, which must outlive it.
 Expected<spindrift_Alert> to_idl(const ResultOrigin& origin, const Alert& alert);
 
-/// Points into the Health that it was made of, and into itself: it is moved and not copied.
+/// Movable only: the message points into this object and the Health it was made from.
 struct HealthSample {
   HealthSample() = default;
   HealthSample(const HealthSample&) = delete;
@@ -91,7 +90,7 @@ struct HealthSample {
   std::vector<spindrift_SpacecraftHealth> spacecraft;
 };
 
-/// `health` outlives what it gives.
+/// `health` must outlive the returned message.
 Expected<HealthSample> to_idl(std::string_view service, const Health& health);
 
 }  // namespace spindrift

@@ -1,5 +1,5 @@
 /// @file
-/// An axis of values, and what stands across it.
+/// Axis of a plot, and limits drawn across it.
 
 #pragma once
 

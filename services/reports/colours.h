@@ -1,5 +1,5 @@
 /// @file
-/// The colours of all pages.
+/// Colours of all plots.
 
 #pragma once
 
@@ -8,13 +8,13 @@
 
 namespace spindrift::plot {
 
-// What stands around curves.
+// Text, grid and frames.
 inline constexpr std::string_view kInk = "#222222";
 inline constexpr std::string_view kFaint = "#666666";
 inline constexpr std::string_view kGrid = "#e6e6e6";
 inline constexpr std::string_view kFrame = "#999999";
 
-// Curves: told apart by colour-blind people too (Okabe and Ito).
+// Curves, in colours that the colour-blind can tell apart (Okabe and Ito).
 inline constexpr std::string_view kVermilion = "#d55e00";
 inline constexpr std::string_view kGreen = "#009e73";
 inline constexpr std::string_view kBlue = "#0072b2";

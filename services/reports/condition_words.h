@@ -1,5 +1,5 @@
 /// @file
-/// What holds in a coming pass as sentences for people.
+/// Conditions of a planned pass as sentences.
 
 #pragma once
 
@@ -9,7 +9,7 @@
 
 namespace spindrift {
 
-/// As "north beam sees the Earth".
+/// Returns a sentence such as "north beam sees the Earth".
 std::string sentence_of(const PassCondition& condition);
 
 }  // namespace spindrift

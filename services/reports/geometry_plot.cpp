@@ -44,7 +44,6 @@ Curve curve_of(const PlannedPass& pass, std::string name, std::string_view colou
   return curve;
 }
 
-/// Where there is one, in deg.
 std::optional<double> deg(const std::optional<double>& angle_rad) {
   return angle_rad ? std::optional{*angle_rad * kDegPerRad} : std::nullopt;
 }
@@ -76,7 +75,7 @@ struct Range {
   double high;
 };
 
-/// Of all values, and at least from `low` to `high`.
+/// Returns the range of all values, which contains at least `low` to `high`.
 Range range_of(const std::vector<Curve>& curves, double low, double high) {
   Range range{.low = low, .high = high};
   for (const Curve& curve : curves) {

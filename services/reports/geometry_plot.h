@@ -1,5 +1,5 @@
 /// @file
-/// A planned pass as a picture.
+/// Plot of a planned pass.
 
 #pragma once
 
@@ -9,8 +9,7 @@
 
 namespace spindrift {
 
-/// SVG that stands by itself: angles, chords, |Delta|, the sigma to expect, and what each sensor
-/// sees, one above the other over UTC.
+/// Returns an SVG: angles, chords, |Delta|, expected sigma, and what each sensor sees, over UTC.
 std::string plot_of(const PlannedPass& pass);
 
 }  // namespace spindrift

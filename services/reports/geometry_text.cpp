@@ -16,7 +16,7 @@
 namespace spindrift {
 namespace {
 
-constexpr std::string_view kEdgeMarks = "12NnSs";  // By PulseChannel.
+constexpr std::string_view kEdgeMarks = "12NnSs";  // Marks in the order of PulseChannel.
 
 constexpr std::string_view kLegend =
     "angles and sigma in deg. s-e: between Sun and Earth; rho: half-angle of the Earth's disc;\n"

@@ -1,5 +1,5 @@
 /// @file
-/// A planned pass for people and for programs.
+/// Output of a planned pass as text and JSON.
 
 #pragma once
 
@@ -10,13 +10,13 @@
 
 namespace spindrift {
 
-/// One line: from when to when, about which axis, how fast.
+/// Returns one line with the times, the axis and the rate.
 std::string title_of(const PlannedPass& pass);
 
-/// A table of the steps, then what holds from when to when.
+/// Returns a table of the steps, then the conditions with their times.
 std::string to_text(const PlannedPass& pass);
 
-/// Angles in deg; null where there is none.
+/// Returns the pass with angles in deg; null where there is none.
 nlohmann::json to_json(const PlannedPass& pass);
 
 }  // namespace spindrift

@@ -1,5 +1,5 @@
 /// @file
-/// A planned pass with what was asked for, to be shown.
+/// A planned pass with its request, to be reported.
 
 #pragma once
 
@@ -14,7 +14,7 @@ struct PlannedPass {
   std::string spacecraft_id;
   SpinConfig config;
   PassRequest request;
-  bool rate_assumed;  ///< Nobody has said it.
+  bool rate_assumed;  ///< True where the rate was not given but assumed.
   PassPlan plan;
 };
 

@@ -36,9 +36,9 @@ std::vector<double> linear_ticks(double low, double high, int most) {
     step = factor * decade >= least ? factor * decade : step;
   }
   std::vector<double> ticks;
-  // Rounding must not cost the last one.
+  // The tolerance keeps the last tick in spite of rounding.
   for (double i = std::ceil(low / step - 1e-9); i * step <= high + 1e-9 * step; ++i) {
-    ticks.push_back(i * step + 0.0);  // No minus zero.
+    ticks.push_back(i * step + 0.0);  // Adding 0 avoids a minus zero.
   }
   return ticks;
 }

@@ -1,5 +1,5 @@
 /// @file
-/// From values to pixels, and where the ticks go.
+/// Map from values to pixels, and positions of ticks.
 
 #pragma once
 
@@ -7,11 +7,11 @@
 
 namespace spindrift::plot {
 
-/// Values of which `low` stands at one pixel, `high` at another; those beyond stand at the end.
+/// Maps values so that `low` is at one pixel and `high` at another; values beyond are clamped.
 class Scale {
  public:
   static Scale linear(double low, double high, double low_px, double high_px);
-  /// @param low Above zero.
+  /// @param low Above 0.
   static Scale logarithmic(double low, double high, double low_px, double high_px);
 
   double pixel_of(double value) const;
@@ -27,14 +27,13 @@ class Scale {
   double high_px_;
 };
 
-/// Multiples of 1, 2 or 5 times a power of ten from `low` to `high`, at most about `most`.
+/// Returns multiples of 1, 2 or 5 times a power of ten from `low` to `high`, at most about `most`.
 std::vector<double> linear_ticks(double low, double high, int most);
 
-/// The powers of ten from `low` to `high`.
 std::vector<double> decades(double low, double high);
 
-/// The least step that people count time in (1, 2, 5, 10, 15, 30 s or min; 1, 2, 3, 6, 12 h; days)
-/// of at least so many seconds.
+/// Returns the least usual step of time (1, 2, 5, 10, 15, 30 s or min; 1, 2, 3, 6, 12 h; days) that
+/// is at least `least_s`.
 double time_step_s(double least_s);
 
 }  // namespace spindrift::plot

@@ -1,5 +1,5 @@
 /// @file
-/// A reconstructed separation for programs.
+/// Output of a reconstructed separation as JSON.
 
 #pragma once
 
@@ -9,7 +9,7 @@
 
 namespace spindrift {
 
-/// services/program/json.md
+/// Returns the object described in services/program/json.md.
 nlohmann::json to_json(const SeparationReport& report);
 
 }  // namespace spindrift

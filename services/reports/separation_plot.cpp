@@ -35,7 +35,7 @@ Eigen::Vector3d angles_deg(const Eigen::Quaterniond& q_icrf_body) {
   return kDegPerRad * Eigen::Vector3d{phi, theta, psi};
 }
 
-/// One standard deviation of phi, theta and psi.
+/// Returns the standard deviations of phi, theta and psi in deg.
 Eigen::Vector3d angle_sigmas_deg(const ReconstructedAttitude& attitude) {
   constexpr double kStep_rad = 1e-6;
   Eigen::Matrix3d slopes;
@@ -53,7 +53,7 @@ Eigen::Vector3d angle_sigmas_deg(const ReconstructedAttitude& attitude) {
       .cwiseMin(180.0);
 }
 
-/// An angle of the history with its band; a gap where it goes on at the other end of its range.
+/// Returns the curve of an angle with its band; a gap where it wraps to the other end of its range.
 Curve angle_curve(const History& history, int angle, std::string name, std::string_view colour) {
   Curve curve{.name = std::move(name), .colour = colour, .values = {}, .half_widths = {}};
   std::optional<double> before_deg;
@@ -67,7 +67,7 @@ Curve angle_curve(const History& history, int angle, std::string name, std::stri
   return curve;
 }
 
-/// As far as the curves go with their bands.
+/// Returns an axis that covers the curves with their bands.
 plot::ValueAxis angle_axis(std::string title, const std::vector<Curve>& curves) {
   double low = 180.0;
   double high = -180.0;
@@ -80,7 +80,7 @@ plot::ValueAxis angle_axis(std::string title, const std::vector<Curve>& curves) 
     }
   }
   constexpr int kMostTicks = 9;
-  // Above there is room for the names of the marks.
+  // The margin at the top is for the names of the marks.
   const double tenth = 0.1 * std::max(1.0, high - low);
   low = std::max(-180.0, low - 0.5 * tenth);
   high += tenth;
@@ -91,7 +91,7 @@ plot::ValueAxis angle_axis(std::string title, const std::vector<Curve>& curves) 
           .ticks = plot::linear_ticks(low, std::min(180.0, high), kMostTicks)};
 }
 
-/// At the time of each of `history` that of `other` nearest behind it; a gap behind its last.
+/// Returns at each time of `history` the value of the next point of `other`; a gap after its last.
 template <class Value>
 Curve curve_beside(const History& history, const History& other, std::string name,
                    std::string_view colour, const Value& value) {
@@ -134,9 +134,10 @@ void add_errors(TimePage& page, const SeparationReport& report) {
                      fmt::format("{}, 1 sigma", name_of(product->solution.method)),
                      curves.empty() ? kFirst : kSecond,
                      [](const auto& /*first*/, const auto& one) { return one.sigma_rad(); }));
-    curves.back().dashes = curves.size() > 1 ? "8 4" : "";  // Where they coincide both are seen.
+    // Dashes let both curves be seen where they coincide.
+    curves.back().dashes = curves.size() > 1 ? "8 4" : "";
   }
-  // How far they are apart where they meet does not set the scale.
+  // The scale does not depend on the difference between the methods.
   const plot::ValueAxis axis =
       decades_of("Uncertainty of the attitude, all three axes together, deg", curves);
   if (report.methods.size() > 1) {

@@ -1,5 +1,5 @@
 /// @file
-/// A reconstructed separation as a picture.
+/// Plot of a reconstructed separation.
 
 #pragma once
 
@@ -9,8 +9,8 @@
 
 namespace spindrift {
 
-/// SVG that stands by itself: attitude with its uncertainty from separation to the last star fix,
-/// over UTC, the events marked. Empty where the history is of one instant.
+/// Returns a self-contained SVG: attitude with its uncertainty from separation to the last star
+/// fix, over UTC, with the events marked. Empty where the history is of one instant.
 std::string plot_of(const SeparationReport& report);
 
 }  // namespace spindrift

@@ -1,5 +1,5 @@
 /// @file
-/// What is told of a reconstructed separation.
+/// Report of a reconstructed separation.
 
 #pragma once
 
@@ -13,11 +13,11 @@ namespace spindrift {
 struct SeparationReport {
   std::string spacecraft_id;
   std::string run_id;
-  std::vector<ReconstructionProduct> methods;  ///< One at least, the one to report first.
+  /// Results by method, at least one; the first is reported first.
+  std::vector<ReconstructionProduct> methods;
 };
 
-/// The launcher's attitude is inside where the chance is at least so much that errors alone keep
-/// the two as far apart.
+/// The launcher's attitude is consistent above this probability of as large a difference.
 inline constexpr double kLeastChance = 0.01;
 
 }  // namespace spindrift

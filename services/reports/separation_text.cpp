@@ -41,7 +41,7 @@ std::string events_text(const Reconstruction& solution) {
   return text;
 }
 
-/// Calls `see(product, event, place of the event)`, event by event, the methods side by side.
+/// Calls `see(product, event, index of the event)` for each event, for all methods in turn.
 template <class See>
 void for_each_event(const SeparationReport& report, const See& see) {
   for (const auto name : {SeparationEvent::Separation, SeparationEvent::ControlOn,
@@ -125,7 +125,7 @@ std::string orbit_text(const SeparationReport& report, int decimals) {
   return text;
 }
 
-/// In degrees, of radians.
+/// Formats angles in rad as degrees with their sigmas.
 std::string axes_text(const Eigen::Vector3d& value, const Eigen::Matrix3d& covariance) {
   std::string text;
   for (int axis = 0; axis < 3; ++axis) {

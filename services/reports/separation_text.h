@@ -1,5 +1,5 @@
 /// @file
-/// A reconstructed separation for people.
+/// Output of a reconstructed separation as text.
 
 #pragma once
 
@@ -9,8 +9,7 @@
 
 namespace spindrift {
 
-/// Events, attitudes in ICRF and in the orbit frame, bias, launcher, quality; several lines, each
-/// ending in a line end.
+/// Returns lines of events, attitudes in ICRF and in the orbit frame, bias, launcher and quality.
 std::string to_text(const SeparationReport& report);
 
 }  // namespace spindrift

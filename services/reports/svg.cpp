@@ -22,7 +22,7 @@ std::string escaped(std::string_view text) {
         safe += "&quot;";
         break;
       default:
-        // XML knows no other control characters than these, escaped or not.
+        // XML allows no other control characters, escaped or not.
         safe += static_cast<unsigned char>(c) < ' ' && c != '\n' && c != '\t' ? '?' : c;
     }
   }

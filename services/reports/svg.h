@@ -22,9 +22,9 @@ struct Box {
 };
 
 struct Stroke {
-  std::string_view colour;  ///< "#rrggbb"
+  std::string_view colour;  ///< Colour as "#rrggbb".
   double width = 1.0;
-  std::string_view dashes = {};  ///< "4 3": four pixels, three without; empty: no gaps.
+  std::string_view dashes = {};  ///< Dashes, e.g. "4 3": four pixels on, three off; empty: solid.
 };
 
 enum class Anchor { Start, Middle, End };
@@ -34,25 +34,24 @@ struct TextStyle {
   double size = 12.0;
   Anchor anchor = Anchor::Start;
   bool bold = false;
-  bool upwards = false;  ///< Read from below.
+  bool upwards = false;  ///< Text runs upwards.
 };
 
-inline constexpr double kPageWidth = 1180.0;  ///< Of every page, px.
+inline constexpr double kPageWidth = 1180.0;  ///< Width of every page, px.
 
 class Svg {
  public:
   void line(const Point& from, const Point& to, const Stroke& stroke);
   void polyline(std::span<const Point> points, const Stroke& stroke);
-  /// Filled, so that what is below shows through.
+  /// Fills an area half-transparently.
   void area(std::span<const Point> outline, std::string_view fill);
   void dot(const Point& centre, double radius, std::string_view colour);
   void box(const Box& box, std::string_view fill);
-  /// @param at Left end (middle, right end) of its base line.
-  /// @param text Any.
+  /// @param at Left end (middle, right end, by the anchor) of the base line.
   void text(const Point& at, std::string_view text, const TextStyle& style);
 
-  /// The whole document, so large.
-  /// @param title What programs say that do not show it; any text.
+  /// Returns the whole document with the given size.
+  /// @param title Title for programs that do not show the picture; any text.
   std::string document(double width, double height, std::string_view title) const;
 
  private:

@@ -19,10 +19,10 @@ constexpr double kFirstPanel = 66.0;
 constexpr double kPanelTitle = 20.0;
 constexpr double kBetweenPanels = 18.0;
 constexpr double kLineOfText = 15.0;
-constexpr double kLetter = 6.6;  // Wide, about.
+constexpr double kLetter = 6.6;  // Approximate width of a letter, px.
 constexpr double kBar = 16.0;
 constexpr double kBetweenBars = 5.0;
-constexpr double kSeam = 0.7;  // Between states of the same colour.
+constexpr double kSeam = 0.7;  // Gap between states of the same colour, px.
 constexpr int kMostTimes = 9;
 
 int digits_at(std::string_view text, std::size_t begin) {
@@ -46,7 +46,7 @@ std::vector<TaiTime> round_times(TaiTime from, TaiTime to, double step_s) {
   return times;
 }
 
-/// Base lines of names, from above: at least a line apart and all above `lowest`.
+/// Spreads the base lines of names, from above: at least a line apart and all above `lowest`.
 void spread(std::vector<double>& heights, double lowest) {
   double limit = lowest;
   for (std::size_t i = heights.size(); i-- > 0;) {
@@ -111,7 +111,7 @@ void TimePage::panel(double height, const ValueAxis& axis, const std::vector<Cur
   top_ = bottom_ + kBetweenPanels;
 }
 
-/// Their names stand at the right of their lines, or below each other where there is no room.
+/// Draws the marks, their names to the right, or below each other where there is no room.
 void TimePage::draw_marks() {
   double free_from = kLeft;
   double height = top_ + kLineOfText;

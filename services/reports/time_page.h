@@ -1,5 +1,5 @@
 /// @file
-/// Panels one above the other over the same time in UTC.
+/// A page of panels one above the other over a common time axis in UTC.
 
 #pragma once
 
@@ -16,11 +16,11 @@
 namespace spindrift::plot {
 
 struct Curve {
-  std::string name;  ///< Beside it; empty: none.
+  std::string name;  ///< Name beside the curve; empty: none.
   std::string_view colour;
-  std::vector<std::optional<double>> values;  ///< One for each time of the page; empty: a gap.
-  std::string_view dashes = {};               ///< As of Stroke.
-  /// Of a band about the curve, one for each time of the page; empty: there is no band.
+  std::vector<std::optional<double>> values;  ///< Value at each time of the page; empty: a gap.
+  std::string_view dashes = {};               ///< Dashes as in Stroke.
+  /// Half-widths of a band about the curve at each time of the page; empty: there is no band.
   std::vector<double> half_widths = {};
 };
 
@@ -30,10 +30,10 @@ struct Mark {
   std::string name;
 };
 
-/// One state for each time of the page; it lasts until the next.
+/// State of a bar from one time of the page to the next.
 struct State {
-  std::string_view colour;  ///< Empty: nothing is drawn.
-  std::string label = {};   ///< Written where there is room.
+  std::string_view colour;  ///< Colour; empty: nothing is drawn.
+  std::string label = {};   ///< Label, written where there is room.
   friend bool operator==(const State&, const State&) = default;
 };
 
@@ -44,8 +44,8 @@ struct Bar {
 
 class TimePage {
  public:
-  /// @param times In order, two at least.
-  /// @param marks In order, within the times.
+  /// @param times Times in order, at least two.
+  /// @param marks Marks in order, within the times.
   TimePage(std::string title, std::string_view subtitle, std::vector<TaiTime> times,
            std::vector<Mark> marks = {});
 
@@ -53,7 +53,7 @@ class TimePage {
              const std::vector<Limit>& limits = {});
   void bars(std::string_view title, const std::vector<Bar>& bars);
 
-  /// Below the panels the times, and what the colours of the bars mean.
+  /// Returns the document, with the times and the legend of the bars below the panels.
   std::string document(const std::vector<State>& legend);
 
  private:
@@ -74,8 +74,8 @@ class TimePage {
   Scale x_;
   double tick_step_s_;
   std::vector<TaiTime> ticks_;
-  double top_;           ///< Of what comes next.
-  double bottom_ = 0.0;  ///< Of the panel drawn last.
+  double top_;           ///< Top of the next panel, px.
+  double bottom_ = 0.0;  ///< Bottom of the last panel, px.
 };
 
 }  // namespace spindrift::plot

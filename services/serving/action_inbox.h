@@ -1,5 +1,5 @@
 /// @file
-/// Where operators' actions come into the running service, whichever way they were sent.
+/// Accepts operators' actions into the running service, whichever way they were sent.
 
 #pragma once
 
@@ -16,18 +16,18 @@
 
 namespace spindrift {
 
-/// Used by any thread.
+/// Accepts operators' actions. May be used by any thread.
 class ActionInbox {
  public:
-  /// @param taken Of what is taken. @param stored Hears of every commit. All outlive it.
+  /// All arguments must outlive the inbox. @param taken Queue that the actions go into.
+  /// @param stored Is told of every commit.
   ActionInbox(KnownSpacecraft known, const Archive& archive, BoundedQueue<SampleBatch>& taken,
               StoredActions& stored)
       : known_{std::move(known)}, archive_{archive}, taken_{taken}, stored_{stored} {}
 
-  /// Its place is behind the samples that are taken already, whether these leave room or not. It
-  /// waits until the action is stored.
-  /// @return its action_id; as parse_action; Unavailable where nothing more is taken, too many
-  ///         wait, or it is not stored within 5 s.
+  /// Queues an action behind the samples that are queued already, even if the queue is full, and
+  /// waits until it is stored. @return The action_id; errors as parse_action; Unavailable when the
+  /// service stops, too many actions wait, or the action is not stored within 5 s.
   Expected<std::string> take(const nlohmann::json& request);
 
  private:

@@ -6,7 +6,7 @@
 
 namespace spindrift {
 
-// What the archive refuses it says to whoever closes it.
+// A refusal of the archive is not reported here: whoever closes the archive gets the error.
 AlertOutbox::AlertOutbox(Archive& archive, AlertDesk& desk, Announce announce,
                          ThreadFailures& failures)
     : archive_{archive}, desk_{desk}, announce_{std::move(announce)}, thread_{[this, &failures] {

@@ -1,6 +1,5 @@
 /// @file
-/// Alerts of the service itself on their way out: announced at once, stored as soon as the archive
-/// works.
+/// Sends alerts of the service itself: announced at once, stored as soon as the archive works.
 
 #pragma once
 
@@ -15,12 +14,12 @@
 
 namespace spindrift {
 
-/// Of one thread, which never waits for the archive.
+/// Passes on alerts. Used by one thread, which never waits for the archive.
 class AlertOutbox {
  public:
   using Announce = std::function<void(const ArchiveBatch&)>;
 
-  /// All of them outlive it. @param announce Does not wait.
+  /// All arguments must outlive this object. @param announce Must not wait.
   AlertOutbox(Archive& archive, AlertDesk& desk, Announce announce, ThreadFailures& failures);
   ~AlertOutbox();
   AlertOutbox(const AlertOutbox&) = delete;
@@ -37,7 +36,7 @@ class AlertOutbox {
   AlertDesk& desk_;
   Announce announce_;
   BoundedQueue<ArchiveBatch> waiting_{kMostWaiting};
-  std::thread thread_;  // Last: it uses the others.
+  std::thread thread_;  // Declared last because it uses the other members.
 };
 
 }  // namespace spindrift

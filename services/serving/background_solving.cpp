@@ -28,8 +28,7 @@ namespace {
 
 constexpr std::chrono::milliseconds kPatiencePoll{200};
 
-/// Nobody waits for the solution of a minute, and everybody for fixes: it gets what processor time
-/// they leave.
+/// Lowers the thread to idle priority: fixes are awaited, the solution of a minute is not.
 void give_way_to_other_threads() {
   const sched_param none{};
   const int failed = pthread_setschedparam(pthread_self(), SCHED_IDLE, &none);
@@ -43,13 +42,13 @@ void give_way_to_other_threads() {
   }
 }
 
-// For a thread that is left to itself.
+// Set when the thread of an unfinished solution was left running.
 // NOLINTNEXTLINE(cppcoreguidelines-avoid-non-const-global-variables)
 std::atomic<bool> given_up = false;
 
 using Solved = Expected<std::vector<Product>>;
 
-/// A thread that does nothing else: one that gives way must not hold the archive's locks.
+/// A thread that only solves: a thread that gives way must not hold locks of the archive.
 struct Attempt {
   std::future<Solved> solved;
   std::thread thread;
@@ -66,10 +65,11 @@ Attempt attempt(const BackgroundTask& task, bool gives_way) {
   return {.solved = std::move(solved), .thread = std::thread{std::move(solving)}};
 }
 
-/// It gives way until the service is told to stop. Then no fix waits for the processor any more,
-/// but a thread cannot cease to give way without privileges, and among busy processes it takes
-/// minutes: a second thread solves the same at the usual priority, and the first that is ready
-/// counts. The other is left to itself, as both are when patience ends. @return nothing then.
+/// Solves a task on a thread that gives way until the service is told to stop. From then on no fix
+/// waits for the processor, but a thread cannot raise its priority again without privileges, and
+/// among busy processes it would take minutes. So a second thread solves the same task at the usual
+/// priority, and the first result counts. The other thread is left running, as both are when
+/// patience ends. @return Empty when patience ended first.
 std::optional<Solved> solve(const BackgroundTask& task, const Patience& patience) {
   std::vector<Attempt> attempts;
   bool gives_way = !patience.stopping;
@@ -134,7 +134,7 @@ std::size_t solve_in_background(BoundedQueue<BackgroundTask>& tasks, Archive& ar
       }
     }
     if (row_count(task->batch) > 0 && !archive.submit(std::move(task->batch))) {
-      tasks.close();  // Those who compute meet the same archive, and say so.
+      tasks.close();  // The computing threads report the archive's refusal.
     }
   }
   std::size_t all_left = 0;

@@ -1,5 +1,5 @@
 /// @file
-/// The slow solutions that runs hand out, on threads that give way to others.
+/// Solves the slow solutions that runs hand out, on threads that give way to others.
 
 #pragma once
 
@@ -14,33 +14,32 @@
 
 namespace spindrift {
 
-/// That wait: those of a minute of many spacecraft, or of hours in a replay.
+/// Limit of waiting tasks: enough for a minute of many spacecraft, or for hours of a replay.
 inline constexpr std::size_t kMostBackgroundTasks = 256;
 
-/// Those that people wait for have a queue and a thread of their own.
+/// Queues slow solutions; those that users wait for have their own queue and thread.
 struct BackgroundTasks {
   BoundedQueue<BackgroundTask> usual{kMostBackgroundTasks};
   BoundedQueue<BackgroundTask> awaited{kMostBackgroundTasks};
 
   void push(BackgroundTask task) { (task.is_awaited ? awaited : usual).push(std::move(task)); }
-  /// There is room: whoever pushes will not wait.
+  /// Returns whether both queues have room, so that `push` will not wait.
   bool is_roomy() const {
     return std::max(usual.size(), awaited.size()) < kMostBackgroundTasks / 2;
   }
 };
 
-/// Solves until `tasks` is closed and empty. What is left when patience ends it says: the next
-/// start makes what is not stored.
-/// @return How many are left.
+/// Solves tasks until `tasks` is closed and empty. Tasks left when patience ends are reported in
+/// the log; the next start solves those that are not stored. @return Number of tasks left.
 std::size_t solve_in_background(BoundedQueue<BackgroundTask>& tasks, Archive& archive,
                                 const Patience& patience);
 
-/// Where this thread and those of samples want the processor it has a tenth of it: what is left to
-/// be computed can wait, and samples cannot be had again.
+/// Lowers the priority of the calling thread, so that threads that take samples get the processor
+/// first (about ten times its share): what is left to be computed can wait, and samples cannot be
+/// had again.
 void let_samples_come_first();
 
-/// A solution was not awaited when patience ended: its thread goes on, until the process ends by
-/// `_exit`.
+/// Returns whether an unfinished solution was left running until the process ends by `_exit`.
 bool is_solution_given_up();
 
 }  // namespace spindrift

@@ -1,5 +1,5 @@
 /// @file
-/// How long samples wait to be committed.
+/// Measures how long samples wait to be committed.
 
 #pragma once
 
@@ -9,13 +9,15 @@
 
 namespace spindrift {
 
-/// Looked at now and then, at times that are given.
+/// Measures the age of the oldest sample that is not committed, at the times when it is asked.
 class BacklogWatch {
  public:
   using Instant = std::chrono::steady_clock::time_point;
 
-  /// @param come All samples so far. @param committed Of those.
-  /// @return the age of the oldest that is not, as far as was looked.
+  /// @param come Number of all samples so far.
+  /// @param committed Number of committed samples.
+  /// @return Age of the oldest sample that is not committed, s, counted from the call that first
+  /// saw it.
   double see(Instant now, std::uint64_t come, std::uint64_t committed) {
     if (looks_.empty() || looks_.back().come != come) {
       looks_.push_back({.at = now, .come = come});
@@ -31,7 +33,7 @@ class BacklogWatch {
     Instant at;
     std::uint64_t come;
   };
-  std::deque<Look> looks_;  ///< In which some are not committed.
+  std::deque<Look> looks_;  ///< Calls whose samples are not all committed.
 };
 
 }  // namespace spindrift

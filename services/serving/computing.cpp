@@ -8,7 +8,7 @@
 namespace spindrift {
 namespace {
 
-// More than these are a burst.
+// More samples or batches than these are a burst, which goes to the backlog.
 constexpr std::size_t kFewSamples = 64;
 constexpr std::size_t kFewBatches = 8;
 
@@ -16,7 +16,7 @@ constexpr std::size_t kFewBatches = 8;
 
 Expected<void> Computing::take(PassInput input, std::size_t batches_behind) {
   const bool is_little = sample_count(input) <= kFewSamples && batches_behind <= kFewBatches;
-  // The thread that routes must not wait for solutions either.
+  // The queue of solutions must have room, because the routing thread must not wait for it.
   if (is_little && waiting_ == 0 && tasks_.is_roomy()) {
     return compute(input);
   }

@@ -1,5 +1,5 @@
 /// @file
-/// The mathematics of `serve`: on the thread that routes while little comes, else on its own.
+/// The computing of `serve`, on the routing thread or on a thread of its own.
 
 #pragma once
 
@@ -15,13 +15,14 @@
 
 namespace spindrift {
 
-/// Samples become products in the order in which they were routed. The thread that routes computes
-/// them itself while nothing waits, which spares a fix the way through another; what comes faster
-/// waits for the thread that works off the backlog, and samples reach the archive however long the
-/// mathematics takes.
+/// Turns samples into products in the order in which they were routed. While nothing waits, the
+/// routing thread computes itself, which saves a fix the delay of a second thread. Samples that
+/// come faster wait for the backlog thread, so that they reach the archive however long computing
+/// takes.
 class Computing {
  public:
-  /// All of them outlive it. @param tasks Solutions that become due.
+  /// All arguments must outlive this object.
+  /// @param tasks Receives the slow solutions that become due.
   Computing(Processor& processor, Archive& archive, BoundedQueue<PassInput>& backlog,
             BackgroundTasks& tasks, const Patience& patience)
       : processor_{processor},
@@ -30,17 +31,18 @@ class Computing {
         tasks_{tasks},
         patience_{patience} {}
 
-  /// @name Of the one thread that routes
+  /// @name To be called by the routing thread only
   /// @{
-  /// @param batches_behind Wait to be routed. @return the archive's refusal.
+  /// @param batches_behind Number of batches that wait to be routed.
+  /// @return The archive's refusal.
   Expected<void> take(PassInput input, std::size_t batches_behind);
   void leave_to_backlog(PassInput input);
   /// @}
 
-  /// Until the backlog is closed and empty, or the archive refuses. On a thread of its own.
+  /// Computes, on the backlog thread, until the backlog is drained or the archive refuses.
   Expected<void> work_off();
 
-  /// Samples that were not computed, since patience had ended. Once both threads are done.
+  /// Returns how many samples impatience left uncomputed. Valid when both threads have ended.
   std::size_t samples_left() const { return samples_left_; }
 
  private:
@@ -51,7 +53,7 @@ class Computing {
   BoundedQueue<PassInput>& backlog_;
   BackgroundTasks& tasks_;
   const Patience& patience_;
-  std::atomic<std::size_t> waiting_ = 0;  ///< 0: the thread that works off is at rest.
+  std::atomic<std::size_t> waiting_ = 0;  ///< Zero when the backlog thread is at rest.
   std::size_t samples_left_ = 0;
 };
 

@@ -1,5 +1,5 @@
 /// @file
-/// Which gaps last. Samples that are merely on their way leave gaps too, for a moment.
+/// Finds gaps that last: samples that are merely under way leave gaps for a moment, too.
 
 #pragma once
 
@@ -13,15 +13,15 @@ namespace spindrift {
 
 class GapWatch {
  public:
-  /// To be called at a steady beat.
-  /// @return the sources that missed samples at the beat before as well, and how many at least.
+  /// Compares the gaps with those of the previous call. To be called at a steady rate.
+  /// @return Sources that missed samples at the previous call too, with the number still missing.
   std::map<std::string, std::uint64_t> beat(const std::map<std::string, SequenceCounts>& by_source);
 
  private:
   std::map<std::string, std::uint64_t> before_;
 };
 
-/// "front-end 3, replay 1"
+/// Returns text such as "front-end 3, replay 1".
 std::string to_text(const std::map<std::string, std::uint64_t>& gaps);
 
 }  // namespace spindrift

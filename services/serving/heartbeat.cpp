@@ -17,7 +17,7 @@ namespace spindrift {
 namespace {
 
 constexpr std::chrono::seconds kPeriod{1};
-// Who looks at the log later must not have to look far back.
+// A lasting failure is repeated in the log, so that its reader need not look far back.
 constexpr int kBeatsUntilSaidAgain = 10;
 constexpr std::size_t kMostSaid = 1000;
 
@@ -97,7 +97,7 @@ void Heartbeat::note_storing(const std::optional<Error>& failure) {
   }
 }
 
-// The worst first.
+// Returns the problems, the worst first.
 std::vector<std::string> Heartbeat::problems(const TelemetrySubscriberStatus& status,
                                              const std::optional<Error>& archive_failure) const {
   std::vector<std::string> found;
@@ -161,7 +161,7 @@ void Heartbeat::supervise(const TelemetrySubscriberStatus& status) {
 }
 
 void Heartbeat::say_once(const std::string& problem) {
-  // Writers come with names of their own choice.
+  // The number is bounded because problems contain names that other writers choose.
   if (said_.size() < kMostSaid && said_.insert(problem).second) {
     spdlog::error("{}{}", problem,
                   said_.size() == kMostSaid ? "; no more of such problems are said" : "");

@@ -1,5 +1,5 @@
 /// @file
-/// Once a second: how the service is doing, on the bus, in the log and as alerts.
+/// Reports once a second how the service is doing: on the bus, in the log and as alerts.
 
 #pragma once
 
@@ -28,7 +28,7 @@ namespace spindrift {
 
 class Heartbeat {
  public:
-  /// All of them outlive it.
+  /// The parts of the service to report on. All must outlive the heartbeat.
   struct Watched {
     const TelemetrySubscriber& subscriber;
     const BoundedQueue<SampleBatch>& taken;
@@ -44,7 +44,7 @@ class Heartbeat {
     std::function<void(const Health&)> on_health;  ///< Must not wait.
   };
 
-  /// @param failures Outlives it, and is told when taking samples has failed.
+  /// @param failures Is told when taking samples fails; must outlive the heartbeat.
   Heartbeat(Watched watched, ThreadFailures& failures);
   ~Heartbeat();
   Heartbeat(const Heartbeat&) = delete;
@@ -68,11 +68,11 @@ class Heartbeat {
   ThreadFailures& failures_;
   std::set<std::string> said_;
   GapWatch gap_watch_;
-  std::map<std::string, std::uint64_t> gaps_;  ///< Lasting ones, as last told.
+  std::map<std::string, std::uint64_t> gaps_;  ///< Lasting gaps as last reported.
   std::uint32_t lost_ = 0;
   int beats_not_storing_ = 0;
   bool failed_ = false;
-  std::jthread thread_;  // Last: it uses the others.
+  std::jthread thread_;  // Declared last because it uses the other members.
 };
 
 }  // namespace spindrift

@@ -1,5 +1,5 @@
 /// @file
-/// A connection to the archive that reads again and again.
+/// A connection to the archive for repeated reading.
 
 #pragma once
 
@@ -17,12 +17,12 @@
 
 namespace spindrift {
 
-/// Opened once, and again when another file has come to stand at the path. Of one thread.
+/// Keeps a connection open; reopens it when another file is at the path. For one thread.
 class KeptConnection {
  public:
   explicit KeptConnection(std::filesystem::path archive) : path_{std::move(archive)} {}
 
-  /// What `read` finds in the archive. @param read As that of read_archive. @return likewise.
+  /// Returns the result of `read`; parameters and errors as read_archive.
   template <class Read>
   auto read(const Read& read) -> Expected<std::invoke_result_t<Read, SQLite::Database&>> {
     if (const auto open = follow(); !open) {

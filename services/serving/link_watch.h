@@ -1,5 +1,5 @@
 /// @file
-/// Which spacecraft are heard, and since when not.
+/// Tells which spacecraft are heard, and since when the others are not.
 
 #pragma once
 
@@ -14,21 +14,20 @@
 
 namespace spindrift {
 
-/// Used by any thread. Times are given, so that it knows no clock.
+/// Watches all links. May be used by any thread. Times are passed in: it needs no clock.
 class LinkWatch {
  public:
   using Instant = std::chrono::steady_clock::time_point;
 
-  /// A link that gave nothing for so long is stale.
+  /// A link without a sample for longer than this is stale.
   static constexpr std::chrono::seconds kStaleAfter{5};
 
-  /// @param spacecraft Those that are waited for.
   explicit LinkWatch(const std::vector<std::string>& spacecraft);
 
-  /// A sample with telemetry time `t` came. One of another spacecraft is not looked at.
+  /// Notes a sample with telemetry time `t`; ignores spacecraft that are not watched.
   void note(const std::string& spacecraft, TaiTime t, Instant now);
 
-  /// After a restart: its telemetry had come to `t`, and nobody knows when.
+  /// Notes after a restart that the telemetry had reached `t`, at an unknown wall-clock time.
   void go_on(const std::string& spacecraft, TaiTime t);
 
   std::vector<SpacecraftHealth> report(Instant now) const;
@@ -36,7 +35,7 @@ class LinkWatch {
  private:
   struct Last {
     TaiTime t;
-    std::optional<Instant> came;  ///< Empty: before a restart.
+    std::optional<Instant> came;  ///< Empty for a sample from before a restart.
   };
   mutable std::mutex mutex_;
   std::map<std::string, std::optional<Last>> last_;

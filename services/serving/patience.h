@@ -1,5 +1,5 @@
 /// @file
-/// How long the threads of `serve` go on.
+/// Tells the threads of `serve` how long they may go on.
 
 #pragma once
 
@@ -7,10 +7,9 @@
 
 namespace spindrift {
 
-/// Of a service that is told to stop.
 struct Patience {
   std::atomic<bool> stopping = false;
-  std::atomic<bool> ended = false;  ///< What is stored is no longer computed.
+  std::atomic<bool> ended = false;  ///< Stored samples are no longer computed.
 };
 
 }  // namespace spindrift

@@ -12,13 +12,13 @@
 namespace spindrift {
 namespace {
 
-/// Before the archive may make them wait.
+/// Notes arrivals before the samples are submitted, where the archive may make them wait.
 void note_arrivals(const std::vector<ArchiveBatch>& samples, Heard& heard, SilenceWatch& silences) {
   const auto now = std::chrono::steady_clock::now();
   for (const ArchiveBatch& batch : samples) {
     heard.sessions.note(batch);
     const auto note = [&](const auto& of_kind) {
-      // A sample that is left out has a negative one.
+      // A sample that is left out has a negative arrival.
       const auto last = std::find_if(of_kind.rbegin(), of_kind.rend(),
                                      [](const auto& sample) { return sample.arrival >= 0; });
       if (last != of_kind.rend()) {
@@ -31,7 +31,8 @@ void note_arrivals(const std::vector<ArchiveBatch>& samples, Heard& heard, Silen
   }
 }
 
-/// What is taken next; or that streams are silent, which only holds while nothing waits in `taken`.
+/// Routes the next batch. When none comes, routes the silence of streams instead: a stream is only
+/// silent when no batch waits in `taken`.
 Routed next_routed(BoundedQueue<SampleBatch>& taken, Processor& processor, Heard& heard,
                    SilenceWatch& silences) {
   const auto next_silence = silences.next();

@@ -1,5 +1,5 @@
 /// @file
-/// The way of what is taken: to the archive, and on to be computed.
+/// Routes received samples to the archive and then to the computing side.
 
 #pragma once
 
@@ -17,17 +17,17 @@
 
 namespace spindrift {
 
-/// What came, for those who watch the link.
 struct Heard {
   LinkWatch links;
   SessionWatch sessions;
 };
 
-/// Now. The clock of the host says something of samples of now only.
+/// Returns the present moment. It contains the host's clock only when the telemetry is live,
+/// because the clock says nothing about recorded samples.
 Moment moment_of(const Processor& processor);
 
-/// First `again`. Then hands what is taken to the archive and on to be computed, until `taken` is
-/// closed and empty, or the archive refuses.
+/// Leaves `again` to the backlog first. Then passes received batches to the archive and on to be
+/// computed, until `taken` is closed and empty or the archive refuses a batch.
 Expected<void> route(std::vector<PassInput> again, BoundedQueue<SampleBatch>& taken,
                      Processor& processor, Archive& archive, Computing& computing, Heard& heard,
                      Problems& problems);

@@ -4,7 +4,7 @@
 
 namespace spindrift {
 
-// Without systemd there is nobody to tell, which is no failure.
+// Errors are ignored: without systemd there is nobody to notify.
 void tell_manager_ready() { static_cast<void>(sd_notify(0, "READY=1")); }
 void tell_manager_alive() { static_cast<void>(sd_notify(0, "WATCHDOG=1")); }
 void tell_manager_stopping() { static_cast<void>(sd_notify(0, "STOPPING=1")); }

@@ -30,14 +30,12 @@
 namespace spindrift {
 namespace {
 
-// Samples that wait to be computed: a whole day's pass in a burst.
+// Limit of samples that wait to be computed: a whole day's pass in a burst.
 constexpr std::size_t kSamplesToCompute = 1'000'000;
 constexpr std::chrono::milliseconds kStuckPoll{200};
-// A backlog of what was stored is computed for so long after the signal to stop. What is left then
-// is computed at the next start.
+// Stored samples are computed this long after the signal to stop; the next start does the rest.
 constexpr std::chrono::seconds kComputedWhenStopped{8};
 
-/// Spacecraft by spacecraft, as long as patience lasts.
 Expected<void> finish(Processor& processor, Archive& archive, const Patience& patience) {
   const std::size_t spacecraft = processor.spacecraft().size();
   for (std::size_t i = 0; i < spacecraft; ++i) {
@@ -55,8 +53,9 @@ Expected<void> finish(Processor& processor, Archive& archive, const Patience& pa
   return {};
 }
 
-/// In the end runs are finished of which all samples are computed and all solutions made. Who can
-/// no longer empty a queue closes it: nobody must wait for room.
+/// Runs the routing, the computing and the solving threads. In the end the runs are finished if all
+/// their samples are computed and all their solutions made. A thread that can no longer empty its
+/// queue closes it, so that no other thread waits for room.
 void route_and_compute(std::vector<PassInput> again, BoundedQueue<PassInput>& backlog,
                        const Patience& patience, Heard& heard, const ServiceParts& parts) {
   Processor& processor = parts.processor;
@@ -102,16 +101,15 @@ void route_and_compute(std::vector<PassInput> again, BoundedQueue<PassInput>& ba
   }));
 }
 
-/// A service that is told to stop waits a while for the mathematics, and while writing fails not at
-/// all: it makes the last attempt now.
+/// Ends waiting for the computation some time after the service is told to stop. While writing
+/// fails it does not wait at all: the archive is closed and makes its last attempt at once.
 void lose_patience(const std::stop_token& done, Patience& patience,
                    BoundedQueue<SampleBatch>& queue, Archive& archive) {
   std::optional<std::chrono::steady_clock::time_point> until;
   while (!done.stop_requested()) {
     if (patience.stopping && archive.statistics().failure) {
       queue.close();
-      static_cast<void>(
-          archive.close());  // What it could not store is said when it is closed again.
+      static_cast<void>(archive.close());  // The error is returned again by the next close().
       return;
     }
     const auto now = std::chrono::steady_clock::now();
@@ -123,7 +121,6 @@ void lose_patience(const std::stop_token& done, Patience& patience,
   }
 }
 
-/// Of a subscriber that was stopped.
 Expected<void> how_taking_ended(const TelemetrySubscriber& subscriber) {
   const auto status = subscriber.status();
   if (!status) {
@@ -141,7 +138,7 @@ Expected<void> how_taking_ended(const TelemetrySubscriber& subscriber) {
   return {};
 }
 
-/// What was stored before a restart, for those who watch what comes.
+/// Tells the watches what was stored before a restart.
 void note_stored(const GoneOn& gone_on, const Processor& processor, Heard& heard, AlertDesk& desk) {
   const auto spacecraft = processor.spacecraft();
   std::map<std::string, TaiTime> newest;

@@ -1,5 +1,5 @@
 /// @file
-/// What runs between "ready" and the stop of the service.
+/// Runs the service between "ready" and its stop.
 
 #pragma once
 
@@ -25,13 +25,12 @@
 
 namespace spindrift {
 
-/// What others on the bus say beside telemetry.
 struct Told {
   OtherServices others;
   RehearsalClocks clocks;
 };
 
-/// What the run works with. All of them outlive it.
+/// The parts that the service works with. All must outlive the run.
 struct ServiceParts {
   const std::vector<Mission>& missions;
   RunMode mode;
@@ -46,14 +45,16 @@ struct ServiceParts {
   Problems& problems;
   StopSignal& stop_signal;
   ThreadFailures& failures;
-  std::function<void(const ArchiveBatch&)> announce;  ///< Alerts of the service. Must not wait.
-  std::function<void(const Health&)> on_health;       ///< Must not wait.
-  VerdictWatch::OnVerdict on_verdict;                 ///< Must not wait.
-  std::function<Expected<void>()> on_finished;        ///< The archive has the last batch of a run.
+  /// Called with alerts of the service. Must not wait.
+  std::function<void(const ArchiveBatch&)> announce;
+  std::function<void(const Health&)> on_health;  ///< Must not wait.
+  VerdictWatch::OnVerdict on_verdict;            ///< Must not wait.
+  /// Called when the last batch of the runs is submitted.
+  std::function<Expected<void>()> on_finished;
 };
 
-/// Until a signal, or a failure, and everything taken is with the archive.
-/// @param gone_on What was stored before a restart, its samples with the archive again.
+/// Runs until a signal or a failure, and until everything received has been submitted to the
+/// archive. @param gone_on What was stored before a restart; the archive has its batches already.
 Expected<void> run_service(GoneOn gone_on, const ServiceParts& parts);
 
 }  // namespace spindrift

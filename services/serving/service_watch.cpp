@@ -64,7 +64,7 @@ Expected<ServiceWatch::States> ServiceWatch::look(
   States states;
   for (const SpacecraftHealth& link : watched_.links.report(now)) {
     if (!link.data_age_s) {
-      continue;  // Nothing has come since the start.
+      continue;
     }
     ServiceState state = of_service;
     note_link(link, state);
@@ -80,7 +80,8 @@ Expected<ServiceWatch::States> ServiceWatch::look(
   return states;
 }
 
-/// A wall clock that is set back stands for nothing that is later: time goes on without it.
+/// Advances the time of the watch. When the wall clock is set back, the time goes on by the steady
+/// clock, because times of earlier reports must not be repeated.
 void ServiceWatch::note_time(Instant now) {
   const TaiTime wall = tai_now();
   if (last_) {
@@ -108,9 +109,10 @@ ServiceState ServiceWatch::state_of_service(Instant now) {
           .clock_step_s = clock_step_s_};
 }
 
-/// What waits to be looked at while the archive makes it wait is not silence. The telemetry of a
-/// rehearsal goes by the clock that it tells, that of another replay by its own: for that nobody
-/// gets newer data.
+/// Fills in the state of a link. While batches wait in the queue because the archive makes them
+/// wait, the link counts as silent no longer than it is live. The telemetry of a rehearsal follows
+/// the clock that the rehearsal announces, and that of another replay its own, for which nobody
+/// updates auxiliary data.
 void ServiceWatch::note_link(const SpacecraftHealth& link, ServiceState& state) const {
   if (watched_.taken.size() == 0 || link.link == LinkState::Live) {
     state.silent_s = link.data_age_s;

@@ -1,5 +1,5 @@
 /// @file
-/// What the conditions of the service look at, gathered once a second.
+/// Gathers once a second what the conditions of the service are checked against.
 
 #pragma once
 
@@ -25,7 +25,7 @@ namespace spindrift {
 
 class ServiceWatch {
  public:
-  /// All but the missions outlive it.
+  /// The parts to look at. All but the missions must outlive the watch.
   struct Watched {
     const std::vector<Mission>& missions;
     RunMode mode;
@@ -41,13 +41,12 @@ class ServiceWatch {
   explicit ServiceWatch(const Watched& watched);
 
   using States = std::map<std::string, ServiceState>;
-  /// @param gaps Lasting ones, by source.
-  /// @return by spacecraft, of those of which telemetry has come since the start; Unavailable when
-  /// Cyclone refuses.
+  /// @param gaps Lasting gaps by source.
+  /// @return State by spacecraft with telemetry since the start, or Unavailable.
   Expected<States> look(const TelemetrySubscriberStatus& status,
                         const std::map<std::string, std::uint64_t>& gaps);
 
-  /// Wall clock of the last look, which does not go back.
+  /// Returns the wall-clock time of the last look. It never goes back.
   TaiTime t() const { return t_; }
 
  private:
@@ -59,7 +58,8 @@ class ServiceWatch {
 
   Watched watched_;
   BacklogWatch backlog_;
-  std::map<std::string, std::map<std::string, TaiTime>> data_until_;  ///< By spacecraft.
+  /// End of validity of auxiliary data, by spacecraft and kind of data.
+  std::map<std::string, std::map<std::string, TaiTime>> data_until_;
   std::optional<Instant> last_;
   TaiTime wall_ = {};
   TaiTime t_ = {};

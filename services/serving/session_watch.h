@@ -1,5 +1,5 @@
 /// @file
-/// Which sessions the sources of telemetry have begun, and what those bring again.
+/// Tracks the sessions that the sources of telemetry begin, and the samples that they repeat.
 
 #pragma once
 
@@ -17,35 +17,34 @@
 
 namespace spindrift {
 
-/// Used by any thread. What a session brings from before it began has been sent before. Memory is
-/// bounded: of a spacecraft more than kMostSources are not looked at, nor more than kMostSessions
-/// of a source.
+/// Tracks the sessions of every source. A sample of a new session from before its beginning was
+/// sent before. May be used by any thread. Memory is bounded: at most kMostSources sources of a
+/// spacecraft and kMostSessions sessions of a source are tracked.
 class SessionWatch {
  public:
   static constexpr std::size_t kMostSources = 64;
   static constexpr std::size_t kMostSessions = 256;
 
-  /// After a restart: these sessions have begun, and the telemetry of the spacecraft had come to
-  /// `newest`.
+  /// Restores, after a restart, the sessions that have begun and the time `newest` that the
+  /// telemetry of the spacecraft had reached.
   void go_on(const std::string& spacecraft, const LastOrigins& origins,
              std::optional<TaiTime> newest);
 
-  /// The samples of `batch`, in their order.
   void note(const ArchiveBatch& batch);
 
-  /// Of a spacecraft, by source.
-  /// @param missing By source, of all spacecraft: nobody can say of which of those that it brings.
+  /// Returns the record of each source of a spacecraft. @param missing Missing samples by source,
+  /// over all spacecraft: it is unknown which of the source's spacecraft they belong to.
   std::map<std::string, SourceRecord> report(
       const std::string& spacecraft, const std::map<std::string, std::uint64_t>& missing) const;
 
-  /// All that were noted.
   std::uint64_t samples() const;
 
  private:
   struct Source {
     std::set<std::uint64_t> sessions;
-    std::optional<std::uint64_t> session;  ///< The one that was heard last; empty: none since.
-    std::optional<TaiTime> before;         ///< The newest sample when it began, if it began here.
+    /// Session that was heard last; empty when none was since the start.
+    std::optional<std::uint64_t> session;
+    std::optional<TaiTime> before;  ///< Newest time when a session that began here began.
     SourceRecord record;
   };
   struct Spacecraft {

@@ -1,5 +1,5 @@
 /// @file
-/// When streams fall silent, by the wall clock.
+/// Detects by the wall clock when streams fall silent.
 
 #pragma once
 
@@ -11,8 +11,8 @@
 
 namespace spindrift {
 
-/// Of the spacecraft that were heard since the service started: what a restart has read back waits
-/// until its senders had a chance to send again. Times are given, so that it knows no clock.
+/// Watches the spacecraft heard since the service started: data read back after a restart waits
+/// until its senders have had a chance to send again. It needs no clock.
 class SilenceWatch {
  public:
   using Instant = std::chrono::steady_clock::time_point;
@@ -20,14 +20,14 @@ class SilenceWatch {
 
   void note(const std::string& spacecraft, Instant now) { last_.insert_or_assign(spacecraft, now); }
 
-  /// When the next falls silent, if nothing comes. Empty: none is heard.
+  /// Returns when the next spacecraft falls silent if no sample comes; empty when none is heard.
   std::optional<Instant> next() const;
 
-  /// Those that are silent by `now`, each once until it is heard again.
+  /// Returns the spacecraft that are silent at `now`, each once until it is heard again.
   std::vector<std::string> take_silent(Instant now);
 
  private:
-  std::map<std::string, Instant> last_;  ///< When the last sample came.
+  std::map<std::string, Instant> last_;  ///< Arrival time of the last sample.
 };
 
 }  // namespace spindrift

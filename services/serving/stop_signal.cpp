@@ -7,7 +7,8 @@
 namespace spindrift {
 namespace {
 
-/// By `nohup`, for one. Waited for it would come nevertheless.
+/// Returns whether the signal is ignored, e.g. because of `nohup`. Waiting for an ignored signal
+/// would receive it nevertheless.
 bool is_ignored(int signal) {
   struct sigaction action {};
   ::sigaction(signal, nullptr, &action);

@@ -1,5 +1,5 @@
 /// @file
-/// SIGINT, SIGTERM and SIGHUP as an ordinary call on an ordinary thread.
+/// Turns SIGINT, SIGTERM and SIGHUP into an ordinary call on an ordinary thread.
 
 #pragma once
 
@@ -9,7 +9,8 @@
 
 namespace spindrift {
 
-/// Construct before any other thread: those started later must not see the signals either.
+/// Blocks the signals and waits for them. Must be constructed before any other thread starts, so
+/// that those threads block the signals too.
 class StopSignal {
  public:
   StopSignal();
@@ -22,7 +23,6 @@ class StopSignal {
   /// Runs `stop` once, on a thread of its own, when a signal arrives or `raise` is called.
   void on_stop(std::function<void()> stop);
   static void raise();
-  /// After this the stop has run.
   void join();
 
  private:

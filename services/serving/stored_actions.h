@@ -1,5 +1,5 @@
 /// @file
-/// Which operators' actions are handed on and not stored yet, for those who wait until they are.
+/// Tracks which operators' actions are queued and not stored yet.
 
 #pragma once
 
@@ -15,21 +15,22 @@
 
 namespace spindrift {
 
-/// Used by any thread.
+/// Lets callers wait until their actions are stored. May be used by any thread.
 class StoredActions {
  public:
-  /// More are no word of a person, or the archive does not store.
+  /// More waiting actions are not entered by people, or the archive does not store.
   static constexpr std::size_t kMostAwaited = 64;
 
-  /// Before the action is handed on. @return false when kMostAwaited are not stored yet.
+  /// Registers an action before it is queued.
+  /// @return False when kMostAwaited actions are not stored yet.
   bool expect(const std::string& action_id);
-  /// It is not handed on.
   void forget(const std::string& action_id);
 
-  /// After each commit.
+  /// Notes the actions stored by a commit.
   void note(std::span<const ArchiveBatch> stored);
 
-  /// Of one that is expected: waits until it is stored, so long at most. @return whether it is.
+  /// Waits until a registered action is stored.
+  /// @return False when it is not stored within `at_most`.
   bool wait(const std::string& action_id, std::chrono::seconds at_most);
 
  private:

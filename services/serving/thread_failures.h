@@ -1,5 +1,5 @@
 /// @file
-/// What the threads of `serve` could not do.
+/// Collects the failures of the threads of `serve`.
 
 #pragma once
 
@@ -11,11 +11,10 @@ namespace spindrift {
 
 class ThreadFailures {
  public:
-  /// Of `contained` work: a failure is said, and the service stops in an orderly way. From any
-  /// thread.
+  /// Notes how `contained` work ended. A failure is logged and stops the service in an orderly way.
+  /// May be called from any thread.
   void note(const Expected<void>& ended);
 
-  /// The first failure that was noted.
   Expected<void> first() const;
 
  private:

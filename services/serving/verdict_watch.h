@@ -1,5 +1,5 @@
 /// @file
-/// What the archive says of the runs in force: whether to act on their answers.
+/// Reads from the archive whether the answers of the current runs can be acted upon.
 
 #pragma once
 
@@ -19,19 +19,19 @@
 
 namespace spindrift {
 
-/// Reads once a second, on a thread of its own that gives way to others: nobody else waits for the
-/// disk.
+/// Reads the verdicts once a second on its own low-priority thread: nobody waits for the disk.
 class VerdictWatch {
  public:
   using OnVerdict = std::function<void(const std::string& spacecraft, const std::string& run_id,
                                        const PassVerdict& verdict)>;
 
-  /// All of them outlive it. @param desk Knows the runs. @param on_verdict Of each second.
+  /// All arguments must outlive the watch. @param desk Knows the current run of each spacecraft.
+  /// @param on_verdict Called for every spacecraft each second.
   VerdictWatch(const std::filesystem::path& db, std::vector<std::string> spacecraft,
                const AlertDesk& desk, OnVerdict on_verdict, ThreadFailures& failures);
 
-  /// The last that was read. Of a spacecraft without one that of no answer; where it cannot be
-  /// read, that says why.
+  /// Returns the verdict that was read last. It is the verdict of a run without an answer when
+  /// there is none, and says why when the archive cannot be read.
   PassVerdict of(const std::string& spacecraft) const;
 
  private:
@@ -41,10 +41,10 @@ class VerdictWatch {
   const std::vector<std::string> spacecraft_;
   const AlertDesk& desk_;
   const OnVerdict on_verdict_;
-  KeptConnection archive_;  ///< Of the thread.
+  KeptConnection archive_;  ///< Used by the thread only.
   mutable std::mutex mutex_;
   std::map<std::string, PassVerdict> verdicts_;  ///< By spacecraft.
-  std::jthread thread_;                          // Last: it uses the others.
+  std::jthread thread_;                          // Declared last because it uses the other members.
 };
 
 }  // namespace spindrift

@@ -18,10 +18,10 @@ namespace {
 using plot::Curve;
 using plot::TimePage;
 
-/// The samples of a channel that fall between two instants of the page.
+/// Samples of a channel between two instants of the page.
 struct Bin {
   ComparedValue last;
-  double most_sigmas;  ///< The residual that is furthest away, with its sign.
+  double most_sigmas;  ///< Largest residual in sigma, with its sign.
 };
 using Bins = std::vector<std::optional<Bin>>;
 
@@ -43,7 +43,7 @@ struct Grid {
   }
 };
 
-/// No finer than the channel with the fewest samples fills.
+/// Makes a grid that is no finer than the channel with the fewest samples can fill.
 Grid grid_of(const ComparisonReport& report, const std::vector<ComparedSample>& samples) {
   constexpr std::int64_t kLeast = 100;
   constexpr std::int64_t kMost = 1000;
@@ -55,7 +55,7 @@ Grid grid_of(const ComparisonReport& report, const std::vector<ComparedSample>& 
   const auto [first, last] = std::minmax_element(
       samples.begin(), samples.end(),
       [](const ComparedSample& a, const ComparedSample& b) { return a.t < b.t; });
-  // A pass of one sample has a width, too.
+  // A pass of one sample needs a width, too.
   const double span_s = std::max(1.0, seconds_between(first->t, last->t));
   return {.from = first->t,
           .step_s = span_s / static_cast<double>(count - 1),
@@ -108,8 +108,8 @@ std::vector<double> values_of(const std::vector<Curve>& curves) {
   return values;
 }
 
-/// Of the whole model, and of flight but for the furthest hundredth at each end: an edge out of
-/// nothing must not hide the others.
+/// Returns an axis that covers the whole model, and flight but for its furthest hundredth at each
+/// end: a spurious edge must not hide the others.
 plot::ValueAxis axis_of(std::string title, const std::vector<Curve>& flight,
                         const std::vector<Curve>& model, double least_width) {
   const std::vector<double> of_flight = values_of(flight);
@@ -121,7 +121,7 @@ plot::ValueAxis axis_of(std::string title, const std::vector<Curve>& flight,
   return axis_of(std::move(title), low - room, high + room);
 }
 
-/// Channels with values, one behind the other, that one sensor gives.
+/// Consecutive channels with values that one sensor gives.
 struct Group {
   std::size_t first;
   std::size_t end;
@@ -154,7 +154,7 @@ std::string_view colour_of(const Group& group, std::size_t channel) {
   return plot::kCurves.at((channel - group.first) % plot::kCurves.size());
 }
 
-/// Where the model is not zero by definition.
+/// Adds a panel of the values of channels whose model is not zero by definition.
 void add_values(TimePage& page, const ComparisonReport& report, const Group& group,
                 const std::vector<Bins>& bins) {
   constexpr double kHeight = 130.0;

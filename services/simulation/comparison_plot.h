@@ -1,5 +1,5 @@
 /// @file
-/// Flight and model over time, as a page for people.
+/// Flight and model over time, drawn as an SVG page.
 
 #pragma once
 
@@ -10,9 +10,9 @@
 
 namespace spindrift {
 
-/// SVG: of each sensor what flight gives over what the model does, and the residuals in sigma with
-/// the band. Instants of departure are marked.
-/// @param samples In the order in which they were compared; some of them have a value.
+/// Returns an SVG: for each sensor the values of flight over those of the model, and the residuals
+/// in sigma with the band. Starts of departures are marked.
+/// @param samples In the order in which they were compared; at least one has a value.
 std::string plot_of(const ComparisonReport& report, const std::vector<ComparedSample>& samples);
 
 }  // namespace spindrift

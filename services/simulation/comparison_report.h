@@ -1,5 +1,5 @@
 /// @file
-/// A pass of flight held against the ground model, for people and programs.
+/// Result of comparing the flight data of a pass with the ground model.
 
 #pragma once
 
@@ -13,13 +13,13 @@ namespace spindrift {
 
 struct ComparisonReport {
   std::string spacecraft_id;
-  std::filesystem::path model;  ///< The scenario's file.
-  ModelSpan span;               ///< Of the model.
+  std::filesystem::path model;  ///< Scenario file of the model.
+  ModelSpan span;               ///< Time span of the model.
   double band_sigmas;
   std::vector<ChannelComparison> channels;
 };
 
-/// What departs first; null where nothing does.
+/// Returns the channel that departs first; null where none does.
 inline const ChannelComparison* first_departure(const ComparisonReport& report) {
   const ChannelComparison* first = nullptr;
   for (const ChannelComparison& channel : report.channels) {

@@ -1,5 +1,5 @@
 /// @file
-/// A comparison as text for people, and as JSON.
+/// Output of a comparison as text and as JSON.
 
 #pragma once
 
@@ -10,10 +10,10 @@
 
 namespace spindrift {
 
-/// A row a channel, and a line a departure.
+/// Returns a table with a row per channel, and a line per departure.
 std::string to_text(const ComparisonReport& report);
 
-/// services/program/json.md
+/// Returns the object described in services/program/json.md.
 nlohmann::json to_json(const ComparisonReport& report);
 
 }  // namespace spindrift

@@ -38,7 +38,7 @@ std::vector<DispersedValue> dispersions_of(const TomlValues& values) {
   return all;
 }
 
-/// Makes the tables on the way where there are none. @param key Dotted, as in TomlValues.
+/// Sets a value, and makes the tables of its path. @param key Dotted, as in TomlValues.
 template <class Value>
 void set(toml::table& table, const std::string& key, Value&& value) {
   toml::table* at = &table;
@@ -63,7 +63,7 @@ void disperse(const DispersedValue& dispersion, const TomlValues& values, Chance
   set(table, dispersion.key, std::move(elements));
 }
 
-/// Another than the pass draws by.
+/// Returns a seed different from that of the pass, so that the draws are independent.
 std::uint64_t seed_of_dispersions(std::int64_t seed) {
   constexpr std::uint64_t kApart = 0x9e3779b97f4a7c15U;
   return static_cast<std::uint64_t>(seed) + kApart;
@@ -74,7 +74,8 @@ bool holds_numbers(const Scalar& value) {
          std::holds_alternative<std::vector<double>>(value);
 }
 
-/// Their elements belong together: drawn one by one they are no inertia, and no quaternion.
+/// Returns whether the elements of a key belong together: drawn one by one, those of an inertia or
+/// a quaternion would no longer be one.
 bool is_one(const std::string& key) {
   const std::size_t name = key.rfind('.') + 1;
   return key == "three_axis.inertia.kg_m2" || key.compare(name, 2, "q_") == 0;
@@ -87,9 +88,9 @@ void check_dispersions(TomlDocument& document) {
   for (std::size_t i = 0; i < all.size(); ++i) {
     const auto value = document.values.find(all[i].key);
     if (value == document.values.end() && document.table.at_path(all[i].key)) {
-      continue;  // What is wrong with it has been said.
+      continue;  // The schema has reported what is wrong with it.
     }
-    // Of an array of tables, or of one that is not there, nothing can be set.
+    // Nothing can be set in an array of tables, or in a key that is absent.
     const bool can_be = value != document.values.end() && holds_numbers(value->second) &&
                         all[i].key.find('[') == std::string::npos && !is_one(all[i].key);
     if (!can_be) {

@@ -1,5 +1,5 @@
 /// @file
-/// How the runs of a scenario differ: [[dispersions]].
+/// Dispersion of the runs of a scenario: [[dispersions]].
 
 #pragma once
 
@@ -10,14 +10,13 @@
 
 namespace spindrift {
 
-/// Adds the problems that the schema cannot see: keys that hold no number.
+/// Adds the problems that the schema cannot detect: keys that hold no number.
 void check_dispersions(TomlDocument& document);
 
-/// The scenario of one run: of a seed larger by `run`, by which each dispersed number is drawn,
-/// too; of an array each element by itself. It does not depend on other runs.
-/// @param document In which no problem was found. @param run Not negative.
-/// @return what has problems, too, where a draw is not allowed; InvalidConfiguration as
-///         scenario_schema.
+/// Returns the scenario of one run. Its seed is larger by `run`, and the dispersed numbers, each
+/// element of an array by itself, are drawn from that seed. It does not depend on other runs.
+/// @param document A scenario without problems. @param run Not negative.
+/// @return A scenario that has problems where a draw is not allowed; errors of scenario_schema.
 Expected<TomlDocument> dispersed(const TomlDocument& document, std::int64_t run);
 
 }  // namespace spindrift

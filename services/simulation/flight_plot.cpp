@@ -21,10 +21,10 @@ namespace {
 using plot::Curve;
 using plot::TimePage;
 
-// More than there are pixels.
+// More points than there are pixels.
 constexpr std::size_t kMostPoints = 1000;
 
-/// Instants that are shown, behind the start.
+/// Returns the times of the plotted points since the start.
 std::vector<double> times_s(const SimulatedPass& pass) {
   const double end_s = pass.motion->end_s();
   std::vector<double> times;
@@ -43,7 +43,7 @@ Curve curve_of(std::string name, std::string_view colour, const std::vector<doub
   return curve;
 }
 
-/// Of all values, with a little room, and not narrower than to `least` on both sides of 0.
+/// Returns an axis that covers all values with a margin, and at least +-`least`.
 plot::ValueAxis axis_of(std::string title, const std::vector<Curve>& curves, double least) {
   constexpr int kTicks = 5;
   double low = -least;
@@ -69,7 +69,7 @@ void add_panel(TimePage& page, std::string title, const std::vector<Curve>& curv
   page.panel(kHeight, axis_of(std::move(title), curves, least), curves);
 }
 
-/// Without jumps of its sign.
+/// Returns the attitudes relative to the start, with signs chosen so that they are continuous.
 std::vector<Eigen::Quaterniond> attitudes(const BodyMotion& motion,
                                           const std::vector<double>& times) {
   const Eigen::Quaterniond q_start_icrf = motion.at(0.0).q_icrf_body.conjugate();
@@ -113,7 +113,6 @@ void add_rates(TimePage& page, const BodyMotion& motion, const std::vector<doubl
   add_panel(page, "Body rates, deg/s", curves, 0.1);
 }
 
-/// The record that holds at that instant.
 const ControlRecord& record_at(const std::vector<ControlRecord>& record, double t_s) {
   const auto next = std::upper_bound(
       record.begin(), record.end(), t_s,

@@ -1,5 +1,5 @@
 /// @file
-/// How a simulated body turned, and its wheels with it, as a page for people.
+/// Motion of a simulated body and its wheels, drawn as an SVG page.
 
 #pragma once
 
@@ -10,9 +10,9 @@
 
 namespace spindrift {
 
-/// SVG: attitude seen from the start, rates and, where wheels turn it, their momenta and speeds
-/// with what they were told: figures 7 to 12 of Zhang 2019.
-/// @param pass Of a three-axis spacecraft.
+/// Returns an SVG: attitude relative to the start, rates and, where wheels turn the body, their
+/// momenta and speeds with those commanded: figures 7 to 12 of Zhang 2019.
+/// @param pass Pass of a three-axis spacecraft.
 std::string flight_plot(const Scenario& scenario, const SimulatedPass& pass);
 
 }  // namespace spindrift

@@ -1,5 +1,5 @@
 /// @file
-/// The ground model that a scenario describes.
+/// Ground model of a scenario.
 
 #pragma once
 
@@ -14,16 +14,16 @@
 
 namespace spindrift {
 
-/// @return InvalidConfiguration where the scenario cannot be played, or has no noise to judge by.
+/// @return InvalidConfiguration where the scenario cannot be simulated, or has no noise.
 Expected<GroundModel> ground_model_of(const Scenario& scenario);
 
-/// That of a scenario file. @param mission Of the spacecraft that it must be of.
-/// @return as load_scenario and ground_model_of; InvalidConfiguration for another spacecraft, or
-///         one of another kind.
+/// Loads the ground model of a scenario file. @param mission Mission of the same spacecraft.
+/// @return Errors of load_scenario and ground_model_of; InvalidConfiguration for another
+///         spacecraft, or one of another kind.
 Expected<std::shared_ptr<const GroundModel>> load_ground_model(const std::filesystem::path& path,
                                                                const Mission& mission);
 
-/// Of the missions that name one. @return with every problem, one a line.
+/// Loads the ground models of the missions that name one. @return Errors with one problem per line.
 Expected<GroundModels> load_ground_models(std::span<const Mission> missions);
 
 }  // namespace spindrift

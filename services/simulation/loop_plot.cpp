@@ -29,7 +29,7 @@ constexpr int kPoints = 300;
 
 double decibel(double gain) { return 20.0 * std::log10(gain); }
 
-/// A decade and a half on both sides of where the gain is 1.
+/// Returns the range of a decade and a half on both sides of the crossover.
 std::pair<double, double> frequencies_rad_s(const ChannelMargins& channel) {
   const double middle = channel.designed_margins.crossover_rad_s;
   const double span = std::pow(10.0, 1.5);
@@ -98,16 +98,16 @@ plot::XyPanel bode_panel(const ChannelMargins& channel, std::string title, std::
       .series = {series_of(bode_of(channel.designed, range_rad_s), kDesigned, value),
                  series_of(bode_of(channel.flown, range_rad_s), kFlown, value)},
       .across = {std::move(limit)}};
-  // It lies over the other, mostly.
+  // Dashed, because the second curve mostly covers the first.
   panel.series.back().dashes = "7 5";
-  // What falls below the panel ends at its lower end.
+  // Points below the panel would be drawn along its lower end.
   for (Series& series : panel.series) {
     std::erase_if(series.points, [low](const Point& point) { return point.y < low; });
   }
   return panel;
 }
 
-/// In the plane of s: of a sampled loop ln z / T.
+/// Returns a pole in the s plane: ln z / T for a sampled loop.
 std::complex<double> in_s(std::complex<double> pole, const ChannelLoop& loop) {
   return loop.sampling ? std::log(pole) / loop.sampling->period_s : pole;
 }
@@ -117,7 +117,7 @@ Series locus_of(const ChannelLoop& loop, const std::vector<double>& factors,
   Series series{.points = {}, .colour = colour, .dashes = {}, .dot_px = dot_px};
   for (const LocusPoint& point : root_locus(loop, factors)) {
     for (const std::complex<double> pole : point.poles) {
-      // A pole that delay adds lies at 0 in z, which is far away in s.
+      // A pole of the delay lies at 0 in the z plane, which is infinitely far away in the s plane.
       if (std::abs(pole) > 1e-9 || !loop.sampling) {
         const std::complex<double> s = in_s(pole, loop);
         series.points.push_back({s.real(), s.imag()});
@@ -135,7 +135,7 @@ plot::XyPanel locus_panel(const ChannelMargins& channel) {
   for (int i = 0; i <= kFactors; ++i) {
     factors.push_back(kLeast * std::pow(kMost / kLeast, static_cast<double>(i) / kFactors));
   }
-  // A fifth more and less inertia, and as it is meant.
+  // Gain factors that stand for a fifth more, the designed, and a fifth less inertia.
   const std::vector<double> bodies = {1.0 / 1.2, 1.0, 1.0 / 0.8};
   const double size = 2.5 * std::abs(closed_loop_poles(channel.designed, 1.0).front());
   plot::XyPanel panel{

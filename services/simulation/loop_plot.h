@@ -1,5 +1,5 @@
 /// @file
-/// How near the loops of an orientation's control are to swinging, as a page for people.
+/// Stability margins of the control loops of an orientation manoeuvre, drawn as an SVG page.
 
 #pragma once
 
@@ -10,8 +10,8 @@
 
 namespace spindrift {
 
-/// SVG: a row a channel, its gain and phase over the frequency and the poles of the closed loop for
-/// bodies and gains other than those meant.
+/// Returns an SVG with a row per channel: gain and phase over frequency, and the poles of the
+/// closed loop for bodies and gains other than the designed ones.
 std::string loop_plot(const std::string& spacecraft_id,
                       const std::array<ChannelMargins, 3>& channels);
 

@@ -9,7 +9,7 @@
 namespace spindrift {
 namespace {
 
-/// The library's own text gives a number in 17 digits.
+/// Formats a value here, as the TOML library would write a number with 17 digits.
 std::string value_text(const toml::node& value) {
   if (const auto number = value.value_exact<double>()) {
     return fmt::format("{}", *number);

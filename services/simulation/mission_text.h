@@ -9,8 +9,8 @@
 
 namespace spindrift {
 
-/// The tables of a sound scenario that a mission file has too, as they are; the orbit is the
-/// simulated one, orbit.oem beside it.
+/// Returns the tables that a valid scenario shares with a mission file, unchanged; the orbit is the
+/// simulated one, in orbit.oem beside it.
 std::string mission_text(const toml::table& scenario);
 
 }  // namespace spindrift

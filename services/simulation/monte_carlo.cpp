@@ -34,7 +34,7 @@ SampleBatch batch_of(const std::string& spacecraft_id, const TelemetryValues& te
   return batch;
 }
 
-/// As `process` would make of its files.
+/// Returns the summary that the command `process` would give of the files of a pass.
 Expected<RunSummary> processed(const std::filesystem::path& folder, const SimulatedPass& pass) {
   return load_mission(folder / "mission.toml").and_then([&](const Mission& mission) {
     return Processor::make({mission}, {.mode = RunMode::Process, .telemetry = {folder.string()}})
@@ -65,7 +65,7 @@ Error error_of_run(const TomlDocument& document, std::int64_t run, const Error& 
           fmt::format("run {}, seed {}: {}", run, seed_of(document, run), error.message)};
 }
 
-/// Nothing is flown where a draw of any run is not allowed.
+/// Checks the draws of all runs before any is simulated.
 Expected<void> check_draws(const TomlDocument& document, std::int64_t runs) {
   for (std::int64_t run = 0; run < runs; ++run) {
     if (const auto sound = dispersed(document, run).and_then(soundness); !sound) {
@@ -89,7 +89,7 @@ Expected<RunResult> result_of(const TomlDocument& document, const std::filesyste
       .map_error([&](const Error& error) { return error_of_run(document, run, error); });
 }
 
-/// Files of other runs would be taken for those of these.
+/// Checks that `out` is empty, since files of other runs would be taken for those of these.
 Expected<void> check_empty(const std::filesystem::path& out) {
   std::error_code failure;
   if (!std::filesystem::exists(out, failure) || std::filesystem::is_empty(out, failure)) {
@@ -100,7 +100,7 @@ Expected<void> check_empty(const std::filesystem::path& out) {
        fmt::format("{}: must be an empty folder, or not be there", shown(out.string()))}};
 }
 
-/// Takes the next run until there is none, or one has failed.
+/// Simulates the runs one after the other on each thread, until all are done or one has failed.
 class Runs {
  public:
   Runs(const TomlDocument& document, const MonteCarloPlan& plan)
@@ -121,7 +121,7 @@ class Runs {
     }
   }
 
-  /// In order. The runs before one that was made were begun, and are made, too.
+  /// Returns the results in order. Runs are begun in order, so all before a finished one exist.
   Expected<std::vector<RunResult>> results() && {
     std::vector<RunResult> all;
     for (auto& result : results_) {
@@ -151,7 +151,7 @@ Expected<MonteCarloResult> monte_carlo(const MonteCarloPlan& plan) {
   if (!document) {
     return Unexpected{document.error()};
   }
-  // Every problem of the file itself, with its lines.
+  // Reports every problem of the file itself first, with line numbers.
   const auto scenario = scenario_of(*document);
   if (!scenario) {
     return Unexpected{scenario.error()};

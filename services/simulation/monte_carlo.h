@@ -1,5 +1,5 @@
 /// @file
-/// Many runs of a scenario, each simulated, written and processed as one alone would be.
+/// Monte Carlo runs of a scenario, each simulated, written and processed like a single one.
 
 #pragma once
 
@@ -15,25 +15,25 @@ namespace spindrift {
 
 struct MonteCarloPlan {
   std::filesystem::path scenario;
-  std::filesystem::path out;  ///< Run 12 goes to the folder 0012 in it.
+  std::filesystem::path out;  ///< Output folder; run 12 is written to its folder 0012.
   std::int64_t runs;
-  int jobs;  ///< Threads.
+  int jobs;  ///< Number of threads.
 };
 
 struct RunResult {
-  std::int64_t run;  ///< From 0.
+  std::int64_t run;  ///< Number of the run, from 0.
   std::int64_t seed;
   std::vector<Measure> measures;
 };
 
 struct MonteCarloResult {
   std::string spacecraft_id;
-  std::vector<RunResult> runs;  ///< In order, whatever came first.
+  std::vector<RunResult> runs;  ///< Results in order of the runs.
 };
 
-/// Each run depends on its seed alone. Shows its progress on a terminal.
-/// @return the first run's error that has one, named; InvalidConfiguration for a scenario that is
-///         not sound, and an `out` that is not empty.
+/// Simulates all runs, each depending on its seed alone. Shows progress on a terminal.
+/// @return The error of the first run that fails, with its number; InvalidConfiguration for a
+///         scenario with problems, and for an `out` that is not empty.
 Expected<MonteCarloResult> monte_carlo(const MonteCarloPlan& plan);
 
 }  // namespace spindrift

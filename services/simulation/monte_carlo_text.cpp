@@ -27,12 +27,12 @@ nlohmann::ordered_json json_of(const MeasureStatistics& of) {
   return json;
 }
 
-/// As many bars as runs of a kind that is not known can fill.
+/// Draws a histogram whose number of bars suits any distribution: twice the root of the runs.
 plot::XyPanel histogram(const std::string& name, const std::vector<double>& values) {
   constexpr double kMostBars = 30.0;
   const auto [least, most] = std::minmax_element(values.begin(), values.end());
   const double bars = std::clamp(std::ceil(2.0 * std::sqrt(values.size())), 5.0, kMostBars);
-  // All may be the same.
+  // All values may be equal.
   const double low = *least;
   const double high = std::max(*most, low + std::max(1e-12, 1e-9 * std::abs(low)));
   const double width = (high - low) / bars;

@@ -1,5 +1,5 @@
 /// @file
-/// Many runs for people and for programs.
+/// Output of Monte Carlo runs as text, JSON and SVG.
 
 #pragma once
 
@@ -10,16 +10,16 @@
 
 namespace spindrift {
 
-/// A row a run: run, seed and its measures; empty where there is none.
+/// Returns a CSV row per run: run, seed and its measures; empty where there is none.
 std::string runs_csv(const MonteCarloResult& result);
 
-/// A row a measure.
+/// Returns a table with a row per measure.
 std::string statistics_text(const MonteCarloResult& result);
 
-/// `runs`, each an object of its numbers, null where there is none, and `statistics`, by measure.
+/// Returns `runs`, an object of numbers each (null: none), and `statistics` by measure.
 nlohmann::ordered_json statistics_json(const MonteCarloResult& result);
 
-/// SVG: a histogram of each measure.
+/// Returns an SVG with a histogram of each measure.
 std::string histograms(const MonteCarloResult& result);
 
 }  // namespace spindrift

@@ -25,7 +25,7 @@ void add_outcome(const OrientationOutcome& outcome, ordered_json& truth) {
   truth["wheel_rpm_most"] = kRpmPerRad_s * outcome.most_rad_s;
 }
 
-/// As it is flown, about X, Y and Z.
+/// Adds the margins of the loops as flown, about X, Y and Z.
 Expected<void> add_margins(const OrientationTruth& flight, ordered_json& truth) {
   return channel_margins(flight).map([&](const std::array<ChannelMargins, 3>& channels) {
     for (const ChannelMargins& channel : channels) {

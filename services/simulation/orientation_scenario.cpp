@@ -16,7 +16,7 @@
 namespace spindrift {
 namespace {
 
-/// About the body axes where none is given.
+/// Returns the spin axes of the wheels; the body axes where none is given.
 std::vector<Eigen::Vector3d> wheel_axes(const TomlValues& values) {
   std::vector<Eigen::Vector3d> axes;
   while (const auto axis = vector_if(values, fmt::format("wheels.axis[{}].body", axes.size()))) {
@@ -84,7 +84,7 @@ void check_wheels(TomlDocument& document) {
   }
 }
 
-/// Once nothing else stands against the scenario.
+/// Checks the control loop once the scenario has no other problem.
 void check_loop(TomlDocument& document) {
   if (!document.problems.empty()) {
     return;

@@ -10,10 +10,10 @@
 
 namespace spindrift {
 
-/// Adds the problems that the schema cannot see.
+/// Adds the problems that the schema cannot detect.
 void check_orientation_scenario(TomlDocument& document);
 
-/// @param values In which no problem was found.
+/// @param values Values of a scenario without problems.
 OrientationScenario orientation_scenario(const TomlValues& values, TaiTime start);
 
 }  // namespace spindrift

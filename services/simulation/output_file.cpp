@@ -47,7 +47,7 @@ Expected<void> OutputFile::write(std::string_view text) {
 }
 
 Expected<void> OutputFile::commit() {
-  // A disk may take what it has no room for, and say so only here.
+  // A full disk may report the error only here.
   if (std::fflush(file_.get()) != 0 || fsync(fileno(file_.get())) != 0 ||
       std::rename(beside_.c_str(), path_.c_str()) != 0) {
     return failed();

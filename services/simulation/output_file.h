@@ -1,5 +1,5 @@
 /// @file
-/// A file that is there whole or not at all.
+/// Output file that appears as a whole or not at all.
 
 #pragma once
 
@@ -13,8 +13,8 @@
 
 namespace spindrift {
 
-/// Written beside its place and moved there at the end, over a file of the same name; without that
-/// end nothing is left.
+/// Writes a temporary file beside the path and moves it there on commit, replacing a file of the
+/// same name; without a commit nothing is left.
 class OutputFile {
  public:
   /// @return Unavailable with the path and the reason.
@@ -23,7 +23,7 @@ class OutputFile {
   /// @return Unavailable with the path and the reason.
   Expected<void> write(std::string_view text);
 
-  /// Once it is on the disk. @return Unavailable with the path and the reason.
+  /// Moves the file to its path once on the disk. @return Unavailable with path and reason.
   Expected<void> commit();
 
   ~OutputFile();
@@ -45,7 +45,7 @@ class OutputFile {
   std::unique_ptr<std::FILE, Close> file_;  ///< Empty once committed.
 };
 
-/// @return as the class.
+/// @return Errors of OutputFile.
 Expected<void> write_file(const std::filesystem::path& path, std::string_view text);
 
 }  // namespace spindrift

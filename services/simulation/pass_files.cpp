@@ -24,11 +24,11 @@ namespace {
 
 constexpr std::chrono::seconds kOrbitStep{60};
 constexpr std::chrono::minutes kOrbitBefore{10};
-// Who takes the pass is warned of an orbit that ends within a day.
+// The program warns of an orbit that ends within a day after the pass.
 constexpr std::chrono::hours kOrbitBehind{36};
 constexpr std::size_t kBlock = 1U << 20U;
 
-/// In blocks: an orbit file may be larger than memory should hold.
+/// Copies in blocks, as an orbit file may be too large for memory.
 Expected<void> copy_orbit(const std::filesystem::path& from, const std::filesystem::path& to) {
   auto source = InputFile::open(from, kMostOrbitBytes);
   auto file = source ? OutputFile::create(to) : Unexpected{std::move(source.error())};
@@ -58,7 +58,7 @@ Expected<void> write_orbit(const std::filesystem::path& path, const Scenario& sc
   TaiTime from = scenario.start - kOrbitBefore;
   TaiTime to = end + kOrbitBehind;
   if (const OrbitEphemeris* const ephemeris = scenario.orbit.ephemeris()) {
-    // No further than the solutions that the pass begins and ends in.
+    // The written orbit stays within the segments in which the pass begins and ends.
     for (const OemSegment& segment : ephemeris->segments()) {
       const auto holds = [&](TaiTime t) {
         return segment.usable_from <= t && t <= segment.usable_to;
@@ -73,7 +73,7 @@ Expected<void> write_orbit(const std::filesystem::path& path, const Scenario& sc
       });
 }
 
-/// The rows in blocks: a long pass is larger as text than as values.
+/// Writes the rows in blocks: a long pass is larger as text than as values.
 template <class Value>
 Expected<void> write_rows(const std::filesystem::path& path, const ArrivedOfKind<Value>& rows) {
   auto file = OutputFile::create(path);
@@ -99,7 +99,7 @@ std::filesystem::path path_in(const std::filesystem::path& folder, const Telemet
   return folder / (name + ".csv");
 }
 
-/// Makes the folder; refuses one with telemetry that is not of this pass.
+/// Makes the folder; refuses one that holds telemetry not of this pass.
 Expected<void> prepare(const std::filesystem::path& folder,
                        const std::vector<std::filesystem::path>& telemetry) {
   std::error_code failure;

@@ -21,7 +21,7 @@ class Measures {
     all_.push_back({std::move(name), value});
   }
 
-  /// @param error_rad Empty: no answer.
+  /// @param error_rad Empty: there is no solution.
   template <class Vector, class Covariance>
   void add_error(const std::string& of, const std::optional<Vector>& error_rad,
                  const Covariance& covariance_rad2) {
@@ -38,12 +38,12 @@ class Measures {
   std::vector<Measure> all_;
 };
 
-/// Small turn about body axes from what was found to the truth.
+/// Returns the small rotation from the solution to the truth, body axes.
 Vector3d attitude_error_rad(const Eigen::Quaterniond& found, const Eigen::Quaterniond& truth) {
   return rotation_vector_of(found.conjugate() * truth);
 }
 
-/// In the tangent plane at what was found: east, north.
+/// Returns the error in the tangent plane at the found axis: east, north.
 Eigen::Vector2d axis_error_rad(const Vector3d& found_icrf, const Vector3d& truth_icrf) {
   const Eigen::Matrix<double, 3, 2> basis = tangent_basis(found_icrf);
   const Vector3d across = truth_icrf - found_icrf.dot(truth_icrf) * found_icrf;

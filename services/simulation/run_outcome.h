@@ -1,5 +1,5 @@
 /// @file
-/// What the ordinary pipelines made of a simulated pass, against its truth.
+/// Errors of the ordinary pipelines' solutions of a simulated pass against its truth.
 
 #pragma once
 
@@ -13,17 +13,17 @@
 
 namespace spindrift {
 
-/// One number of a run.
+/// Result of a run in one number.
 struct Measure {
-  std::string name;             ///< With its unit: "batch_error_deg".
-  std::optional<double> value;  ///< Empty: there is no such answer in this run.
+  std::string name;             ///< Name with its unit, e.g. "batch_error_deg".
+  std::optional<double> value;  ///< Value; empty where the run has no such result.
 };
 
-/// Of a spinner the error of each estimator's axis at the end; of a separation that of each
-/// method's attitude at T1; of every three-axis spacecraft that of the filter's last attitude; each
-/// with its normalised square e' P^-1 e, whose mean is 2 of an axis and 3 of an attitude. Of an
-/// orientation what its control reached, too, as in truth.json.
-/// @return the same names for every run of a scenario.
+/// Returns the error of each estimator's axis at the end (spinner), of each method's attitude at T1
+/// (separation), and of the filter's last attitude (every three-axis spacecraft), each with its
+/// normalised square e' P^-1 e, whose mean is 2 for an axis and 3 for an attitude. For an
+/// orientation the results of the control are added, as in truth.json.
+/// @return The same names for every run of a scenario.
 std::vector<Measure> run_outcome(const Scenario& scenario, const SimulatedPass& pass,
                                  const RunSummary& summary);
 

@@ -20,10 +20,9 @@
 namespace spindrift {
 namespace {
 
-// The longest turn, twice over: where the next edge will be is asked one turn ahead.
+// Twice the longest turn, since the search for the next edge looks one turn ahead.
 constexpr double kOrbitMargin_s = 30.0;
-// As pass.start_tai_ns: where there is UTC for the orbit file, and leap seconds are not all
-// guessed.
+// Limits of pass.start_tai_ns: UTC exists, and not all leap seconds are guesses.
 constexpr TaiTime kEarliest = tai_from_ns(63158400000000000);
 constexpr TaiTime kLatest = tai_from_ns(4102444800000000000);
 
@@ -73,7 +72,7 @@ void check_coverage(TomlDocument& document, const Orbit& orbit, std::optional<Ta
   }
 }
 
-/// The orbit of a pass that begins at `start`, seen from the Earth as at `own_start`.
+/// Shifts an orbit in time from `own_start` to `start`, with the same states in ICRF.
 Expected<Orbit> moved_orbit(const Orbit& orbit, TaiTime own_start, TaiTime start) {
   if (orbit.ephemeris() == nullptr) {
     return orbit.at(own_start)
@@ -93,7 +92,7 @@ Expected<Orbit> moved_orbit(const Orbit& orbit, TaiTime own_start, TaiTime start
   });
 }
 
-/// As the scenario has it, or as it would be were the pass at `start`.
+/// Returns the scenario's orbit, shifted to a pass at `start` where that is given.
 Expected<MissionOrbit> orbit_at(const TomlDocument& document, std::optional<TaiTime> own_start,
                                 std::optional<TaiTime> start) {
   return load_orbit(document.values, document.path.parent_path())

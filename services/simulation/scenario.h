@@ -1,6 +1,5 @@
 /// @file
-/// The scenario of a pass to simulate: what there really is, what the mission file says of it, and
-/// what goes wrong.
+/// Scenario of a pass to simulate: the truth, what the mission file says of it, and the faults.
 
 #pragma once
 
@@ -23,32 +22,30 @@ namespace spindrift {
 struct Scenario {
   std::string spacecraft_id;
   Orbit orbit;
-  std::optional<std::filesystem::path> oem;  ///< The orbit's file, where it is as in one.
+  std::optional<std::filesystem::path> oem;  ///< Orbit file; empty for an orbit of elements.
   TaiTime start;
   double duration_s;
-  /// In the order of ScenarioKind.
+  /// Flight of the scenario; the alternatives are in the order of ScenarioKind.
   std::variant<SpinScenario, SeparationScenario, TumblingScenario, OrientationScenario> flight;
-  /// The mission file that goes with it, but for what a separation tells; its orbit is orbit.oem.
+  /// Text of its mission file, without the reports of a separation; its orbit is orbit.oem.
   std::string mission_toml;
 };
 
-/// The file by the rules of its kind (scenario_schema.h); what breaks them stands in `problems`.
+/// Reads a scenario file and lists violations of its schema (scenario_schema.h) in `problems`.
 /// @return InvalidConfiguration for what cannot be read or is not TOML.
 Expected<TomlDocument> read_scenario(const std::filesystem::path& path);
 
-/// Likewise of a table that is not as it stands in the file. @param path Named in problems.
+/// Checks a table that differs from the file's. @param path File named in problems.
 Expected<TomlDocument> checked_scenario(const std::filesystem::path& path, toml::table table);
 
-/// With the orbit file that it names. @return As load_scenario.
+/// Makes the scenario, with the orbit file that it names. @return Errors of load_scenario.
 Expected<Scenario> scenario_of(TomlDocument document, std::optional<TaiTime> other_start = {});
 
-/// Reads a scenario, and the orbit file that it names, by the rules of its kind
-/// (scenario_schema.h).
-/// @param other_start In the place of the scenario's. The orbit moves with it: the spacecraft is
-///        where it would have been as long after the scenario's start, in ICRF; the Sun is where it
-///        is then.
-/// @return InvalidConfiguration with every problem, one a line:
-///         "FILE:LINE: KEY = VALUE: what is allowed"; the line where one is to blame.
+/// Reads a scenario, checked by its schema (scenario_schema.h), and the orbit file it names.
+/// @param other_start Start in place of the scenario's. The orbit is shifted in time with it, with
+///        the same states in ICRF; the Sun is where it is at the new time.
+/// @return InvalidConfiguration with one problem per line: "FILE:LINE: KEY = VALUE: what is
+///         allowed"; the line number only where one line is to blame.
 Expected<Scenario> load_scenario(const std::filesystem::path& path,
                                  std::optional<TaiTime> other_start = {});
 

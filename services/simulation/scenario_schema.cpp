@@ -20,14 +20,14 @@ void share(const TableRule& from, const char* table, TableRule& with) {
   with.tables.emplace(table, from.tables.at(table));
 }
 
-/// Of a three-axis spacecraft.
+/// Returns the schema of a model of a three-axis spacecraft.
 const char* model_schema(ScenarioKind kind) {
   return kind == ScenarioKind::Tumbling      ? embedded::tumbling_schema_toml
          : kind == ScenarioKind::Orientation ? embedded::orientation_schema_toml
                                              : embedded::separation_schema_toml;
 }
 
-/// A body is needed, and of a separation each sensor that tells its events.
+/// Requires a body and, for a separation, each sensor that its events rely on.
 void require_sensors(ScenarioKind kind, TableRule& three_axis) {
   three_axis.required = "always";
   three_axis.tables.at("inertia").required = "always";

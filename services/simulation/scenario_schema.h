@@ -1,5 +1,5 @@
 /// @file
-/// The rules of a scenario file.
+/// Schemas of scenario files.
 
 #pragma once
 
@@ -8,12 +8,12 @@
 
 namespace spindrift {
 
-/// By spacecraft.kind, and of a three-axis one by attitude.model.
+/// Kind of a scenario, by spacecraft.kind and, for a three-axis spacecraft, attitude.model.
 enum class ScenarioKind { Spin, Separation, Tumbling, Orientation };
 
-/// schemas/scenario.schema.toml; or schemas/three-axis.schema.toml and that of its model; with the
-/// tables of the mission file that a scenario has too, as the program was built with them.
-/// @return as parse_schema; never in a program that was tested.
+/// Returns schemas/scenario.schema.toml, or schemas/three-axis.schema.toml with that of its model,
+/// with the tables that a scenario shares with the mission file. All are built into the program.
+/// @return Errors of parse_schema, which no tested program has.
 Expected<TableRule> scenario_schema(ScenarioKind kind);
 
 }  // namespace spindrift

@@ -11,7 +11,7 @@
 namespace spindrift {
 namespace {
 
-/// T1 to T4, behind the start.
+/// Returns T1 to T4, in seconds since the start.
 std::array<double, 4> events_s(const SeparationScenario& flight) {
   return {0.0, flight.truth.control_on_s, flight.truth.acquisition_s, flight.first_star_fix_s};
 }

@@ -1,5 +1,5 @@
 /// @file
-/// The scenario of a separation, played.
+/// Simulation of a separation.
 
 #pragma once
 
@@ -9,10 +9,10 @@
 
 namespace spindrift {
 
-/// As simulated_pass. Its truth: of T1 to T4 t_tai_ns, q_icrf_body_xyzw, w_body_deg_s and
-/// sun_off_deg, from -Z to the Sun; gyro_bias_deg_s; how many samples are missing; t_tai_ns of
+/// Simulates the pass, as simulated_pass. Its truth: t_tai_ns, q_icrf_body_xyzw, w_body_deg_s and
+/// sun_off_deg (from -Z to the Sun) at T1 to T4; gyro_bias_deg_s; missing (a number); t_tai_ns of
 /// sun_outliers.
-/// @return NoCoverage or Unobservable where the orbit ends before, or has no orbit frame.
+/// @return NoCoverage or Unobservable where the orbit ends too early, or has no orbit frame.
 Expected<SimulatedPass> played_pass(const Scenario& scenario, const SeparationScenario& flight);
 
 }  // namespace spindrift

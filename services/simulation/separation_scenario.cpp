@@ -33,7 +33,7 @@ std::optional<LauncherTelling> launcher_of(const TomlValues& values) {
                    : std::nullopt;
 }
 
-/// Stronger ones would throw the body from one end of the band to the other for ever.
+/// Refuses relays so strong that the body would oscillate between the ends of the dead band.
 void check_relays(TomlDocument& document) {
   const auto torque_nm = value_if<double>(document.values, "control.torque_nm");
   const auto dead_band_deg_s = value_if<double>(document.values, "control.dead_band_deg_s");

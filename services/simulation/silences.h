@@ -14,7 +14,7 @@
 
 namespace spindrift {
 
-/// @param tables "faults.silence": an array of tables.
+/// @param tables Key of an array of tables, e.g. "faults.silence".
 inline std::vector<Silence> silences_of(const TomlValues& values, std::string_view tables) {
   std::vector<Silence> all;
   for (int i = 0;; ++i) {

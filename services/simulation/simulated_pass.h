@@ -1,5 +1,5 @@
 /// @file
-/// A scenario played: what was received, and the truth about it.
+/// Simulation of a scenario: the received telemetry, and the truth about it.
 
 #pragma once
 
@@ -19,22 +19,22 @@
 namespace spindrift {
 
 struct Counted {
-  std::string_view plural;  ///< "edges"
+  std::string_view plural;  ///< Plural of what is counted, e.g. "edges".
   std::int64_t count;
 };
 
-/// On a terminal.
+/// Whether progress is shown on a terminal.
 enum class Progress { Shown, Hidden };
 
 struct SimulatedPass {
-  std::vector<TelemetryKind> kinds;  ///< That the scenario asks for.
-  TelemetryValues telemetry;         ///< Of these; their arrival is their place in order of time.
+  std::vector<TelemetryKind> kinds;  ///< Kinds of telemetry that the scenario requests.
+  TelemetryValues telemetry;         ///< Telemetry of these kinds; it arrives in order of time.
   std::string mission_toml;
   nlohmann::ordered_json truth;
   std::vector<Counted> made;
   std::vector<Counted> faults;
-  std::optional<BodyMotion> motion = {};    ///< Of a three-axis spacecraft.
-  std::vector<ControlRecord> control = {};  ///< Of its wheels, where they turn it.
+  std::optional<BodyMotion> motion = {};    ///< Motion of a three-axis spacecraft.
+  std::vector<ControlRecord> control = {};  ///< Records of its wheels, where they turn it.
 };
 
 /// @return InvalidConfiguration where the scenario's orbit does not allow it.

@@ -1,5 +1,5 @@
 /// @file
-/// The scenario of a spinner, played.
+/// Simulation of a spinner.
 
 #pragma once
 
@@ -9,8 +9,8 @@
 
 namespace spindrift {
 
-/// As simulated_pass. @return NoCoverage or Unobservable where the orbit ends before, or dips below
-/// the horizon.
+/// Simulates the pass, as simulated_pass.
+/// @return NoCoverage or Unobservable where the orbit ends too early, or dips below the horizon.
 Expected<SimulatedPass> played_pass(const Scenario& scenario, const SpinScenario& flight,
                                     Progress progress);
 

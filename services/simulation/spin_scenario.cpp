@@ -17,7 +17,7 @@
 namespace spindrift {
 namespace {
 
-/// A mission file's angle with the offset that the truth adds must stay a possible one.
+/// Checks that an angle of the mission file plus the offset of the truth stays an allowed one.
 void check_offset(TomlDocument& document, std::string_view key, std::string_view offset_key,
                   double below_deg) {
   const auto angle_deg = value_if<double>(document.values, key);
@@ -59,7 +59,7 @@ void check_rate(TomlDocument& document) {
   }
 }
 
-/// As at the start it may be large, and no larger in the end.
+/// Checks that nutation grows to no larger half-angle than is allowed at the start.
 void check_growth(TomlDocument& document) {
   const auto half_angle_deg = value_if<double>(document.values, "attitude.nutation.half_angle_deg");
   const auto growth_per_h = value_if<double>(document.values, "attitude.nutation.growth_per_h");

@@ -1,6 +1,5 @@
 /// @file
-/// The scenario of a pass of a spinner: what there really is, what is sent down, and what goes
-/// wrong.
+/// Scenario of a pass of a spinner: the truth, the telemetry and the faults.
 
 #pragma once
 
@@ -24,10 +23,10 @@ struct SpinScenario {
   SimulatedTelemetry telemetry;
 };
 
-/// Adds the problems that the schema cannot see.
+/// Adds the problems that the schema cannot detect.
 void check_spin_scenario(TomlDocument& document);
 
-/// @param values In which no problem was found.
+/// @param values Values of a scenario without problems.
 SpinScenario spin_scenario(const TomlValues& values, TaiTime start);
 
 }  // namespace spindrift

@@ -7,7 +7,7 @@
 namespace spindrift {
 namespace {
 
-/// The least value that so large a share does not exceed. @param values In order, not empty.
+/// Returns the least value that the given share does not exceed. @param values Sorted, not empty.
 double quantile(const std::vector<double>& values, double share) {
   const double place = std::ceil(share * static_cast<double>(values.size()));
   return values.at(static_cast<std::size_t>(std::max(place, 1.0)) - 1);

@@ -1,5 +1,5 @@
 /// @file
-/// What many runs say together.
+/// Statistics of many runs.
 
 #pragma once
 
@@ -17,21 +17,21 @@ struct Spread {
   double rms;
   double least;
   double median;
-  double most_of_95;  ///< 95 of 100 are not larger.
+  double most_of_95;  ///< 95th percentile.
   double most;
 };
 
-/// Of one measure over all runs.
+/// Statistics of one measure over all runs.
 struct MeasureStatistics {
   std::string name;
-  std::int64_t count;  ///< Of runs that have it.
+  std::int64_t count;  ///< Number of runs that have the measure.
   std::optional<Spread> spread;
 };
 
-/// In the order of the measures.
+/// Returns the statistics in the order of the measures.
 std::vector<MeasureStatistics> statistics_of(const MonteCarloResult& result);
 
-/// That of one measure in the runs that have it, in their order. @param measure By its place.
+/// Returns the values of the measure with that index, of the runs that have it, in their order.
 std::vector<double> values_of(const MonteCarloResult& result, std::size_t measure);
 
 }  // namespace spindrift

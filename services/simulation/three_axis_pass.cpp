@@ -16,7 +16,7 @@ ordered_json elements_of(const Eigen::Vector3d& vector) {
   return {vector.x(), vector.y(), vector.z()};
 }
 
-/// Adds a kind that the spacecraft has a sensor of.
+/// Adds a kind of telemetry that the spacecraft has a sensor for.
 template <class Value>
 void append(const std::vector<Value>& values, SimulatedPass& pass) {
   pass.kinds.emplace_back(Kind<Value>{});

@@ -1,5 +1,5 @@
 /// @file
-/// What the scenarios of all flights of a three-axis spacecraft have in common.
+/// Functions shared by the scenarios of all flights of a three-axis spacecraft.
 
 #pragma once
 
@@ -15,14 +15,14 @@
 
 namespace spindrift {
 
-/// Empty where the key is absent.
+/// Returns the vector of `key`; empty where the key is absent.
 std::optional<Eigen::Vector3d> vector_if(const TomlValues& values, std::string_view key);
-/// Zero where it is absent.
+/// Returns the vector of `key`; zero where the key is absent.
 Eigen::Vector3d vector_or_zero(const TomlValues& values, std::string_view key);
-/// Of a key in degrees; empty where it is absent.
+/// Returns the vector of a key in degrees, in rad; empty where the key is absent.
 std::optional<Eigen::Vector3d> radians_vector_if(const TomlValues& values, std::string_view key);
 
-/// When each sensor gives its first sample, behind the start.
+/// Times of the first sample of each sensor, since the start.
 struct FirstSamples {
   double gyro_s = 0.0;
   double sun_s = 0.0;
@@ -30,19 +30,18 @@ struct FirstSamples {
   double magnetometer_s = 0.0;
 };
 
-/// @param values In which no problem was found.
+/// @param values Values of a scenario without problems.
 ThreeAxisView three_axis_view(const TomlValues& values, const ThreeAxisConfig& said,
                               const FirstSamples& first);
 BodyTruth body_truth(const TomlValues& values, const ThreeAxisConfig& said, TaiTime start);
 
-/// Adds a problem for the instant of `key` where it is beyond the pass.
+/// Adds a problem where the instant of `key` is after the end of the pass.
 void check_within_pass(TomlDocument& document, std::string_view key);
 
-/// Adds one where there is no sensor to send anything, and for the truth of a sensor that is not
-/// there.
+/// Adds a problem where no sensor sends anything, and for the truth of an absent sensor.
 void check_sensors_on_board(TomlDocument& document);
 
-/// Adds one where the body at the start turns too fast for steps of the period of `key`.
+/// Adds a problem where the body turns too fast at the start for steps of the period of `key`.
 void check_body_step(TomlDocument& document, std::string_view key);
 
 }  // namespace spindrift

@@ -1,5 +1,5 @@
 /// @file
-/// The scenario of a lost satellite, played.
+/// Simulation of a lost satellite.
 
 #pragma once
 
@@ -9,9 +9,9 @@
 
 namespace spindrift {
 
-/// As simulated_pass. Its truth: of start and end what a separation has of its events; history
-/// (three_axis_pass.h); gyro_bias_deg_s, missing, sun_outliers.
-/// @return NoCoverage where the orbit or the field ends before.
+/// Simulates the pass, as simulated_pass. Its truth: at start and end the state as at the events of
+/// a separation; history (three_axis_pass.h); gyro_bias_deg_s, missing, sun_outliers.
+/// @return NoCoverage where the orbit or the field ends too early.
 Expected<SimulatedPass> played_pass(const Scenario& scenario, const TumblingScenario& flight);
 
 }  // namespace spindrift

@@ -1,5 +1,5 @@
 /// @file
-/// Something of each kind of telemetry.
+/// Containers with an element for each kind of telemetry.
 
 #pragma once
 
@@ -22,7 +22,7 @@ namespace spindrift {
 
 inline constexpr std::size_t kTelemetryKindCount = TelemetryKinds::kSize;
 
-/// One kind of the list.
+/// A kind of telemetry as a value.
 using TelemetryKind = TelemetryKinds::Of<std::variant, Kind>;
 
 template <class Value>
@@ -32,7 +32,7 @@ inline std::string_view name_of(const TelemetryKind& kind) {
   return std::visit([]<class Value>(Kind<Value>) { return Telemetry<Value>::kName; }, kind);
 }
 
-/// `Content<Value>` of each kind.
+/// Holds a `Content<Value>` for each kind.
 template <template <class> class Content>
 class ByKind {
  public:
@@ -45,7 +45,7 @@ class ByKind {
     return std::get<kTelemetryKind<Value>>(all_);
   }
 
-  /// Calls `see` with the content of each, in the order of the list.
+  /// Calls `see` with the content of each kind, in the order of TelemetryKinds.
   template <class See>
   void for_each(See&& see) {
     std::apply([&](auto&... content) { (see(content), ...); }, all_);
@@ -62,10 +62,10 @@ class ByKind {
 template <class Value>
 using SamplesOfKind = std::vector<TelemetrySample<Value>>;
 
-/// Samples by kind; their `arrival` gives the order of all.
+/// Samples by kind; `arrival` orders them across kinds.
 using TelemetrySamples = ByKind<SamplesOfKind>;
 
-/// A value in the order in which it arrived among others.
+/// A value with its place in the order of arrival.
 template <class Value>
 struct Arrived {
   std::int64_t arrival;
@@ -74,10 +74,10 @@ struct Arrived {
 template <class Value>
 using ArrivedOfKind = std::vector<Arrived<Value>>;
 
-/// Values by kind in the order of arrival, without where they came from.
+/// Values by kind in the order of arrival, without their origin.
 using TelemetryValues = ByKind<ArrivedOfKind>;
 
-/// Of TelemetrySamples or TelemetryValues, all kinds together.
+/// Counts the elements of all kinds. @param all TelemetrySamples or TelemetryValues.
 template <template <class> class Content>
 std::size_t count_of(const ByKind<Content>& all) {
   std::size_t count = 0;
@@ -85,15 +85,14 @@ std::size_t count_of(const ByKind<Content>& all) {
   return count;
 }
 
-/// Calls `see` with each element of all kinds in the order of its `arrival`, in which each kind is
-/// by itself.
-/// @param all TelemetrySamples or TelemetryValues.
+/// Calls `see` with each element of all kinds in the order of `arrival`. Each kind must be in that
+/// order already.
 template <class All, class See>
 void in_order_of_arrival(All&& all, See&& see) {
   constexpr std::int64_t kNone = std::numeric_limits<std::int64_t>::max();
   std::array<std::size_t, kTelemetryKindCount> next{};
   while (true) {
-    // The kind whose next is the first of all, and when that of another kind follows.
+    // Find the kind with the earliest next element, and when the next one of another kind comes.
     std::size_t earliest = 0;
     std::int64_t first = kNone;
     std::int64_t other = kNone;
@@ -122,8 +121,8 @@ void in_order_of_arrival(All&& all, See&& see) {
   }
 }
 
-/// The same with silences among the elements.
-/// @param silences In order; `fall_silent` is called with each before the element of that arrival.
+/// Also calls `fall_silent` with each silence, before the element of that arrival.
+/// @param silences Arrivals in increasing order.
 template <class All, class See, class FallSilent>
 void in_order_of_arrival(All&& all, const std::vector<std::int64_t>& silences, See&& see,
                          FallSilent&& fall_silent) {
@@ -139,8 +138,8 @@ void in_order_of_arrival(All&& all, const std::vector<std::int64_t>& silences, S
   }
 }
 
-/// The same with more elements among them, as an operator's actions are.
-/// @param more In order of `arrival`, which none of them has in common with one of `all`.
+/// Also calls `see` with the elements of `more`, such as operator's actions.
+/// @param more In order of `arrival`, with no arrival that occurs in `all`.
 template <class All, class More, class See, class FallSilent>
 void in_order_of_arrival(All&& all, const std::vector<std::int64_t>& silences, const More& more,
                          See&& see, FallSilent&& fall_silent) {
@@ -163,8 +162,8 @@ void in_order_of_arrival(All&& all, const std::vector<std::int64_t>& silences, c
   see_those_before(std::numeric_limits<std::int64_t>::max());
 }
 
-/// Where a sample stands among all of its spacecraft: the natural key of what is stored, and the
-/// order in which equal times are given from files.
+/// Sorts the samples of a spacecraft: the natural key of stored samples, and the order in which
+/// samples of equal time are read from files.
 struct TelemetryOrder {
   TaiTime t;
   std::uint32_t kind;
@@ -181,13 +180,13 @@ constexpr TelemetryOrder order_of(const Value& value) {
   return order;
 }
 
-/// Kinds of which more may be said than that there was something.
+/// Kinds whose values carry the sender that they came from.
 template <class Value>
 concept HasSender = requires(const Value& value) {
   value.sender;
 };
 
-/// Whether one is the other, sent again. @see say_the_same
+/// Returns whether one sample is a repetition of the other. @see say_the_same
 template <class Value>
 bool is_the_same_sample(const Value& one, const Value& other) {
   if constexpr (HasSender<Value>) {

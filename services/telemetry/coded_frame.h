@@ -16,7 +16,7 @@
 
 namespace spindrift {
 
-/// The member of a frame that is the interval of `channel`.
+/// Returns an accessor of the interval of `channel` in a frame.
 constexpr auto delay_of(PulseChannel channel) {
   return [channel](auto& frame) -> auto& { return frame.delay_s[index_of(channel)]; };
 }
@@ -37,9 +37,9 @@ struct Telemetry<CodedFrame> {
       Column{"south_in_s", delay_of(PulseChannel::SouthIn)},
       Column{"south_out_s", delay_of(PulseChannel::SouthOut)}};
 
-  /// A period lies in (0, 60] s, a delay in [0, 2] periods, or in [0, 60] s where there is none.
+  /// A period must lie in (0, 60] s, a delay in [0, 2] periods, or in [0, 60] s without a period.
   static std::string why_impossible(const CodedFrame& frame) {
-    // Written so that NaN fails.
+    // The conditions are written so that NaN fails.
     if (frame.period_s && !(*frame.period_s > 0.0 && *frame.period_s <= kLongestPeriod_s)) {
       return fmt::format("period_s = {}: must be above 0, at most {} s", *frame.period_s,
                          kLongestPeriod_s);

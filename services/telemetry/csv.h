@@ -1,5 +1,5 @@
 /// @file
-/// Fields of the plain CSV of telemetry: no quotes, no escapes.
+/// Splits the plain CSV of telemetry, which has no quotes and no escapes.
 
 #pragma once
 
@@ -12,20 +12,20 @@
 
 namespace spindrift {
 
-/// The fields of a line, in its own memory: "a,,b" has three.
+/// The fields of a line, without allocation: "a,,b" has three.
 class CsvFields {
  public:
   explicit CsvFields(std::string_view line);
 
-  /// All of the line.
+  /// Counts all fields of the line.
   std::size_t count() const { return count_; }
 
-  /// The first kMost of them at most; no telemetry has more columns.
+  /// Returns at most the first kMost fields; no telemetry has more columns.
   std::span<const std::string_view> fields() const {
     return {fields_.data(), std::min(count_, kMost)};
   }
 
-  /// Takes one of `fields()` out; those behind it move up.
+  /// Removes and returns one of `fields()`; those behind it move up.
   std::string_view remove(std::size_t column);
 
   friend bool operator==(const CsvFields& a, const CsvFields& b) {
@@ -39,7 +39,7 @@ class CsvFields {
   std::size_t count_ = 0;
 };
 
-/// As shown.h, in quotes.
+/// Escapes the text as in shown.h and adds quotes.
 std::string quoted(std::string_view text);
 
 }  // namespace spindrift

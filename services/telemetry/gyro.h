@@ -28,7 +28,7 @@ struct Telemetry<GyroSample> {
       Column{"wz_rad_s",
              [](auto& sample) -> decltype(auto) { return sample.rate_body_rad_s.z(); }}};
 
-  /// A body that turns faster has broken.
+  /// A faster body would have broken apart.
   static constexpr double kFastest_deg_s = 1000.0;
 
   static std::string why_impossible(const GyroSample& sample) {

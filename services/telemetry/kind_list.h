@@ -8,7 +8,7 @@
 
 namespace spindrift {
 
-/// Stands for a type where a value is needed.
+/// Represents a type as a value.
 template <class Value>
 struct Kind {
   using Type = Value;
@@ -19,11 +19,11 @@ template <class... Values>
 struct KindList {
   static constexpr std::size_t kSize = sizeof...(Values);
 
-  /// `Whole<Content<Value>...>`
+  /// Yields `Whole<Content<Values>...>`.
   template <template <class...> class Whole, template <class> class Content>
   using Of = Whole<Content<Values>...>;
 
-  /// Its place in the list.
+  /// Returns the type's place in the list.
   template <class Value>
   static constexpr std::size_t index_of() {
     static_assert((std::is_same_v<Value, Values> || ...), "not a kind of the list");
@@ -32,7 +32,7 @@ struct KindList {
     return index;
   }
 
-  /// Calls `see(Kind<Value>{})` for each, in order.
+  /// Calls `see(Kind<Value>{})` for each type, in order.
   template <class See>
   static constexpr void for_each(See&& see) {
     (see(Kind<Values>{}), ...);

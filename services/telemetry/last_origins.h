@@ -1,5 +1,5 @@
 /// @file
-/// How far the sessions of sources had come before a restart.
+/// How far each session of a source had come before a restart.
 
 #pragma once
 
@@ -11,8 +11,7 @@
 
 namespace spindrift {
 
-/// The highest seq that the archive holds of each session, by topic: in the order of the list of
-/// kinds.
+/// The highest seq of each session in the archive, for each kind in the order of the list.
 using LastOrigins = std::array<std::vector<Origin>, kTelemetryKindCount>;
 
 }  // namespace spindrift

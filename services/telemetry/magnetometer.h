@@ -28,7 +28,7 @@ struct Telemetry<MagneticField> {
       Column{"by_nt", [](auto& sample) -> decltype(auto) { return sample.field_body_nt.y(); }},
       Column{"bz_nt", [](auto& sample) -> decltype(auto) { return sample.field_body_nt.z(); }}};
 
-  /// At the Earth's surface it is below 70,000 nT.
+  /// At the Earth's surface the field is below 70,000 nT.
   static constexpr double kStrongest_nt = 100'000.0;
 
   static std::string why_impossible(const MagneticField& sample) {

@@ -1,5 +1,5 @@
 /// @file
-/// An operator's word on the telemetry of one spacecraft: input, like a sample.
+/// An operator's action on the telemetry of one spacecraft, an input like a sample.
 
 #pragma once
 
@@ -17,15 +17,15 @@ namespace spindrift {
 struct OperatorAction {
   std::string action_id;
   std::string spacecraft;
-  /// Telemetry from then on is meant. Empty: from as far as it has come, until a run takes it.
+  /// Start of the telemetry it applies to; empty: what comes after the run takes it.
   std::optional<TaiTime> t;
   std::string made_utc;
   std::string by;
-  std::string action;     ///< As in `schemas/tables.sql`.
+  std::string action;     ///< Name as in `schemas/tables.sql`.
   std::string arguments;  ///< A JSON object.
   std::string note;
-  std::variant<SpinAction, AttitudeAction> does;  ///< What the two say, by kind of spacecraft.
-  std::int64_t arrival = 0;                       ///< Among the samples of the run that took it.
+  std::variant<SpinAction, AttitudeAction> does;  ///< `action` and `arguments`, parsed.
+  std::int64_t arrival = 0;                       ///< Its place among the samples of the run.
 };
 
 }  // namespace spindrift

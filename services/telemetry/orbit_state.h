@@ -35,10 +35,10 @@ struct Telemetry<TimedOrbitState> {
       Column{"vz_km_s",
              [](auto& sample) -> decltype(auto) { return sample.state.velocity_icrf_km_s.z(); }}};
 
-  /// From below the pole, which is at 6357 km, to as far as orbits of the mission file go.
+  /// From below the polar radius of 6357 km to the limit for orbits in the mission file.
   static constexpr double kNearest_km = 6300.0;
   static constexpr double kFarthest_km = 2.0e6;
-  /// No body that stays near the Earth is as fast, nor does one stand still.
+  /// A body that stays near the Earth is slower.
   static constexpr double kFastest_km_s = 20.0;
 
   static std::string why_impossible(const TimedOrbitState& sample) {

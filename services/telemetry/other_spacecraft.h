@@ -1,5 +1,5 @@
 /// @file
-/// How many samples came of spacecraft that have no mission here.
+/// Counts samples of spacecraft that have no mission here.
 
 #pragma once
 
@@ -10,13 +10,13 @@
 
 namespace spindrift {
 
-/// By name.
+/// Sample counts by spacecraft name.
 using OtherSpacecraft = std::map<std::string, std::int64_t>;
 
 inline constexpr std::size_t kMostOtherSpacecraft = 256;
 inline constexpr const char* kStillMoreSpacecraft = "(others)";
 
-/// Where those of `spacecraft` are counted: beyond kMostOtherSpacecraft together, under
+/// Returns the count for `spacecraft`. Those beyond kMostOtherSpacecraft share the entry
 /// kStillMoreSpacecraft.
 inline OtherSpacecraft::value_type& entry_of(OtherSpacecraft& others,
                                              const std::string& spacecraft) {

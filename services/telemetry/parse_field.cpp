@@ -12,7 +12,7 @@
 namespace spindrift {
 namespace {
 
-/// Empty where the field is no finite number.
+/// Returns empty when the field is not a finite number.
 std::optional<double> number_from(std::string_view field) {
   double number = 0.0;
   const char* const end = field.data() + field.size();

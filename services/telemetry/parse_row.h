@@ -1,5 +1,5 @@
 /// @file
-/// What the columns of a row of telemetry say.
+/// Parses the columns of a telemetry row.
 
 #pragma once
 
@@ -18,18 +18,18 @@ namespace spindrift {
 
 using RowFields = std::span<const std::string_view>;
 
-/// @name One field into one member of a value
-/// @return why it cannot be read, naming column, field and what is allowed; or empty.
+/// @name Parsers of one field into one member of a value
+/// @return Empty, or why the field cannot be read, naming column, field and what is allowed.
 /// @{
 std::string parse_field(std::string_view column, std::string_view field, TaiTime& t);
 std::string parse_field(std::string_view column, std::string_view field, double& number);
-/// Empty: not received.
+/// An empty field means not received.
 std::string parse_field(std::string_view column, std::string_view field,
                         std::optional<double>& number);
 std::string parse_field(std::string_view column, std::string_view field, PulseChannel& channel);
 /// @}
 
-/// @param fields The columns of the kind, without `spacecraft`, all there.
+/// @param fields All columns of the kind, without `spacecraft`.
 /// @return InvalidInput naming column, value and what is allowed (telemetry_time.h, and the traits
 ///         of the kind).
 template <class Value>

@@ -1,5 +1,5 @@
 /// @file
-/// What is asked of vectors and quaternions of telemetry.
+/// Plausibility checks for vectors and quaternions of telemetry.
 
 #pragma once
 
@@ -14,7 +14,7 @@
 
 namespace spindrift {
 
-/// "sx, sy, sz = 0.1, 0, 2: must ..."
+/// Returns for example "sx, sy, sz = 0.1, 0, 2: must ..."
 inline std::string impossible(std::string_view names,
                               const Eigen::Ref<const Eigen::VectorXd>& values,
                               std::string_view allowed) {
@@ -25,7 +25,7 @@ inline std::string impossible(std::string_view names,
   return fmt::format("{} = {}: must {}", names, text, allowed);
 }
 
-/// Written so that NaN is none; so are the two below.
+/// Like the two checks below, written so that NaN fails.
 inline bool is_unit(const Eigen::Ref<const Eigen::VectorXd>& values) {
   return std::abs(values.norm() - 1.0) <= kUnitTolerance;
 }

@@ -1,5 +1,5 @@
 /// @file
-/// What goes from the thread that takes samples to the one that works on them.
+/// Input handed from the receiving to the processing thread.
 
 #pragma once
 
@@ -18,25 +18,25 @@
 
 namespace spindrift {
 
-/// Samples in order of arrival; all batches together are everything that arrived.
+/// Holds samples in order of arrival. All batches together hold everything that arrived.
 struct SampleBatch {
   TelemetrySamples samples = {};
-  std::vector<OperatorAction> actions = {};  ///< Behind the samples, in order.
+  std::vector<OperatorAction> actions = {};  ///< In order, behind the samples.
   std::vector<RejectedInput> rejected = {};
-  /// From the bus, which does not hand these samples over. Of a file they stand among `samples`.
+  /// Counts samples that the bus does not hand over. Those of a file stand among `samples`.
   OtherSpacecraft others = {};
-  /// Of the sources in it, from the start up to and including this batch. Empty for a file.
+  /// Counts by source, from the start to the end of this batch. Empty for a file.
   std::map<std::string, SequenceCounts> counts = {};
-  /// From the bus: when it was queued.
+  /// When a batch from the bus was queued.
   std::optional<std::chrono::steady_clock::time_point> came = {};
 };
 
-/// Samples, actions and rejected input.
+/// Counts samples, actions and rejected input.
 inline std::size_t size_of(const SampleBatch& batch) {
   return count_of(batch.samples) + batch.actions.size() + batch.rejected.size();
 }
 
-/// Whether nothing at all came, not even to be counted.
+/// Returns whether the batch has neither items nor counts.
 inline bool is_empty(const SampleBatch& batch) {
   return size_of(batch) == 0 && batch.others.empty() && batch.counts.empty();
 }

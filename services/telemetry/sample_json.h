@@ -1,5 +1,5 @@
 /// @file
-/// What a sample says as a JSON object of its columns, and back.
+/// Converts a sample to and from a JSON object of its columns.
 
 #pragma once
 
@@ -12,7 +12,7 @@
 
 namespace spindrift {
 
-/// To the last bit.
+/// Keeps every bit of the numbers.
 template <class Value>
 std::string json_of_sample(const Value& value) {
   nlohmann::ordered_json object = nlohmann::ordered_json::object();
@@ -26,7 +26,7 @@ std::string json_of_sample(const Value& value) {
   return object.dump();
 }
 
-/// The columns of `value` from a text of `json_of_sample`. @throws nlohmann::json::exception
+/// Fills the columns of `value` from a text of `json_of_sample`. @throws nlohmann::json::exception
 template <class Value>
 void put_json(const std::string& text, Value& value) {
   const nlohmann::json object = nlohmann::json::parse(text);

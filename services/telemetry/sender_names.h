@@ -1,5 +1,5 @@
 /// @file
-/// The sources of telemetry by numbers, as the pipelines know them.
+/// Numbers for the telemetry sources, as the pipelines know them.
 
 #pragma once
 
@@ -15,16 +15,16 @@
 
 namespace spindrift {
 
-/// By number.
+/// Source names indexed by number.
 using NamesOfSenders = std::shared_ptr<const std::vector<std::string>>;
 
-/// The numbers say nothing but who is preferred: they hang on who is heard first. Beyond kMost all
-/// are one.
+/// Numbers sources in the order in which they are first heard, after the preferred one, which is 0.
+/// Sources beyond kMost share one number.
 class SenderNames {
  public:
   static constexpr std::size_t kMost = 256;
 
-  /// @param preferred Empty: nobody is.
+  /// @param preferred Empty when no source is preferred.
   explicit SenderNames(std::string preferred)
       : names_{std::make_shared<std::vector<std::string>>(1, std::move(preferred))} {}
 
@@ -38,7 +38,7 @@ class SenderNames {
     return static_cast<Sender>(last_);
   }
 
-  /// Gives the sample the number of its source, if its kind has one.
+  /// Sets the sample's sender to the number of its source, if its kind has one.
   template <class Value>
   void put_into(TelemetrySample<Value>& sample) {
     if constexpr (requires { sample.value.sender; }) {
@@ -64,7 +64,7 @@ class SenderNames {
   }
 
   NamesOfSenders names_;
-  std::size_t last_ = 0;  ///< Heard last.
+  std::size_t last_ = 0;  ///< Source of the latest sample.
 };
 
 }  // namespace spindrift

@@ -1,5 +1,5 @@
 /// @file
-/// How the samples of a source came in.
+/// Counts of received, missing and repeated samples of a source.
 
 #pragma once
 
@@ -8,10 +8,10 @@
 namespace spindrift {
 
 struct SequenceCounts {
-  std::uint64_t received = 0;  ///< All that arrived, duplicates too.
-  std::uint64_t missing = 0;   ///< Gaps: between the lowest and highest seq of a session, not here.
-  std::uint64_t duplicates = 0;  ///< Arrived before, same session and seq.
-  std::uint64_t disordered = 0;  ///< Arrived after a higher seq of its session and spacecraft.
+  std::uint64_t received = 0;    ///< All samples that arrived, duplicates included.
+  std::uint64_t missing = 0;     ///< Gaps between the lowest and highest seq of a session.
+  std::uint64_t duplicates = 0;  ///< Samples whose session and seq had arrived before.
+  std::uint64_t disordered = 0;  ///< Samples after a higher seq of their session and spacecraft.
 
   SequenceCounts& operator+=(const SequenceCounts& other) {
     received += other.received;

@@ -1,5 +1,5 @@
 /// @file
-/// The rows of one telemetry file in the order of their time, in bounded memory.
+/// Gives the rows of one telemetry file in order of time, in bounded memory.
 
 #pragma once
 
@@ -19,34 +19,33 @@
 
 namespace spindrift {
 
-/// In order of time, and of the lines of the file where that is the same.
+/// Orders by time; rows of equal time keep the order of their lines.
 template <class Value>
 bool comes_before(const TelemetryRow<Value>& a, const TelemetryRow<Value>& b) {
   const auto order = order_of(a.value) <=> order_of(b.value);
   return order != 0 ? order < 0 : a.line < b.line;
 }
 
-/// Sorts a file of up to `capacity` rows completely. In a longer one every row finds its place that
-/// stands fewer than half as many rows from it; others come as soon as they are read.
-///
-/// Stray rows (find_stray_rows) keep their place, as they had it when they were received: sorted,
-/// they would stand together behind the others, as if the pass went on there. Each is given after
-/// another row in order, so that no number of them looks like that either.
+/// Sorts a file of up to `capacity` rows completely. In a longer file a row is sorted into its
+/// place if that is fewer than half as many rows away; other rows come as soon as they are read.
+/// Stray rows (find_stray_rows) keep their place in the file: sorted, they would gather behind the
+/// others, as if the pass went on there. Each is given after another row in order, so that no
+/// number of strays looks like a continuing pass either.
 template <class Value>
 class SortedRows {
  public:
   SortedRows(TelemetryRows<Value> rows, std::string source, std::size_t capacity);
 
-  /// Reads until the head is known. False: there is more to read, but as many as `most_rejected`
-  /// rejected rows stand in `rejected` and want to be taken away first.
-  /// @return as TelemetryRows::next.
+  /// Reads until the head is known. Returns false when there is more to read, but `rejected` has
+  /// `most_rejected` rows and must be emptied first.
+  /// @return The errors of TelemetryRows::next.
   Expected<bool> fill(std::vector<RejectedInput>& rejected, std::size_t most_rejected);
 
-  /// Null at the end of the file. To be asked for when filled.
+  /// Null at the end of the file. Call it after `fill` has returned true.
   const Value* head() const { return next_ < ready_ || is_stray() ? &head_row().value : nullptr; }
-  /// Where the head stands among the rows of all files: a stray one after the row before it.
+  /// Place of the head among the rows of all files; a stray row takes that of the row before it.
   TelemetryOrder order() const { return is_stray() ? given_ : order_of(head_row().value); }
-  /// Of the head.
+  /// Whether the head is a stray row.
   bool is_stray() const {
     return !strays_.empty() &&
            (next_ < ready_ ? gave_one_in_order_ && strays_.front().after <= given_.t : ended_);
@@ -56,7 +55,7 @@ class SortedRows {
   void pop();
 
   const std::string& source() const { return source_; }
-  /// Of the file, up to the rows that are still held.
+  /// Bytes of the file read so far, without those of the rows still held.
   std::uint64_t bytes_given() const;
 
  private:
@@ -77,14 +76,14 @@ class SortedRows {
   std::string source_;
   std::size_t capacity_;
   std::vector<TelemetryRow<Value>> rows_;
-  std::size_t next_ = 0;    ///< The head.
-  std::size_t ready_ = 0;   ///< Up to here nothing that is still to be read belongs.
-  std::size_t sorted_ = 0;  ///< Up to here they are in order.
-  std::uint64_t read_ = 0;  ///< Good rows of the file so far.
+  std::size_t next_ = 0;    ///< Index of the head.
+  std::size_t ready_ = 0;   ///< No unread row belongs before here.
+  std::size_t sorted_ = 0;  ///< Rows before here are in order.
+  std::uint64_t read_ = 0;  ///< Good rows read so far.
   bool ended_ = false;
-  std::deque<Stray> strays_;        ///< In the order of the file.
-  TelemetryOrder given_{};          ///< Of the last row in order.
-  bool gave_one_in_order_ = false;  ///< Since the last stray one.
+  std::deque<Stray> strays_;        ///< In file order.
+  TelemetryOrder given_{};          ///< Order of the last row in order.
+  bool gave_one_in_order_ = false;  ///< Since the last stray.
 };
 
 template <class Value>
@@ -151,7 +150,8 @@ void SortedRows<Value>::pop() {
   }
 }
 
-/// Among those that were added. Of several spacecraft each may have a time of its own.
+/// Moves stray rows among the added ones to `strays_`. In a file of several spacecraft it finds
+/// none, since each may have a time of its own.
 template <class Value>
 void SortedRows<Value>::set_strays_aside() {
   const std::span<const TelemetryRow<Value>> added = std::span{rows_}.subspan(sorted_);
@@ -179,7 +179,7 @@ void SortedRows<Value>::set_strays_aside() {
   rows_.resize(kept);
 }
 
-// Telemetry mostly stands in order already, and to see that costs little.
+// The check first is cheap, and telemetry is mostly in order already.
 template <class Value>
 void SortedRows<Value>::sort() {
   const auto before = &comes_before<Value>;

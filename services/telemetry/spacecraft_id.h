@@ -1,5 +1,5 @@
 /// @file
-/// What may name a spacecraft, in files, on the bus and in the archive.
+/// Valid names of spacecraft, in files, on the bus and in the archive.
 
 #pragma once
 
@@ -9,7 +9,7 @@
 
 namespace spindrift {
 
-inline constexpr std::size_t kSpacecraftIdMaxBytes = 32;  ///< string<32> of the IDL.
+inline constexpr std::size_t kSpacecraftIdMaxBytes = 32;  ///< As string<32> in the IDL.
 inline constexpr std::string_view kSpacecraftIdAllowed =
     "1 to 32 printable ASCII characters, no comma, no space at an end";
 

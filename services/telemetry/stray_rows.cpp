@@ -18,12 +18,12 @@ bool steps_far_back(std::span<const TaiTime> times) {
   });
 }
 
-/// The most rows that stand in order, by patience sorting (Fredman 1975). Within a second, for
-/// which the pipelines wait, any order is order.
+/// Finds the largest set of ordered rows by patience sorting (Fredman 1975). Any order within a
+/// second is accepted, since the pipelines wait that long.
 std::vector<std::size_t> rows_in_order(std::span<const TaiTime> times) {
   constexpr std::uint32_t kNone = std::numeric_limits<std::uint32_t>::max();
   const auto second_of = [&](std::uint32_t row) { return tai_ns(times[row]) / 1'000'000'000; };
-  std::vector<std::uint32_t> last;  // Of the best so many rows in order: one that ends earliest.
+  std::vector<std::uint32_t> last;  // Earliest last row by length of the sequence.
   std::vector<std::uint32_t> before(times.size(), kNone);
   for (std::uint32_t row = 0; row < times.size(); ++row) {
     const auto place = std::upper_bound(
@@ -48,7 +48,7 @@ bool follow(TaiTime one, TaiTime other) {
   return span_between(std::min(one, other), std::max(one, other)) <= TimeJump::kFar;
 }
 
-/// Behind the rows from there on, before `end`, that follow one another.
+/// Returns the end of the sequence of rows from `row` that follow one another, at most `end`.
 std::size_t end_of_run(std::span<const TaiTime> times, std::size_t row, std::size_t end) {
   for (++row; row < end && follow(times[row - 1], times[row]); ++row) {
   }
@@ -74,7 +74,7 @@ std::vector<StrayRow> find_stray_rows(std::span<const TaiTime> times) {
     }
     for (std::size_t row = before + 1; row < after;) {
       const std::size_t end = end_of_run(times, row, after);
-      // What one of the two goes on from, or goes on to, is another recording behind this one.
+      // Rows that continue either neighbour belong to another recording.
       const bool goes_on =
           follow(times[before], times[row]) || follow(times[end - 1], times[after]);
       for (; row < end; ++row) {

@@ -1,5 +1,5 @@
 /// @file
-/// Which rows of a file say another time than those around them.
+/// Finds the rows of a file whose times do not fit those around them.
 
 #pragma once
 
@@ -13,16 +13,15 @@ namespace spindrift {
 
 struct StrayRow {
   std::size_t row;
-  std::size_t after;  ///< The row in order that stands before it.
+  std::size_t after;  ///< The last row in order before it.
 };
 
-/// A file keeps the order in which samples were received, and that tells what their times alone do
-/// not: rows between two that go on from one another, and more than a minute apart from both, are
-/// stray, however many there are. A block that stands in the wrong place is not: nothing goes on
-/// around it. Nor is one recording behind another: its end is not apart. In a file most of whose
-/// rows stand in no order none is.
-/// @param times Of the rows of one spacecraft, in the order of the file.
-/// @return in that order.
+/// A file keeps the order of reception, which reveals rows with wrong times. Any number of rows are
+/// stray if they lie between two rows that follow on from one another and are more than a minute
+/// from both. A misplaced block is not stray, since no rows follow on around it, nor is a second
+/// recording, whose end has no row after it. A file whose rows are mostly unordered has no strays.
+/// @param times Times of the rows of one spacecraft, in the order of the file.
+/// @return The stray rows in that order.
 std::vector<StrayRow> find_stray_rows(std::span<const TaiTime> times);
 
 }  // namespace spindrift

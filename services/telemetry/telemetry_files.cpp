@@ -46,7 +46,7 @@ Expected<TelemetryFile> recognised(const std::filesystem::path& path) {
   });
 }
 
-/// Its last parts, so many of them.
+/// Returns the last `parts` elements of the path.
 std::filesystem::path end_of(const std::filesystem::path& path, std::size_t parts) {
   std::filesystem::path end;
   const auto all = std::distance(path.begin(), path.end());
@@ -62,7 +62,7 @@ std::size_t parts_of(const std::filesystem::path& path) {
   return static_cast<std::size_t>(std::distance(path.begin(), path.end()));
 }
 
-/// Files are few; of two of one path the samples are the same.
+/// Names that are still shared have one path, so their samples are the same.
 void name_sources(std::vector<TelemetryFile>& files) {
   for (TelemetryFile& file : files) {
     const auto path = file.path.lexically_normal();
@@ -104,7 +104,7 @@ Expected<std::vector<TelemetryFile>> scan_telemetry(std::span<const std::filesys
   std::vector<TelemetryFile> files;
   std::vector<std::string> problems;
   for (const auto& path : paths) {
-    std::error_code not_there;  // Opening the file then says so.
+    std::error_code not_there;  // A missing path is reported on opening it.
     const auto found = std::filesystem::is_directory(path, not_there)
                            ? csv_files_in(path)
                            : Expected<std::vector<std::filesystem::path>>{{path}};

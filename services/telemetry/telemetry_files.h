@@ -1,5 +1,5 @@
 /// @file
-/// Finds the telemetry files among what a person names, and what each of them holds.
+/// Finds telemetry files in the paths that a user gives, and determines their kinds.
 
 #pragma once
 
@@ -16,20 +16,19 @@ namespace spindrift {
 
 struct TelemetryFile {
   std::filesystem::path path;
-  std::optional<TelemetryKind> kind;  ///< None: the file is empty, without even a header.
-  /// As what it is the source of its samples: its name, behind as much of its path as tells it from
-  /// the others.
+  std::optional<TelemetryKind> kind;  ///< Empty when the file lacks even a header.
+  /// Name of the file as the source of its samples, with as much of its path as makes it unique.
   std::string source = {};
 };
 
-/// The source among `files` that a person calls `name`: by its path as it was given, or any end of
-/// that which no other one has. Empty: none, or several.
+/// Finds the source whose path, as given, or a unique ending of it, is `name`.
+/// @return Empty when there is no such source or several.
 std::string find_source(std::span<const TelemetryFile> files, const std::string& name);
 
-/// Every path is a CSV file or a directory, which means every *.csv in it, by name. In the order
-/// given.
+/// Returns the files in the order given. A path is a CSV file or a directory, which stands for its
+/// *.csv files sorted by name.
 /// @return InvalidConfiguration with every path that cannot be read, every directory without
-///         telemetry and every header that is none, one a line.
+///         telemetry and every invalid header, one a line.
 Expected<std::vector<TelemetryFile>> scan_telemetry(std::span<const std::filesystem::path> paths);
 
 }  // namespace spindrift

@@ -1,6 +1,5 @@
 /// @file
-/// The list of all kinds of telemetry. What the services do with telemetry they do for each kind
-/// in it.
+/// The list of all kinds of telemetry, over which the services iterate.
 
 #pragma once
 

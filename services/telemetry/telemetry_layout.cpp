@@ -21,7 +21,7 @@ std::string all_headers() {
   return all;
 }
 
-/// None: no kind has these columns.
+/// Returns empty when no kind has these columns.
 std::optional<TelemetryKind> kind_of(const CsvFields& columns) {
   std::optional<TelemetryKind> found;
   TelemetryKinds::for_each([&]<class Value>(Kind<Value> kind) {

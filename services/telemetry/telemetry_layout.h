@@ -1,5 +1,5 @@
 /// @file
-/// Which kind of telemetry a file holds, and in which columns; its header line tells.
+/// Reads from a file's header line its kind of telemetry and its columns.
 
 #pragma once
 
@@ -17,19 +17,19 @@
 namespace spindrift {
 
 /// The columns of one file.
-// Written as a whole, never default-constructed.
+// No defaults, since it is always written as a whole.
 struct TelemetryLayout {
   TelemetryKind kind;
-  std::size_t columns;                           ///< With `spacecraft`, where there is one.
-  std::optional<std::size_t> spacecraft_column;  ///< From 0.
+  std::size_t columns;                           ///< Including `spacecraft`, if present.
+  std::optional<std::size_t> spacecraft_column;  ///< Counted from 0.
 };
 
 struct OpenTelemetry {
-  FileLines lines;  ///< Those behind the header.
+  FileLines lines;  ///< The lines after the header.
   TelemetryLayout layout;
 };
 
-/// Of a kind: "t_tai_ns,channel".
+/// Returns the header of a kind, as "t_tai_ns,channel".
 template <class Value>
 std::string header_of() {
   std::string header = "t_tai_ns";
@@ -38,9 +38,9 @@ std::string header_of() {
   return header;
 }
 
-/// Opens a file and reads its header line, the first that is not empty.
-/// @return InvalidConfiguration with path and line for what is not a readable file, no header or
-///         one that is not known, saying which there are; Unavailable when reading fails.
+/// Opens a file and reads its header, the first line that is not empty.
+/// @return InvalidConfiguration with path and line for an unreadable file and a missing or unknown
+///         header, listing the known ones; Unavailable when reading fails.
 Expected<OpenTelemetry> open_telemetry(const std::filesystem::path& path);
 
 }  // namespace spindrift

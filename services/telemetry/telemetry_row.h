@@ -1,5 +1,5 @@
 /// @file
-/// A value of a kind of telemetry as a row of a file.
+/// Writes a value of a kind of telemetry as a row of a file.
 
 #pragma once
 
@@ -16,8 +16,8 @@
 
 namespace spindrift {
 
-/// @name One field
-/// A number with the digits that give the same double again.
+/// @name Writers of one field
+/// Numbers get the digits that reproduce the same double.
 /// @{
 inline void append_field(double value, std::string& row) {
   fmt::format_to(std::back_inserter(row), "{}", value);
@@ -30,7 +30,7 @@ inline void append_field(const std::optional<double>& value, std::string& row) {
 inline void append_field(PulseChannel channel, std::string& row) { row += name_of(channel); }
 /// @}
 
-/// As header_of (telemetry_layout.h) names the columns, with the end of the line.
+/// Appends the columns of header_of (telemetry_layout.h) and a line feed.
 template <class Value>
 void append_row(const Value& value, std::string& text) {
   fmt::format_to(std::back_inserter(text), "{}", tai_ns(value.t));

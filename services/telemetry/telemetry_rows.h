@@ -1,5 +1,5 @@
 /// @file
-/// The rows of one telemetry file: values in little memory, and rows that are none with the reason.
+/// Reads the rows of one telemetry file, and the bad ones with the reason.
 
 #pragma once
 
@@ -27,7 +27,7 @@
 
 namespace spindrift {
 
-// A file of 280 terabytes has so many lines.
+// Only a file of 280 terabytes has so many lines.
 inline constexpr std::uint64_t kRowLineBits = (std::uint64_t{1} << 48U) - 1;
 inline constexpr std::size_t kMostSpacecraftInFile = std::numeric_limits<std::uint16_t>::max();
 
@@ -35,25 +35,25 @@ inline Unexpected refused_row(std::string reason) {
   return Unexpected{{ErrorCode::InvalidInput, std::move(reason)}};
 }
 
-/// What many of are held while they are sorted. `Value`: a kind of telemetry.
+/// Compact, since many rows are held for sorting. `Value` is a kind of telemetry.
 template <class Value>
 struct TelemetryRow {
   Value value;
   std::uint64_t line : 48;
-  std::uint64_t spacecraft : 16;  ///< Which of the names of its file.
+  std::uint64_t spacecraft : 16;  ///< Index among the names in its file.
 };
 
-/// One file, row by row in the order of its lines, in constant memory.
+/// Reads one file row by row in the order of its lines, in constant memory.
 template <class Value>
 class TelemetryRows {
  public:
   using Row = std::variant<TelemetryRow<Value>, RejectedInput>;
 
-  /// @param spacecraft  Of the rows, where the file does not say.
+  /// @param spacecraft  Spacecraft of the rows, where the file does not say.
   /// @return InvalidConfiguration for what is not a readable telemetry file of this kind.
   static Expected<TelemetryRows> open(const std::filesystem::path& path, std::string spacecraft);
 
-  /// Empty at the end of the file. A rejected row has the path as it was given.
+  /// Returns empty at the end of the file. A rejected row has the path as it was given.
   /// @return Unavailable when reading fails on the way.
   Expected<std::optional<Row>> next();
 
@@ -77,7 +77,7 @@ class TelemetryRows {
   FileLines lines_;
   TelemetryLayout layout_;
   std::filesystem::path path_;
-  std::vector<std::string> spacecraft_;  ///< The first: of the rows, where the file does not say.
+  std::vector<std::string> spacecraft_;  ///< The first is for rows without a name.
   std::unordered_map<std::string, std::uint16_t> spacecraft_places_;
   std::uint16_t last_spacecraft_ = 0;
 };

@@ -1,5 +1,5 @@
 /// @file
-/// A telemetry sample with where it came from, the same from the bus and from a file.
+/// A telemetry sample with its origin, the same for bus and files.
 
 #pragma once
 
@@ -8,21 +8,21 @@
 
 namespace spindrift {
 
-/// Which sample of which sender. On the bus: source, session and seq of the IDL. From a file: its
-/// name, told apart from others of that name, 0 and the line.
+/// Identifies a sample. On the bus: source, session and seq of the IDL. In a file: its unique name,
+/// 0 and the line.
 struct Origin {
   std::string source;
   std::uint64_t session = 0;
   std::uint64_t seq = 0;
 };
 
-/// `Value`: a kind of telemetry_kinds.h.
+/// `Value` is a kind in telemetry_kinds.h.
 template <class Value>
 struct TelemetrySample {
   std::string spacecraft;
   Origin origin;
   Value value;
-  std::int64_t arrival = 0;  ///< Among the samples of its batch, later of its run; larger: later.
+  std::int64_t arrival = 0;  ///< Rises in the order of its batch, later of its run.
 };
 
 }  // namespace spindrift

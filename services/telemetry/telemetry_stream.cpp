@@ -8,7 +8,7 @@
 namespace spindrift {
 namespace {
 
-// No row of telemetry is shorter: a time of the years that are allowed, a comma and a line feed.
+// The shortest row: a time of the allowed years, a comma and a line feed.
 constexpr std::uint64_t kShortestRow = 19;
 constexpr std::size_t kFewestRowsHeld = 64;
 
@@ -28,7 +28,7 @@ std::vector<Opening> openings_of(std::span<const TelemetryFile> files) {
   std::vector<Opening> openings;
   for (const TelemetryFile& file : files) {
     if (file.kind) {
-      std::error_code gone;  // Opening it then says so.
+      std::error_code gone;  // A missing file is reported on opening.
       const auto bytes = std::filesystem::file_size(file.path, gone);
       openings.push_back({.path = file.path,
                           .source = file.source,
@@ -40,7 +40,7 @@ std::vector<Opening> openings_of(std::span<const TelemetryFile> files) {
   return openings;
 }
 
-/// Small files are held whole; the large ones share what is left.
+/// Holds small files whole and lets large ones share the remaining buffer.
 void share_out(std::vector<Opening>& openings, std::size_t buffer_bytes) {
   std::vector<Opening*> by_size(openings.size());
   std::transform(openings.begin(), openings.end(), by_size.begin(),
@@ -101,7 +101,7 @@ Expected<TelemetryStream> TelemetryStream::open(std::span<const TelemetryFile> f
 
 TelemetryStream::TelemetryStream(std::vector<File> files, std::uint64_t bytes_total)
     : files_{std::move(files)}, without_head_(files_.size()), bytes_total_{bytes_total} {
-  // Taken from the back: the first file is read first.
+  // Reversed, since files are taken from the back and the first is to be read first.
   std::iota(without_head_.rbegin(), without_head_.rend(), 0U);
 }
 
@@ -135,7 +135,7 @@ Expected<SampleBatch> TelemetryStream::next() {
   return batch;
 }
 
-// False: rejected rows fill the batch. Only when every file shows its head is one the earliest.
+// Returns false when rejected rows fill the batch. The earliest head needs the head of every file.
 Expected<bool> TelemetryStream::find_heads(SampleBatch& batch) {
   while (!without_head_.empty()) {
     const std::size_t file = without_head_.back();

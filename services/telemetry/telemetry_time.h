@@ -1,5 +1,5 @@
 /// @file
-/// When telemetry can be from, the same for files and the bus.
+/// Range of valid telemetry times, the same for files and the bus.
 
 #pragma once
 
@@ -7,9 +7,9 @@
 
 namespace spindrift {
 
-/// 1972-01-01T00:00:00 UTC, from when on UTC is defined (TAI - UTC was 10 s).
+/// 1972-01-01T00:00:00 UTC, when UTC was defined (TAI - UTC was 10 s).
 inline constexpr TaiTime kEarliestTelemetry = tai_from_ns(63'072'010'000'000'000);
-/// 2100-01-01T00:00:00 TAI, itself too late.
+/// 2100-01-01T00:00:00 TAI, the first time that is too late.
 inline constexpr TaiTime kLatestTelemetry = tai_from_ns(4'102'444'800'000'000'000);
 
 constexpr bool is_telemetry_time(TaiTime t) {

@@ -1,5 +1,5 @@
 /// @file
-/// Telemetry of all kinds in the order of its times.
+/// Puts telemetry of all kinds in the order of its times.
 
 #pragma once
 
@@ -12,7 +12,7 @@
 
 namespace spindrift {
 
-/// Each arrives in its place of that order, as files are merged. @param all By kind in that order.
+/// Sets `arrival` as if files were merged. @param all Each kind is in order already.
 inline void put_in_order(TelemetryValues& all) {
   std::vector<std::pair<TelemetryOrder, std::int64_t*>> places;
   all.for_each([&](auto& of_kind) {

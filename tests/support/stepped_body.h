@@ -1,5 +1,5 @@
 /// @file
-/// A body as it turns now: a BodyMotion that keeps no past.
+/// Motion of a rigid body that keeps only its latest state, unlike BodyMotion.
 
 #pragma once
 
@@ -12,7 +12,6 @@ class SteppedBody {
   SteppedBody(const RigidBody& body, const BodyState& start, double step_s)
       : body_{body}, step_s_{step_s}, now_{start} {}
 
-  /// On by a step.
   void step(const BodyTorques& torques) { now_ = body_.after(now_, torques, step_s_); }
 
   const RigidBody& body() const { return body_; }

@@ -1,5 +1,5 @@
 /// @file
-/// What of flight and of the model is held against each other, channel by channel.
+/// Samples of flight and model that are compared channel by channel.
 
 #pragma once
 
@@ -15,30 +15,31 @@
 namespace spindrift {
 
 struct ComparedChannel {
-  std::string name;       ///< "gyro_x"; of a sensor as a whole, "gyro", it is whether it sends.
-  std::string_view unit;  ///< Of its values; empty: it has none, and only has to come.
-  double holding_s;       ///< Over which is judged whether flight has departed.
+  std::string name;       ///< Name, e.g. "gyro_x". Channel "gyro" tells whether the sensor sends.
+  std::string_view unit;  ///< Unit of the values; empty for a channel that only has to send.
+  double holding_s;       ///< Time over which a departure of flight is judged.
 };
 
-/// In the unit of the channel.
+/// Values of flight and model in the unit of the channel.
 struct ComparedValue {
   double flight;
   double model;
-  double sigma;  ///< One, of their difference by noise; above 0.
+  double sigma;  ///< Standard deviation of their difference due to noise; above 0.
 
   double residual() const { return flight - model; }
   double normalised() const { return residual() / sigma; }
 };
 
 struct ComparedSample {
-  std::size_t channel;  ///< Its place among those of the model.
+  std::size_t channel;  ///< Index among the model's channels.
   TaiTime t;
-  bool came;  ///< false: the model sends, and flight does not.
+  bool came;  ///< False where the model sends and flight does not.
   std::optional<ComparedValue> value = {};
 };
 
-/// @param step_s From sample to sample. @return ten seconds, and twenty samples at least: outliers
-///        are no departure.
+/// Returns the time over which a departure is judged: ten seconds and twenty samples at least, so
+/// that single outliers are no departure.
+/// @param step_s Time between samples.
 inline double holding_s(double step_s) {
   constexpr double kLeast_s = 10.0;
   constexpr double kSamples = 20.0;

@@ -24,7 +24,8 @@ Evidence evidence_of(const ComparedSample& sample, const ComparedChannel& channe
           .sigma = sample.value->sigma};
 }
 
-/// Behind which samples that are away outnumber the others by most. @param window Not empty.
+/// Returns the index from which on samples that are away outnumber the others by most.
+/// @param window Not empty.
 template <class Window>
 std::size_t change_point(const Window& window) {
   std::size_t best = window.size() - 1;
@@ -109,7 +110,7 @@ std::optional<bool> DepartureWatch::is_silent(const Judged& now, Watched& watche
   const double holding_s = watched.comparison.channel.holding_s;
   if (!window.empty() &&
       seconds_between(window.back().evidence.last, now.evidence.last) > holding_s) {
-    window.clear();  // Nobody knows what was in between.
+    window.clear();  // The sensor may have sent in such a gap.
   }
   if (window.size() > 1) {
     window.pop_back();

@@ -1,5 +1,5 @@
 /// @file
-/// Whether flight leaves the band about the model, and stays outside.
+/// Detects flight that leaves the band about the model and stays outside.
 
 #pragma once
 
@@ -13,21 +13,22 @@
 
 namespace spindrift {
 
-/// What came of a channel.
+/// Holds the result of the comparison in one channel.
 struct ChannelComparison {
   ComparedChannel channel;
   ResidualStatistics residuals = {};
-  std::int64_t outside = 0;  ///< Residuals that are not within the band.
-  /// Since when flight is away, the first time that it stayed away; value, limit and unit are of
-  /// that instant: the size of the residual and the half-width of its band, or, in "s silent", how
-  /// long nothing had come when that was clear.
+  std::int64_t outside = 0;  ///< Number of residuals outside the band.
+  /// First departure of flight that lasted. Its value, limit and unit are of its first instant: the
+  /// size of the residual and the half-width of its band or, in "s silent", the length of the
+  /// silence.
   std::optional<Evidence> departure = {};
 };
 
-/// A channel of values departs once of its samples in the last `holding_s` those that are outside
-/// the band, or do not come, outnumber the others by kAhead; it is back when at most a quarter has
-/// been away for kClear_s. So flight that swings about the model departs, too, and outliers do not.
-/// A sensor departs that sends nothing for `holding_s` where the model sends.
+/// Watches for departures. A channel of values departs once, among its samples of the last
+/// `holding_s`, those that are outside the band or missing outnumber the others by kAhead; it is
+/// back when at most a quarter has been so for kClear_s. So flight that oscillates about the model
+/// departs; outliers do not. A sensor departs that sends nothing for `holding_s` while the model
+/// sends.
 class DepartureWatch {
  public:
   static constexpr int kAhead = 8;
@@ -36,10 +37,10 @@ class DepartureWatch {
   /// @param band_sigmas Half-width of the band, in sigma of each residual.
   DepartureWatch(const std::vector<ComparedChannel>& channels, double band_sigmas);
 
-  /// What is earlier than a sample of its channel before counts for the statistics only.
+  /// Judges a sample; one earlier than its channel's last sample counts for the statistics only.
   std::optional<ConditionChange> see(const ComparedSample& sample);
 
-  /// In the order of the channels.
+  /// Returns the results in the order of the channels given to the constructor.
   std::vector<ChannelComparison> channels() const;
 
  private:
@@ -50,9 +51,10 @@ class DepartureWatch {
   struct Watched {
     ChannelComparison comparison;
     ConditionWatch watch;
-    std::deque<Judged> window = {};  ///< Of a sensor the first and the last since it is silent.
+    /// Last samples; of a silent sensor the first and the last only.
+    std::deque<Judged> window = {};
   };
-  /// Empty: neither away nor back.
+  /// Returns empty where the channel counts neither as away nor as back.
   static std::optional<bool> is_away(const Judged& now, Watched& watched);
   static std::optional<bool> is_silent(const Judged& now, Watched& watched);
 

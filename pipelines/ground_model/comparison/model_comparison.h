@@ -1,5 +1,5 @@
 /// @file
-/// A pass of flight held against the ground model, as it arrives.
+/// Comparison of the flight data of a pass with the ground model, as they arrive.
 
 #pragma once
 
@@ -15,32 +15,33 @@
 
 namespace spindrift {
 
-/// In the order of SpacecraftKind.
+/// Holds the model of a spacecraft; the alternatives are in the order of SpacecraftKind.
 using GroundModel = std::variant<SpinModel, ThreeAxisModel>;
 
-using GroundModels = std::map<std::string, std::shared_ptr<const GroundModel>>;  ///< By spacecraft.
+/// Models by spacecraft.
+using GroundModels = std::map<std::string, std::shared_ptr<const GroundModel>>;
 
-/// From where on the model says something, and up to where.
+/// Time span in which the model makes predictions.
 struct ModelSpan {
   TaiTime from;
   TaiTime to;
 };
 ModelSpan span_of(const GroundModel& model);
 
-/// The times of both are what they are told to be: an offset between the clocks of flight and model
-/// is not looked for, and shows in the residuals.
+/// Compares flight with the model. The time tags of both are taken as they are: a clock offset
+/// between flight and model is not estimated, and shows in the residuals.
 // NOLINTNEXTLINE(bugprone-exception-escape): its variants always hold a value.
 class ModelComparison {
  public:
-  /// @param band_sigmas As DepartureWatch.
+  /// @param band_sigmas Half-width of the band, in sigma of each residual.
   ModelComparison(std::shared_ptr<const GroundModel> model, double band_sigmas);
 
   struct Compared {
     std::vector<ComparedSample> samples;
-    ConditionChanges changes;  ///< About channels.
+    ConditionChanges changes;  ///< Departures of channels and their ends.
   };
 
-  /// In the order of arrival. Nothing of what the model has no sensor of.
+  /// Compares a sample, in order of arrival; one of a sensor that the model lacks gives nothing.
   template <class Sample>
   Compared see(const Sample& sample) {
     return judged(std::visit(
@@ -53,7 +54,7 @@ class ModelComparison {
         },
         comparison_));
   }
-  /// No more arrives.
+  /// Compares what is still held for reordering when no more samples arrive.
   Compared finish();
 
   std::vector<ChannelComparison> channels() const { return watch_.channels(); }

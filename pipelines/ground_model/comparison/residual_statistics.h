@@ -1,5 +1,5 @@
 /// @file
-/// What the residuals of a channel say together.
+/// Statistics of the residuals of a channel.
 
 #pragma once
 
@@ -11,7 +11,8 @@
 
 namespace spindrift {
 
-/// Flight minus model, in the unit of the channel; 0 where there are too few.
+/// Accumulates residuals, flight minus model, in the unit of the channel. A statistic is 0 where
+/// there are too few residuals for it.
 class ResidualStatistics {
  public:
   void add(const ComparedValue& value) {
@@ -27,14 +28,14 @@ class ResidualStatistics {
 
   std::int64_t count() const { return count_; }
   double mean() const { return mean_; }
-  /// One standard deviation about the mean.
+  /// Returns the standard deviation about the mean.
   double sigma() const {
     return count_ > 1 ? std::sqrt(about_mean_ / static_cast<double>(count_ - 1)) : 0.0;
   }
   double rms() const { return root_mean(squares_); }
-  /// Of residuals over their sigma: 1 where nothing but noise is between flight and model.
+  /// Returns the rms of the residuals divided by their sigma: 1 where only noise makes them.
   double normalised_rms() const { return root_mean(normalised_squares_); }
-  double most() const { return most_; }  ///< Largest, either way.
+  double most() const { return most_; }  ///< Largest absolute residual.
 
  private:
   double root_mean(double squares) const {
@@ -43,7 +44,7 @@ class ResidualStatistics {
 
   std::int64_t count_ = 0;
   double mean_ = 0.0;
-  double about_mean_ = 0.0;  ///< Sum of squares.
+  double about_mean_ = 0.0;  ///< Sum of squares about the mean.
   double squares_ = 0.0;
   double normalised_squares_ = 0.0;
   double most_ = 0.0;

@@ -13,8 +13,8 @@ namespace spindrift {
 namespace {
 
 constexpr double kDegPerTurn = 360.0;
-constexpr std::size_t kPeriod = 0;  ///< Of the channels.
-/// Of a turn: the edge of sun1 behind it is missing.
+constexpr std::size_t kPeriod = 0;  ///< Index of the channel `period`.
+/// An edge of sun1 is missing where the last is more than this many turns old.
 constexpr double kMissing_turns = 1.5;
 
 double square(double value) { return value * value; }
@@ -37,7 +37,7 @@ class Revolutions {
   std::vector<ModelRevolution> all() && { return std::move(all_); }
 
  private:
-  /// One without the edge of sun1 that should end it is none.
+  /// Keeps the open revolution unless the edge of sun1 that should end it is missing.
   void close(double end_s) {
     if (!open_) {
       return;
@@ -164,7 +164,7 @@ void SpinComparison::see_in_order(const Pulse& pulse, Samples& all) {
   }
 }
 
-/// Its intervals are those of the revolution that begins with it, or the one behind.
+/// Edges that `edges_of` puts after the next sun1 are still counted with this revolution.
 void SpinComparison::see_in_order(const CodedFrame& frame, Samples& all) {
   std::vector<Pulse> edges = edges_of(frame);
   std::erase_if(edges, [](const Pulse& edge) { return edge.channel == PulseChannel::Sun1; });
@@ -216,7 +216,7 @@ void SpinComparison::compare(const Revolution& revolution, TaiTime end, Samples&
                                         .sigma = std::sqrt(2.0) * model_->noise.sun_s}});
 }
 
-/// Other edges come, and that of sun1 which the model has does not.
+/// Adds a missing edge of sun1 where other edges come and sun1 is overdue.
 void SpinComparison::note_missing_sun(TaiTime t, Samples& all) {
   if (!open_ && !first_) {
     first_ = t;
@@ -228,7 +228,7 @@ void SpinComparison::note_missing_sun(TaiTime t, Samples& all) {
   }
 }
 
-/// Of the model's revolution that begins nearest to `t`; empty where that is more than one away.
+/// Returns the index of the model's revolution that begins nearest to `t`; empty beyond a period.
 std::optional<std::size_t> SpinComparison::place_near(TaiTime t) const {
   const std::vector<ModelRevolution>& all = model_->revolutions;
   const double t_s = elapsed_s(model_->start, t);
@@ -243,7 +243,7 @@ std::optional<std::size_t> SpinComparison::place_near(TaiTime t) const {
              : std::nullopt;
 }
 
-/// An edge near that of sun1 comes now in one revolution, now in its neighbour.
+/// Falls back to the neighbouring revolutions: an edge near that of sun1 may fall into either.
 std::optional<double> SpinComparison::turns_at(std::size_t place, PulseChannel channel) const {
   const std::vector<ModelRevolution>& all = model_->revolutions;
   const std::size_t i = index_of(channel);
@@ -255,7 +255,7 @@ std::optional<double> SpinComparison::turns_at(std::size_t place, PulseChannel c
   return std::nullopt;
 }
 
-/// Of an edge with its own noise, and that of both edges of sun1.
+/// Returns the phases of an edge; their sigma includes the noise of both edges of sun1.
 ComparedValue SpinComparison::phase(PulseChannel channel, double turns, double model_turns,
                                     double period_s) const {
   const double share = turns - std::floor(turns);

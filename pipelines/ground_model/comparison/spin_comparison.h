@@ -1,14 +1,14 @@
 /// @file
-/// Edges of a spinner against those that the model's sensors see, in quantities that need no
-/// absolute phase: no two spins stay in phase for long.
+/// Comparison of a spinner's edges with those that the model's sensors see, in quantities that need
+/// no absolute phase: no two spins stay in phase for long.
 ///
 /// | channel | unit | what |
 /// |---|---|---|
 /// | `period` | s | from one edge of sun1 to the next |
-/// | `sun2`, `north_in`, ... | deg | phase of the edge behind sun1, of the turn until the next sun1
-/// | | `sun1` | | whether it comes |
+/// | `sun2`, `north_in`, ... | deg | phase of the edge after sun1 in its revolution |
+/// | `sun1` | | whether it comes |
 ///
-/// Each revolution of flight is held against the model's that begins nearest to it in time.
+/// Each revolution of flight is compared with the model's that begins nearest to it in time.
 
 #pragma once
 
@@ -25,46 +25,46 @@
 
 namespace spindrift {
 
-/// From an edge of sun1 to the next.
+/// Holds a revolution of the model, from an edge of sun1 to the next.
 struct ModelRevolution {
-  double t_s;  ///< Behind the start.
+  double t_s;  ///< Time since the start of the model.
   double period_s;
-  /// Of the channel's first edge behind sun1, [0, 1) of the period; empty: there is none.
+  /// First edge of each channel after sun1, in [0, 1) of the period; empty: there is none.
   std::array<std::optional<double>, kPulseChannels> turns;
 };
 
 struct SpinModel {
   TaiTime start;
-  PulseNoise noise;                          ///< By which flight is judged, above 0.
-  double resolution_s;                       ///< Of intervals in coded frames.
-  std::vector<ModelRevolution> revolutions;  ///< In order, one at least.
+  PulseNoise noise;                          ///< Noise by which flight is judged; above 0.
+  double resolution_s;                       ///< Resolution of the intervals in coded frames.
+  std::vector<ModelRevolution> revolutions;  ///< Revolutions in order of time; at least one.
 };
 
-/// @return as SpinEdges; InvalidConfiguration where there is no noise, or no revolution.
+/// @return Errors of SpinEdges; InvalidConfiguration where there is no noise, or no revolution.
 Expected<SpinModel> spin_model(const SpinTruth& truth, const PulseLink& link, double resolution_s,
                                const Orbit& orbit, double duration_s);
 
-/// Takes pulses or frames, in about the order of their times: whichever come first, since they tell
-/// the same. Each interval between edges of sun1 of up to one and a half of the model's periods is
-/// taken for a revolution: where an edge comes out of nothing it is away from the model, once. In a
-/// longer one sun1 is missing.
+/// Compares pulses or coded frames, in about the order of their times. Both tell the same, so only
+/// the kind that comes first is used. Each interval between edges of sun1 of up to one and a half
+/// of the model's periods is taken for a revolution, so that a spurious edge departs from the model
+/// once. In a longer one an edge of sun1 is missing.
 class SpinComparison {
  public:
-  /// @param model Outlives it.
+  /// @param model Must outlive this object.
   explicit SpinComparison(const SpinModel& model);
 
   std::vector<ComparedChannel> channels() const;
 
   std::vector<ComparedSample> see(const Pulse& pulse);
   std::vector<ComparedSample> see(const CodedFrame& frame);
-  /// What is held to come in order: there is no more.
+  /// Compares what is still held for reordering when no more samples arrive.
   std::vector<ComparedSample> finish();
 
  private:
-  /// Of flight.
+  /// Revolution of flight, from an edge of sun1 to the next.
   struct Revolution {
     TaiTime t;
-    std::vector<Pulse> edges;  ///< In order of time, without sun1.
+    std::vector<Pulse> edges;  ///< Edges in order of time, without those of sun1.
   };
   using Samples = std::vector<ComparedSample>;
 
@@ -80,12 +80,12 @@ class SpinComparison {
 
   const SpinModel* model_;
   std::array<std::optional<std::size_t>, kPulseChannels> channel_of_;
-  std::vector<PulseChannel> compared_;  ///< Behind `period`, in its order.
+  std::vector<PulseChannel> compared_;  ///< Channels after `period`, in the order of `channels()`.
   ReorderWindow pulses_;
   FrameReorderWindow frames_;
   std::optional<bool> is_coded_;
   std::optional<Revolution> open_;
-  std::optional<TaiTime> first_;  ///< Edge, while none of sun1 has come.
+  std::optional<TaiTime> first_;  ///< Time of the first edge, until one of sun1 has come.
 };
 
 }  // namespace spindrift

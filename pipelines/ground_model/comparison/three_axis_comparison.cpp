@@ -55,15 +55,14 @@ Expected<ThreeAxisModel> model_of(const Scenario& scenario, const Orbit& orbit) 
       });
 }
 
-/// Noise of what is rounded to whole steps.
+/// Returns the noise of a reading that is rounded to multiples of `step`.
 double with_steps(double sigma, double step) { return std::hypot(sigma, step / std::sqrt(12.0)); }
 
 std::vector<double> elements_of(const Vector3d& vector) {
   return {vector.x(), vector.y(), vector.z()};
 }
 
-/// The turn from one direction to another, along X and Y as the least turn of -Z to `from` turns
-/// them, in deg. @param to Of any length.
+/// Returns the turn between directions of any length, deg, along X and Y turned with -Z to `from`.
 std::vector<double> turn_deg(const Vector3d& from, const Vector3d& to) {
   const auto q = shortest_turn(-Vector3d::UnitZ(), from);
   const Vector3d seen = q.conjugate() * to.normalized();
@@ -138,7 +137,7 @@ ThreeAxisComparison::Sensor* ThreeAxisComparison::find(SampleKind kind) {
   return found == sensors_.end() ? nullptr : &*found;
 }
 
-/// Behind the start. Empty: the model says nothing of then.
+/// Returns the time since the start; empty outside the span of the model.
 std::optional<double> ThreeAxisComparison::time_s(TaiTime t) const {
   constexpr double kRounding_s = 1e-6;
   const double t_s = elapsed_s(model_->start, t);
@@ -203,7 +202,7 @@ std::vector<ComparedSample> ThreeAxisComparison::see(const MagneticField& field)
                   elements_of(read_nt));
 }
 
-/// Of a sensor that is on board.
+/// Compares a sample; the model must have the sensor, and its span must contain `t`.
 std::vector<ComparedSample> ThreeAxisComparison::compared(SampleKind kind, TaiTime t,
                                                           const std::vector<double>& flight,
                                                           const std::vector<double>& model) {
@@ -229,7 +228,7 @@ void ThreeAxisComparison::note_missing(TaiTime t, double t_s, std::vector<Compar
   }
   newest_s_ = t_s;
   for (Sensor& sensor : sensors_) {
-    // Of one that has not sent yet, since flight was first seen.
+    // A sensor that has not sent yet counts from the first sample of any sensor.
     const double last_s = sensor.last_s.value_or(t_s);
     if (t_s - last_s <= 1.5 * sensor.sampling.step_s) {
       sensor.last_s = last_s;
@@ -258,7 +257,7 @@ bool ThreeAxisComparison::sends(const Sensor& sensor, double t_s) {
          !is_in_shadow(spacecraft->position_icrf_km, sun_.direction_icrf(t, *spacecraft));
 }
 
-/// Unit, as the model has it. Empty where there is no orbit.
+/// Returns the model's unit vector to the Sun in body axes; empty where there is no orbit.
 std::optional<Vector3d> ThreeAxisComparison::sun_body(TaiTime t, double t_s) {
   const auto spacecraft = model_->orbit.at(t);
   return spacecraft ? std::optional<Vector3d>{model_->motion.at(t_s).q_icrf_body.conjugate() *

@@ -1,15 +1,16 @@
 /// @file
-/// Telemetry of a three-axis spacecraft against what its sensors would read, without noise, were
-/// it to turn as the model does.
+/// Comparison of the telemetry of a three-axis spacecraft with what its sensors would read, without
+/// noise, if it turned as the model does.
 ///
 /// | channel | unit | what |
 /// |---|---|---|
-/// | `gyro_x`, `_y`, `_z` | deg/s | body rates, the bias of the model's gyro included |
+/// | `gyro_x`, `_y`, `_z` | deg/s | body rates, including the bias of the model's gyro |
 /// | `star_x`, `_y`, `_z` | deg | small turn from the model's attitude to flight's, body axes |
-/// | `sun_x`, `sun_y` | deg | from the model's Sun to flight's, along X and Y as they are turned
-/// with -Z to the model's Sun | | `magnetometer_x`, `_y`, `_z` | nT | field, body axes, the bias of
-/// the model's magnetometer included | | `gyro`, `star`, `sun`, `magnetometer` | | whether the
-/// sensor sends |
+/// | `sun_x`, `sun_y` | deg | angle from the model's Sun to flight's |
+/// | `magnetometer_x`, `_y`, `_z` | nT | field, body axes, including the model's bias |
+/// | `gyro`, `star`, `sun`, `magnetometer` | | whether the sensor sends |
+///
+/// `sun_x` and `sun_y` are along X and Y after the smallest turn of -Z to the model's Sun.
 
 #pragma once
 
@@ -29,29 +30,29 @@
 
 namespace spindrift {
 
-/// How a body should turn, and what its sensors should tell of it.
+/// Predicted motion of a body, and the sensors that observe it.
 struct ThreeAxisModel {
   TaiTime start;
   BodyMotion motion;
-  ThreeAxisSensors sensors;  ///< Biases as they are; noise, by which flight is judged, above 0.
+  ThreeAxisSensors sensors;  ///< True biases, and the noise by which flight is judged; above 0.
   std::vector<Silence> gyro_gaps;
   Orbit orbit;
 };
 
-/// The flight as it is flown, its seed included: a bias that is not given is the one drawn, and so
-/// is what a law on board reads of its gyro.
-/// @return as flown; InvalidConfiguration for a sensor without noise.
+/// Flies the scenario with its own seed: a bias that is not given is the one drawn, and a control
+/// law on board reads the gyro as in that flight.
+/// @return Errors of `flown`; InvalidConfiguration for a sensor without noise.
 Expected<ThreeAxisModel> three_axis_model(const SeparationScenario& scenario, const Orbit& orbit);
 Expected<ThreeAxisModel> three_axis_model(const TumblingScenario& scenario, const Orbit& orbit);
 Expected<ThreeAxisModel> three_axis_model(const OrientationScenario& scenario, const Orbit& orbit);
 
-/// Each sample against the model at the sample's own time, in any order. A sensor is missed that
-/// gives nothing for one and a half of its steps while others send; of a Sun that the model's
-/// sensor does not see, and in a gap of its gyro, nothing is. Samples outside the model's time, or
-/// of sensors that it has not, give nothing.
+/// Compares each sample with the model at the sample's own time, in any order. A sensor is missing
+/// that gives nothing for one and a half of its steps while others send, unless the model's sun
+/// sensor sees no Sun or its gyro is in a gap. Samples outside the model's time, or of sensors it
+/// lacks, give nothing.
 class ThreeAxisComparison {
  public:
-  /// @param model Outlives it.
+  /// @param model Must outlive this object.
   explicit ThreeAxisComparison(const ThreeAxisModel& model);
 
   std::vector<ComparedChannel> channels() const;
@@ -65,11 +66,12 @@ class ThreeAxisComparison {
   struct Sensor {
     SampleKind kind;
     Sampling sampling;
-    double sigma;  ///< Along or about each axis, in the unit.
+    double sigma;  ///< Standard deviation along or about each axis, in `unit`.
     std::string_view unit;
-    int values;                         ///< Components.
-    std::size_t channel;                ///< Of the sensor as a whole; its components follow.
-    std::optional<double> last_s = {};  ///< Sample, or when nothing was expected; behind the start.
+    int values;           ///< Number of components.
+    std::size_t channel;  ///< Channel of the whole sensor; its components follow.
+    /// Time since the start of its last sample, or when none was due.
+    std::optional<double> last_s = {};
   };
 
   void add(SampleKind kind, const Sampling& sampling, double sigma, std::string_view unit,

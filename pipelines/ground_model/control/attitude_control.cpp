@@ -29,7 +29,7 @@ Expected<AttitudeControl> AttitudeControl::make(const ControlPlan& plan, const D
 }
 
 Vector3d AttitudeControl::torque_body_nm(double t_s, const MeasuredBody& measured) {
-  // Tells instants that are multiples of the period from the periods before.
+  // Tolerance so that a multiple of the period is not taken for the period before by rounding.
   constexpr double kRounding_s = 1e-6;
   const double now_s = t_s + kRounding_s;
   if (mode_ == ControlMode::Drift && now_s >= plan_.control_on_s) {

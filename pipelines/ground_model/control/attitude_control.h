@@ -1,5 +1,5 @@
 /// @file
-/// What the spacecraft does behind separation: it drifts, damps its rates, then points.
+/// Sequence of control modes after separation: the spacecraft drifts, damps its rates, then points.
 
 #pragma once
 
@@ -14,11 +14,11 @@ namespace spindrift {
 
 enum class ControlMode { Drift, Damping, Pointing };
 
-/// Seconds behind separation.
+/// Times of the mode changes, in seconds after separation.
 struct ControlPlan {
-  double control_on_s;   ///< Damping begins.
-  double damped_rad_s;   ///< It ends as soon as no axis turns faster,
-  double pointing_at_s;  ///< or at the latest now.
+  double control_on_s;   ///< Start of damping.
+  double damped_rad_s;   ///< Damping ends as soon as no axis turns faster,
+  double pointing_at_s;  ///< or at the latest at this time.
 };
 
 using DampingLaw = std::variant<RateFeedback, RelayDamping>;
@@ -26,12 +26,12 @@ using PointingLaw = std::variant<SaturatedPd, SunAcquisition, VariableLimitPd>;
 
 class AttitudeControl {
  public:
-  /// @return InvalidConfiguration where times are negative or out of order, or the rate is
-  /// negative.
+  /// @return InvalidConfiguration for negative or unordered times, or a negative rate.
   static Expected<AttitudeControl> make(const ControlPlan& plan, const DampingLaw& damping,
                                         const PointingLaw& pointing);
 
-  /// What is asked for in the period that begins at `t_s`, behind separation; in order of time.
+  /// Returns the torque for the period that begins at `t_s` after separation; call in order of
+  /// time.
   Eigen::Vector3d torque_body_nm(double t_s, const MeasuredBody& measured);
 
   ControlMode mode() const { return mode_; }

@@ -1,6 +1,6 @@
 /// @file
-/// A body, what turns it, and what disturbs it, at their own rates: the laws ask for a torque once
-/// a period, the body goes on in steps of it.
+/// Closed loop of a body, its actuators and its disturbances: the laws command a torque once per
+/// control period, and the body is integrated in steps of a fraction of the period.
 
 #pragma once
 
@@ -28,11 +28,12 @@ inline Eigen::Vector3d wheels_body_nms(const Actuators& actuators) {
                     actuators);
 }
 
-/// @tparam Body BodyMotion, where what was flown is asked for later, or SteppedBody.
+/// Simulates the closed loop.
+/// @tparam Body BodyMotion where the whole motion is needed later, or SteppedBody.
 template <class Body>
 class ClosedLoop {
  public:
-  /// @param steps In a period; at least one.
+  /// @param steps Integration steps per control period; at least one.
   ClosedLoop(Body body, Actuators actuators, Disturbances disturbances, int steps)
       : body_{std::move(body)},
         actuators_{std::move(actuators)},
@@ -43,10 +44,10 @@ class ClosedLoop {
   Body body() && { return std::move(body_); }
   const Actuators& actuators() const { return actuators_; }
   double period_s() const { return steps_ * body_.step_s(); }
-  /// Behind the start, where the next period begins.
+  /// Returns the time since the start at which the next period begins.
   double t_s() const { return static_cast<double>(periods_) * period_s(); }
 
-  /// What sensors without errors measure now.
+  /// Returns what sensors without errors measure now.
   MeasuredBody measured(const Eigen::Vector3d& sun_icrf) const {
     const BodyState& now = body_.last();
     return {
@@ -58,7 +59,7 @@ class ClosedLoop {
 
   Eigen::Vector3d wheels_body_nms() const { return spindrift::wheels_body_nms(actuators_); }
 
-  /// So that no step up to `end_s` allocates.
+  /// Reserves memory so that no step up to `end_s` allocates.
   void reserve(double end_s) {
     if constexpr (requires { body_.reserve(std::size_t{}); }) {
       body_.reserve(static_cast<std::size_t>(std::ceil(end_s / period_s())) *
@@ -66,7 +67,7 @@ class ClosedLoop {
     }
   }
 
-  /// On by a period. @param torque_body_nm What the law asks for.
+  /// Simulates one control period. @param torque_body_nm Torque commanded by the law.
   void fly(const Eigen::Vector3d& torque_body_nm, const Surroundings& surroundings) {
     std::visit([&](auto& is) { is.command(torque_body_nm, period_s()); }, actuators_);
     for (int i = 0; i < steps_; ++i) {
@@ -79,7 +80,7 @@ class ClosedLoop {
   }
 
  private:
-  /// As the body stands in the middle of the step.
+  /// Returns the disturbance torque at the attitude of the middle of the step.
   Eigen::Vector3d disturbance_now_nm(const Surroundings& surroundings, double middle_s) const {
     const BodyState& now = body_.last();
     const Eigen::Quaterniond q_icrf_body =

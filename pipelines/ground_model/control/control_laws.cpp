@@ -11,9 +11,9 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// From the target to the body, body axes.
+/// Attitude and rate error of the body with respect to the target, body axes.
 struct AttitudeError {
-  Vector3d quaternion;  ///< Vector part; the scalar one is not negative.
+  Vector3d quaternion;  ///< Vector part of the error; its scalar part is not negative.
   Vector3d rate_rad_s;
 };
 
@@ -28,7 +28,7 @@ AttitudeError error_of(const AttitudeTarget& target, const MeasuredBody& measure
 Vector3d wanted_rate_rad_s(const SunAcquisition& law, const Vector3d& sun_body) {
   constexpr double kPerRadian_1_s = 0.1;
   const double angle_rad = angle_between_rad(-Vector3d::UnitZ(), sun_body);
-  // With the Sun right behind any axis is as good.
+  // With the Sun opposite to -Z any axis across it will do.
   const Vector3d axis =
       (-Vector3d::UnitZ().cross(sun_body) + 1e-12 * Vector3d::UnitX()).normalized();
   const double braked_rad_s =

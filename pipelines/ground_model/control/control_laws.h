@@ -1,5 +1,5 @@
 /// @file
-/// Laws that ask for a torque, body axes, by what is measured.
+/// Control laws that compute a torque in body axes from the measured state.
 
 #pragma once
 
@@ -11,18 +11,18 @@ namespace spindrift {
 struct MeasuredBody {
   Eigen::Quaterniond q_icrf_body;
   Eigen::Vector3d rate_body_rad_s;
-  Eigen::Vector3d momentum_body_nms;  ///< Of body and wheels.
-  Eigen::Vector3d sun_body;           ///< Unit.
+  Eigen::Vector3d momentum_body_nms;  ///< Angular momentum of body and wheels.
+  Eigen::Vector3d sun_body;           ///< Unit vector to the Sun.
 };
 
-/// -gain rate
+/// Damps rates by the torque -gain rate.
 struct RateFeedback {
-  Eigen::Vector3d gain_nms;  ///< About each axis.
+  Eigen::Vector3d gain_nms;  ///< Gain about each axis.
 
   Eigen::Vector3d torque_body_nm(const MeasuredBody& measured) const;
 };
 
-/// All the torque against the rate about each axis that turns faster than the dead band.
+/// Applies the full torque against the rate about each axis that turns faster than the dead band.
 struct RelayDamping {
   double torque_nm;
   double dead_band_rad_s;
@@ -30,15 +30,15 @@ struct RelayDamping {
   Eigen::Vector3d torque_body_nm(const MeasuredBody& measured) const;
 };
 
-/// Turns -Z to the Sun by the short way. In the plane of angle and rate it follows a curve,
+/// Turns -Z to the Sun by the smallest turn. In the plane of angle and rate it follows a curve,
 ///
 ///     rate = min(slew, sqrt(angle torque / largest moment), angle 0.1 / s),
 ///
-/// so that half of the torque brakes, and asks for what brings the rate to the curve in one period:
-/// thrusters pulse the longer the farther off it is, and are off near it.
+/// so that braking takes half of the torque, and commands what brings the rate to the curve in one
+/// period: thruster pulses are longer the farther the rate is off the curve, and stop near it.
 struct SunAcquisition {
   Eigen::Matrix3d inertia_kg_m2;
-  double torque_nm_most;  ///< About each axis.
+  double torque_nm_most;  ///< Largest torque about each axis.
   double slew_rad_s;
   double period_s;
 
@@ -47,30 +47,31 @@ struct SunAcquisition {
 
 struct AttitudeTarget {
   Eigen::Quaterniond q_icrf_target;
-  Eigen::Vector3d rate_target_rad_s = Eigen::Vector3d::Zero();  ///< Of the target, its axes.
+  /// Rate of the target in its own axes.
+  Eigen::Vector3d rate_target_rad_s = Eigen::Vector3d::Zero();
 };
 
 struct PdGains {
   Eigen::Vector3d kp_nm;
   Eigen::Vector3d kd_nms;
 
-  /// kp = 2 J wn^2, kd = 2 damping J wn: so that small angles close as with this frequency and
-  /// damping.
+  /// Returns kp = 2 J wn^2 and kd = 2 damping J wn, for small angles of this frequency and damping.
   static PdGains of(const Eigen::Vector3d& moments_kg_m2, double frequency_rad_s, double damping);
 };
 
-/// Zhang 2019, eq. 12 to 15: -kp sat(qe) - kd we + w x h. The vector part of the error, taken the
-/// short way, keeps its direction and has no element above the limit: what is far off turns evenly.
+/// Commands the torque of Zhang 2019, eq. 12 to 15: -kp sat(qe) - kd we + w x h. The vector part of
+/// the error quaternion, of the smaller turn, is scaled so that no element exceeds the limit and
+/// its direction stays: large errors are turned off at a constant rate.
 struct SaturatedPd {
   AttitudeTarget target;
   PdGains gains;
-  double error_most;  ///< Of an element of the quaternion; (0, 1].
+  double error_most;  ///< Limit of an element of the quaternion error; (0, 1].
 
   Eigen::Vector3d torque_body_nm(const MeasuredBody& measured) const;
 };
 
-/// Huang 2009, after Wie: -sat(kp sat_L(qe) + kd we), by the length of the torque outside and about
-/// each axis inside, where
+/// Commands the torque of Huang 2009, after Wie: -sat(kp sat_L(qe) + kd we). The outer sat limits
+/// the length of the torque, the inner one each axis, where
 ///
 ///     L = kd / kp min(sqrt(4 a |qe|), fastest),    a = most torque / moment
 ///

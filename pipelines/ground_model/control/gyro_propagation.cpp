@@ -9,7 +9,7 @@ using Eigen::Quaterniond;
 using Eigen::Vector3d;
 using Eigen::Vector4d;
 
-/// Twice dq/dt. @param q x, y, z, w.
+/// Returns twice dq/dt. @param q Quaternion in the order x, y, z, w.
 Vector4d twice_change(const Vector4d& q, const Vector3d& rate_rad_s) {
   Quaterniond rate{0.0, 0.0, 0.0, 0.0};
   rate.vec() = rate_rad_s;

@@ -1,5 +1,5 @@
 /// @file
-/// Wheels that nobody commands.
+/// Wheels that are not commanded.
 
 #pragma once
 
@@ -9,7 +9,7 @@
 
 namespace spindrift {
 
-/// They give no torque, and hold what they held: nothing, where there are none.
+/// Wheels that give no torque and keep their momentum, which is zero for a body without wheels.
 struct HeldMomentum {
   Eigen::Vector3d wheels_body_nms = Eigen::Vector3d::Zero();
 

@@ -10,12 +10,12 @@
 namespace spindrift {
 namespace {
 
-/// Rounding would take the last bit to the other side.
+/// Returns just under half the sampling frequency, as rounding could put the exact value beyond.
 double half_sampling_rad_s(const LoopSampling& sampling) {
   return (1.0 - 1e-12) * std::numbers::pi / sampling.period_s;
 }
 
-/// Where what is above 0 just beside `above` and not at `below` meets 0.
+/// Returns the root of a function that is positive just beside `above` and not positive at `below`.
 template <class Function>
 double root_between(double above, double below, const Function& function) {
   constexpr int kHalvings = 100;
@@ -26,7 +26,7 @@ double root_between(double above, double below, const Function& function) {
   return below;
 }
 
-/// J^2 w^4 = kd^2 w^2 + kp^2 / 4, of the loop that is not sampled.
+/// Returns the root w of J^2 w^4 = kd^2 w^2 + kp^2 / 4, the crossover of the continuous loop.
 double continuous_crossover_rad_s(const ChannelLoop& loop) {
   const double rate = loop.kd_nms / loop.moment_kg_m2;
   const double angle = loop.kp_nm / loop.moment_kg_m2;
@@ -114,7 +114,7 @@ Expected<LoopMargins> loop_margins(const ChannelLoop& loop) {
 std::vector<std::complex<double>> closed_loop_poles(const ChannelLoop& loop, double factor) {
   const double rate = factor * loop.kd_nms / loop.moment_kg_m2;
   const double angle = factor * 0.5 * loop.kp_nm / loop.moment_kg_m2;
-  // Angle, rate, and what was asked for in the periods before, the last first.
+  // The state is the angle, the rate and the torques commanded in the periods before, latest first.
   const int late = loop.sampling ? loop.sampling->periods_late : 0;
   Eigen::MatrixXd next = Eigen::MatrixXd::Zero(2 + late, 2 + late);
   Eigen::RowVectorXd asked = Eigen::RowVectorXd::Zero(2 + late);

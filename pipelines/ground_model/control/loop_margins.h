@@ -1,10 +1,10 @@
 /// @file
-/// How near the loop about one axis is to swinging. Small angles are twice the vector part of the
-/// quaternion, so that the open loop of the PD laws is
+/// Stability margins of the attitude control loop about one axis. Small angles are twice the vector
+/// part of the quaternion, so that the open loop of the PD laws is
 ///
 ///     L(s) = (kd s + kp / 2) / (J s^2)
 ///
-/// or, where angle and rate are sampled and the torque is held and comes d periods T late,
+/// or, where angle and rate are sampled and the torque is held and delayed by d periods T,
 ///
 ///     L(z) = (kd T / (J (z - 1)) + kp T^2 (z + 1) / (4 J (z - 1)^2)) / z^d
 
@@ -24,7 +24,7 @@ struct LoopSampling {
   int periods_late;
 };
 
-/// All above 0, or at least 0.
+/// Loop about one axis. All values must be positive; `periods_late` may be 0.
 struct ChannelLoop {
   double moment_kg_m2;
   double kp_nm;
@@ -35,30 +35,30 @@ struct ChannelLoop {
 struct BodePoint {
   double frequency_rad_s;
   double gain;
-  double phase_rad;  ///< Not wrapped; from -pi at low frequencies.
+  double phase_rad;  ///< Phase, not wrapped; -pi at low frequencies.
 };
 
-/// @param frequency_rad_s Above 0; below half that of the sampling.
+/// @param frequency_rad_s Above 0; below half the sampling frequency.
 BodePoint open_loop_at(const ChannelLoop& loop, double frequency_rad_s);
 
-/// At frequencies of even ratio.
+/// Returns the open loop at `points` logarithmically spaced frequencies.
 /// @param points At least 2.
 std::vector<BodePoint> bode(const ChannelLoop& loop, double from_rad_s, double to_rad_s,
                             int points);
 
 struct LoopMargins {
-  double phase_rad;            ///< Above -pi where the gain is 1; below 0 the loop swings.
-  double crossover_rad_s;      ///< There.
-  std::optional<double> gain;  ///< Factor up to the loop's swinging; empty: infinite.
+  double phase_rad;            ///< Phase above -pi at gain 1; below 0 the loop is unstable.
+  double crossover_rad_s;      ///< Frequency of gain 1.
+  std::optional<double> gain;  ///< Factor of the gain up to instability; empty: infinite.
 };
 
 /// @return InvalidConfiguration where moment, gains or period are not positive; where the gain of
-///         the sampled loop is above 1 up to half the frequency of the sampling, or its torque
-///         comes later than kd leads, so that it swings with any gain.
+///         the sampled loop stays above 1 up to half the sampling frequency; or where the torque is
+///         delayed by more than the lead of kd, so that the loop is unstable with any gain.
 Expected<LoopMargins> loop_margins(const ChannelLoop& loop);
 
-/// Of the closed loop with its gain multiplied by `factor`: in the plane of s, stable on its left;
-/// of a sampled one in that of z, stable within the unit circle.
+/// Returns the poles of the closed loop with its gain multiplied by `factor`: in the s plane
+/// (stable on the left), for a sampled loop in the z plane (stable within the unit circle).
 std::vector<std::complex<double>> closed_loop_poles(const ChannelLoop& loop, double factor);
 
 struct LocusPoint {

@@ -1,5 +1,5 @@
 /// @file
-/// Pairs of thrusters about each body axis, which are on or off.
+/// Pairs of on-off thrusters about each body axis.
 
 #pragma once
 
@@ -11,13 +11,14 @@
 namespace spindrift {
 
 struct ThrusterDesign {
-  double torque_nm;   ///< About each axis, either way.
-  double shortest_s;  ///< Of a pulse.
+  double torque_nm;   ///< Torque about each axis, in either direction.
+  double shortest_s;  ///< Shortest pulse.
   double longest_s;
 };
 
-/// A pulse a period and axis, from its start on, as long as gives the impulse asked for: none where
-/// that is shorter than the shortest. A pulse that ends within a step counts as its mean over it.
+/// Fires one pulse per control period and axis, from the start of the period on and as long as
+/// gives the commanded impulse, or none where that is shorter than the shortest pulse. A pulse that
+/// ends within a step counts as its mean over the step.
 class Thrusters {
  public:
   /// @return InvalidConfiguration where a number is not positive, or no pulse is long enough.
@@ -25,17 +26,17 @@ class Thrusters {
 
   void command(const Eigen::Vector3d& torque_body_nm, double period_s);
 
-  /// On by a step. @return On the body in this step.
+  /// Simulates one step. @return Torques on the body in this step.
   BodyTorques step(double step_s);
 
-  /// They hold none.
   static Eigen::Vector3d momentum_body_nms() { return Eigen::Vector3d::Zero(); }
 
  private:
   explicit Thrusters(const ThrusterDesign& design) : design_{design} {}
 
   ThrusterDesign design_;
-  Eigen::Vector3d left_s_ = Eigen::Vector3d::Zero();  ///< On about each axis; negative: backwards.
+  /// Remaining on-time about each axis; negative: reverse torque.
+  Eigen::Vector3d left_s_ = Eigen::Vector3d::Zero();
 };
 
 }  // namespace spindrift

@@ -1,5 +1,5 @@
 /// @file
-/// Reaction wheels that are told speeds: Zhang 2019, eq. 16 to 20.
+/// Reaction wheels that are commanded by speed: Zhang 2019, eq. 16 to 20.
 
 #pragma once
 
@@ -14,17 +14,18 @@ inline constexpr int kMostWheels = 8;
 using WheelAxes = Eigen::Matrix<double, 3, Eigen::Dynamic, Eigen::ColMajor, 3, kMostWheels>;
 using WheelVector = Eigen::Matrix<double, Eigen::Dynamic, 1, Eigen::ColMajor, kMostWheels, 1>;
 
-/// All alike.
+/// Design of a set of identical wheels.
 struct WheelDesign {
-  WheelAxes axes_body;   ///< A column a wheel, any length.
-  double inertia_kg_m2;  ///< About the axis of a wheel.
+  WheelAxes axes_body;   ///< One column per wheel, of any length.
+  double inertia_kg_m2;  ///< Moment of inertia of a wheel about its spin axis.
   double torque_nm_most;
-  double speed_rad_s_most;  ///< That they are told: a margin to what they stand is in it.
+  /// Limit of the commanded speed, including a margin to what the wheels stand.
+  double speed_rad_s_most;
 };
 
-/// At rest at first. The torque asked for is shared out so that the sum of squares is least, and
-/// made smaller along its direction until each wheel can give it. A wheel is told the speed of the
-/// end of the period and reaches it evenly; none is told more than it can.
+/// Wheels that start at rest. The commanded torque is distributed so that the sum of squares is
+/// least, and scaled down along its direction until each wheel can give it. Each wheel is commanded
+/// the speed at the end of the period, up to its limit, and reaches it at constant torque.
 class Wheels {
  public:
   /// @return InvalidConfiguration where the axes do not span space, or a number is not positive.
@@ -32,25 +33,25 @@ class Wheels {
 
   void command(const Eigen::Vector3d& torque_body_nm, double period_s);
 
-  /// On by a step. @return On the body in this step.
+  /// Simulates one step. @return Torques on the body in this step.
   BodyTorques step(double step_s);
 
   Eigen::Vector3d momentum_body_nms() const { return axes_body_ * momenta_nms_; }
-  /// Of each wheel, about its axis.
+  /// Returns the momentum of each wheel about its axis.
   const WheelVector& momenta_nms() const { return momenta_nms_; }
   WheelVector speeds_rad_s() const { return momenta_nms_ / design_.inertia_kg_m2; }
-  /// What the wheels were told last.
+  /// Returns the speeds last commanded.
   const WheelVector& told_rad_s() const { return told_rad_s_; }
 
  private:
   explicit Wheels(const WheelDesign& design);
 
   WheelDesign design_;
-  WheelAxes axes_body_;  ///< Unit.
+  WheelAxes axes_body_;  ///< Unit vectors of the spin axes.
   Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::ColMajor, kMostWheels, 3> shares_;
   WheelVector momenta_nms_;
   WheelVector told_rad_s_;
-  WheelVector torques_nm_;  ///< On the body.
+  WheelVector torques_nm_;  ///< Torque of each wheel on the body.
 };
 
 }  // namespace spindrift

@@ -17,7 +17,7 @@ using Eigen::Matrix3d;
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
 
-/// [-turn, turn]
+/// Returns the turn about the third axis, in [-2 pi, 2 pi].
 double turned_rad(const Quaterniond& q_axes_sensors) {
   return 2.0 * std::atan2(q_axes_sensors.z(), q_axes_sensors.w());
 }

@@ -1,5 +1,5 @@
 /// @file
-/// Steps that are too coarse for what they step.
+/// Check that an integration step is fine enough for the rate of the body.
 
 #pragma once
 
@@ -7,11 +7,10 @@
 
 namespace spindrift {
 
-/// A body that turns by more in a step is not well integrated: of a turn of a tenth of a radian
-/// Runge-Kutta loses 5e-8, a degree in three thousand turns.
+/// Largest turn in one step: at 0.1 rad Runge-Kutta loses 5e-8, a degree in three thousand turns.
 inline constexpr double kMostTurn_rad = 0.1;
 
-/// @param rate_rad_s The fastest that the body may come to turn.
+/// @param rate_rad_s Upper bound of the body's rate.
 /// @return InvalidConfiguration where the step is not positive or the body turns by more than
 ///         kMostTurn_rad in it.
 Expected<void> check_step(double step_s, double rate_rad_s);

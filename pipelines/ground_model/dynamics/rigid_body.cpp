@@ -13,11 +13,11 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 struct Change {
-  Eigen::Vector4d q_icrf_body;  ///< x, y, z, w.
+  Eigen::Vector4d q_icrf_body;  ///< Derivative of the quaternion, components x, y, z, w, in 1/s.
   Vector3d rate_rad_s2;
 };
 
-/// @param t_s Behind the start of the step.
+/// @param t_s Time since the start of the step.
 Change change_of(const RigidBody& body, const BodyState& state, const BodyTorques& torques,
                  double t_s) {
   Eigen::Quaterniond rate{0.0, 0.0, 0.0, 0.0};

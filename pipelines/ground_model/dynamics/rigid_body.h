@@ -3,8 +3,8 @@
 ///
 ///     dq/dt = 1/2 q (w, 0),    I dw/dt = external + wheels - w x (I w + h),    dh/dt = -wheels
 ///
-/// with h the momentum of the wheels about their axes, all in body axes. I leaves out what the
-/// wheels have about these axes: h counts it, with the turn of the body.
+/// with h the momentum of the wheels about their spin axes, all in body axes. I excludes the
+/// wheels' moments of inertia about these axes; h includes what the turn of the body adds to it.
 
 #pragma once
 
@@ -15,11 +15,11 @@
 
 namespace spindrift {
 
-/// On the body, in body axes, even for a step.
+/// Torques on the body in body axes, constant over a step.
 struct BodyTorques {
   Eigen::Vector3d external_nm = Eigen::Vector3d::Zero();
   Eigen::Vector3d wheels_nm = Eigen::Vector3d::Zero();
-  Eigen::Vector3d wheels_nms = Eigen::Vector3d::Zero();  ///< What the wheels hold at first.
+  Eigen::Vector3d wheels_nms = Eigen::Vector3d::Zero();  ///< Wheel momentum at the step's start.
 };
 
 class RigidBody {
@@ -38,8 +38,8 @@ class RigidBody {
                        rate_body_rad_s.cross(inertia_kg_m2_ * rate_body_rad_s + wheels_body_nms));
   }
 
-  /// One step of Runge-Kutta of fourth order. Where it turns by x rad, it is off by x^5 / 1920 rad:
-  /// 5e-14 of a hundredth of a radian.
+  /// Advances the state by one fourth-order Runge-Kutta step. Where the body turns by x rad in the
+  /// step, the error is x^5 / 1920 rad: 5e-14 rad for a hundredth of a radian.
   BodyState after(const BodyState& state, const BodyTorques& torques, double step_s) const;
 
  private:

@@ -1,5 +1,5 @@
 /// @file
-/// A body along its orbit, whatever turns it.
+/// Motion of a body along its orbit, whatever turns it.
 
 #pragma once
 
@@ -22,36 +22,37 @@ struct BodyTruth {
   TaiTime start;
   BodyState at_start;
   Eigen::Matrix3d inertia_kg_m2;
-  double end_s;  ///< Behind the start.
+  double end_s;  ///< Time of the end since the start.
   Disturbances disturbances = {};
-  std::optional<MainFieldModel> field = std::nullopt;  ///< That a residual dipole feels.
+  std::optional<MainFieldModel> field = std::nullopt;  ///< Field that acts on a residual dipole.
 };
 
-/// No body is stepped more coarsely where a law controls it.
+/// Longest integration step of a body that a law controls.
 inline constexpr double kLongestStep_s = 0.05;
 
-/// At most as fast a body turns without torque, and swings where its wheels hold a momentum.
+/// Returns an upper bound of the rate of a torque-free body, and of the frequency at which it
+/// swings where its wheels hold a momentum.
 double fastest_rad_s(const Eigen::Matrix3d& inertia_kg_m2, const Eigen::Vector3d& rate_body_rad_s,
                      const Eigen::Vector3d& wheels_body_nms);
 
 double least_moment_kg_m2(const Eigen::Matrix3d& inertia_kg_m2);
 
 /// @return InvalidConfiguration where the body now turns or swings too fast for the step of the
-///         loop, or is no longer finite.
+///         loop, or its rate is no longer finite.
 Expected<void> check_now(const ClosedLoop<BodyMotion>& loop, double least_moment_kg_m2);
 
-/// Steps of at most kLongestStep_s.
-/// @return InvalidConfiguration for a body that cannot be, or turns too fast for the step.
+/// Makes a loop with steps of at most kLongestStep_s.
+/// @return InvalidConfiguration for an impossible inertia, or a body too fast for the step.
 Expected<ClosedLoop<BodyMotion>> loop_of(const BodyTruth& truth, const Actuators& actuators,
                                          double period_s);
 
-/// Of a flight; asked in order of time. Refers to what it is made of.
+/// Gives the surroundings along a flight, in order of time. Keeps references to its arguments.
 class SurroundingsOnTheWay {
  public:
   SurroundingsOnTheWay(const BodyTruth& truth, const Orbit& orbit) : truth_{truth}, orbit_{orbit} {}
 
-  /// The field is computed anew once a second, in which the spacecraft sees it change by a few
-  /// parts in a thousand.
+  /// Returns the surroundings at `t`. The field is computed anew once a second, in which the field
+  /// at the spacecraft changes by a few parts in a thousand.
   /// @return NoCoverage where orbit or field do not reach.
   Expected<Surroundings> at(TaiTime t);
 
@@ -63,10 +64,10 @@ class SurroundingsOnTheWay {
   Eigen::Vector3d field_icrf_nt_ = Eigen::Vector3d::Zero();
 };
 
-/// On to the end.
-/// @param torque_body_nm What a law asks for in the period that begins at `t`: called with `t` and
-///        where the spacecraft is, in order of time.
-/// @return as SurroundingsOnTheWay; InvalidConfiguration once the body turns too fast for the step.
+/// Simulates the loop to the end of the flight.
+/// @param torque_body_nm Law that returns the torque commanded for the period that begins at `t`:
+///        called with `t` and the state of the spacecraft, in order of time.
+/// @return Errors of SurroundingsOnTheWay; InvalidConfiguration once the step is too long.
 template <class Law>
 Expected<void> fly(ClosedLoop<BodyMotion>& loop, const BodyTruth& truth, const Orbit& orbit,
                    Law&& torque_body_nm) {

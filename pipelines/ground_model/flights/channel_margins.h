@@ -1,5 +1,5 @@
 /// @file
-/// How near the loops of an orientation's control are to swinging.
+/// Stability margins of the control loops of an orientation manoeuvre.
 
 #pragma once
 
@@ -11,19 +11,19 @@
 
 namespace spindrift {
 
-/// Of the loop about one axis.
+/// Margins of the loop about one axis.
 struct ChannelMargins {
-  ChannelLoop designed;  ///< For the moments that the control takes for true; not sampled.
-  ChannelLoop flown;     ///< Of the true body; sampled and late.
+  ChannelLoop designed;  ///< Loop with the moments that the control assumes; not sampled.
+  ChannelLoop flown;     ///< Loop of the true body; sampled and late.
   LoopMargins designed_margins;
   LoopMargins flown_margins;
 };
 
-/// About X, Y and Z; products of inertia are left out.
-/// @return as loop_margins.
+/// Returns the margins about X, Y and Z; products of inertia are neglected.
+/// @return Errors of loop_margins.
 Expected<std::array<ChannelMargins, 3>> channel_margins(const OrientationTruth& truth);
 
-/// @return InvalidConfiguration where a loop as it is flown has no phase margin: it would swing.
+/// @return InvalidConfiguration where a flown loop has no phase margin and would be unstable.
 Expected<void> check_margins(const OrientationTruth& truth);
 
 }  // namespace spindrift

@@ -27,14 +27,14 @@ PointingLaw pointing_law(const OrientationTruth& truth) {
                            .torque_nm_most = control.wheels.torque_nm_most,
                            .rate_rad_s_most = Vector3d::Constant(control.slew_rad_s)};
   }
-  // kd / kp of each axis.
+  // This is kd / kp, which is the same for each axis.
   const double rate_s = control.damping / control.frequency_rad_s;
   return SaturatedPd{.target = target,
                      .gains = control.gains(),
                      .error_most = std::min(1.0, rate_s * control.slew_rad_s)};
 }
 
-/// What the computer on board takes for true.
+/// Models what the computer on board takes as measured.
 class OnBoard {
  public:
   OnBoard(const OrientationTruth& truth, const std::optional<TrueGyro>& gyro, Chance& chance)
@@ -44,7 +44,7 @@ class OnBoard {
         q_icrf_body_{truth.body.at_start.q_icrf_body} {}
 
   MeasuredBody measured(const ClosedLoop<BodyMotion>& loop) {
-    // No law here looks at the Sun.
+    // No law of this manoeuvre uses the direction of the Sun.
     MeasuredBody now = loop.measured(Vector3d::UnitX());
     if (!control_.by_gyro) {
       return now;
@@ -69,10 +69,10 @@ class OnBoard {
   const std::optional<TrueGyro>& gyro_;
   Chance& chance_;
   Eigen::Quaterniond q_icrf_body_;
-  std::optional<Vector3d> rate_rad_s_;  ///< A period before; empty: none yet.
+  std::optional<Vector3d> rate_rad_s_;  ///< Rate read in the period before; empty: none yet.
 };
 
-/// Comes so many periods late.
+/// Delays the commanded torque by a number of periods.
 class LateTorque {
  public:
   explicit LateTorque(int periods)

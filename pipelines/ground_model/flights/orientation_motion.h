@@ -1,7 +1,7 @@
 /// @file
-/// A body that turns to an attitude by its wheels (Zhang 2019): it slides out without control; its
-/// rates are damped; from then on it points. Its computer may know the attitude from its gyro
-/// alone, counted from the start.
+/// Motion of a body that turns to an attitude by its wheels (Zhang 2019): it drifts without
+/// control, its rates are damped, then it points. Its computer may integrate the attitude from its
+/// gyro.
 
 #pragma once
 
@@ -22,16 +22,17 @@ namespace spindrift {
 
 struct OrientationControl {
   ControlPlan plan;
-  Eigen::Quaterniond q_start_target;  ///< Where to turn, seen from the body as it stands at first.
+  /// Target attitude relative to the body's attitude at the start.
+  Eigen::Quaterniond q_start_target;
   WheelDesign wheels;
-  Eigen::Vector3d moments_kg_m2;  ///< By which gains are chosen and the gyroscopic torque is known.
-  double frequency_rad_s;         ///< Of small angles about each axis; and their damping.
+  Eigen::Vector3d moments_kg_m2;  ///< Moments assumed for the gains and the gyroscopic torque.
+  double frequency_rad_s;         ///< Natural frequency about each axis for small angles;
   double damping;
-  double slew_rad_s;    ///< Of the turn, at most about an axis.
-  bool variable_limit;  ///< VariableLimitPd in place of SaturatedPd.
+  double slew_rad_s;    ///< Largest rate of the turn about an axis.
+  bool variable_limit;  ///< True: VariableLimitPd instead of SaturatedPd.
   double period_s;
-  int periods_late;  ///< What is asked for comes so much later.
-  /// Empty: the laws know rate and attitude as they are.
+  int periods_late;  ///< Delay of the commanded torque, in periods.
+  /// Propagation of the attitude on board; empty: the laws know the true rate and attitude.
   std::optional<GyroPropagation> by_gyro;
 
   PdGains gains() const { return PdGains::of(moments_kg_m2, frequency_rad_s, damping); }
@@ -42,36 +43,38 @@ struct OrientationTruth {
   OrientationControl control;
 };
 
-/// At the beginning of a period.
+/// State of control at the beginning of a period.
 struct ControlRecord {
-  double t_s;  ///< Behind the start.
+  double t_s;  ///< Time since the start.
   ControlMode mode;
   WheelVector momenta_nms;
   WheelVector speeds_rad_s;
-  WheelVector told_rad_s;  ///< For the end of the period before.
+  WheelVector told_rad_s;  ///< Speeds commanded for the end of the period before.
 };
 
 struct Orientation {
   BodyMotion motion;
-  std::vector<ControlRecord> record;  ///< Of each period, and of the end.
+  std::vector<ControlRecord> record;  ///< Records of each period, and of the end.
 };
 
-/// @param gyro Of the computer on board, which reads it once a period, by draws of its own; it is
-///             there where `by_gyro` is.
-/// @return NoCoverage where the orbit or the field ends before; InvalidConfiguration for a body,
-///         wheels or times that cannot be, a period that is too long for the loop, and a body that
-///         turns too fast for the step.
+/// Simulates the motion.
+/// @param gyro Gyro read on board once a period, with noise of its own draws; needed with
+///        `by_gyro`.
+/// @return NoCoverage where the orbit or the field ends too early; InvalidConfiguration for an
+///         impossible inertia, wheels or times, a period too long for the loop, and a body too fast
+///         for the step.
 Expected<Orientation> orientation_motion(const OrientationTruth& truth,
                                          const std::optional<TrueGyro>& gyro, const Orbit& orbit,
                                          Chance& chance);
 
-/// What came of it.
+/// Result of the manoeuvre.
 struct OrientationOutcome {
-  std::optional<double> pointing_s;  ///< Since when it points; empty: never. Behind the start.
-  std::optional<double> settled_s;   ///< Since when it is within a degree of the target; likewise.
-  double last_off_rad;               ///< From the target, in the end.
-  double most_nms;                   ///< Of a wheel.
-  double most_rad_s;                 ///< Of a wheel.
+  std::optional<double> pointing_s;  ///< Start of pointing, since the start; empty: never.
+  /// Time since which it stays within a degree of the target; empty: never.
+  std::optional<double> settled_s;
+  double last_off_rad;  ///< Angle to the target at the end.
+  double most_nms;      ///< Largest momentum of a wheel.
+  double most_rad_s;    ///< Largest speed of a wheel.
 };
 
 OrientationOutcome outcome_of(const Orientation& orientation, const OrientationTruth& truth);

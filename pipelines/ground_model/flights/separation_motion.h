@@ -1,7 +1,7 @@
 /// @file
-/// A body from separation from the launcher until it looks at the Sun: it drifts without control;
-/// relays damp its rates; -Z turns to the Sun and stays there. The laws know rate and Sun as they
-/// are.
+/// Motion of a body from separation from the launcher until it points at the Sun: it drifts without
+/// control, relays damp its rates, then -Z turns to the Sun and stays there. The laws know the true
+/// rate and Sun.
 
 #pragma once
 
@@ -13,21 +13,21 @@ namespace spindrift {
 
 struct SeparationControl {
   ThrusterDesign thrusters;
-  double dead_band_rad_s;  ///< Relays are off about an axis that turns no faster.
-  double slew_rad_s;       ///< Of the turn to the Sun, at most.
-  /// The laws choose the torque anew so often.
+  double dead_band_rad_s;  ///< Rate about an axis up to which its relay is off.
+  double slew_rad_s;       ///< Largest rate of the turn to the Sun.
+  /// Control period.
   double period_s = 0.05;
 };
 
 struct SeparationTruth {
-  BodyTruth body;  ///< From T1.
+  BodyTruth body;  ///< Body from T1, the start.
   SeparationControl control;
-  double control_on_s;   ///< T2: the relays are on; behind the start.
-  double acquisition_s;  ///< T3: the Sun is looked for; not earlier.
+  double control_on_s;   ///< T2: start of rate damping, since the start.
+  double acquisition_s;  ///< T3: start of Sun acquisition; not before T2.
 };
 
-/// @return NoCoverage where the orbit or the field ends before; InvalidConfiguration for a body,
-///         thrusters or times that cannot be, and for a body that turns too fast for the period.
+/// @return NoCoverage where the orbit or the field ends too early; InvalidConfiguration for an
+///         impossible inertia, thrusters or times, and a body too fast for the period.
 Expected<BodyMotion> separation_motion(const SeparationTruth& truth, const Orbit& orbit);
 
 }  // namespace spindrift

@@ -16,7 +16,7 @@ Expected<Euler312> told_by(const Vector3d& off_rad, const BodyTruth& truth, cons
   });
 }
 
-/// The sensors as they are. Draws the bias where it is given, too: all else is then the same.
+/// Returns the true sensors. A given bias is drawn, too, so that all other draws are the same.
 ThreeAxisSensors sensors_of(const ThreeAxisView& view, Chance& chance) {
   const Vector3d drawn_rad_s = chance.normal_vector(view.bias_sigma_rad_s);
   ThreeAxisSensors sensors = view.sensors;
@@ -42,7 +42,7 @@ Expected<FlownSeparation> flown(const SeparationScenario& scenario, const Orbit&
   const BodyTruth& body = scenario.truth.body;
   Chance chance{scenario.view.seed};
   const ThreeAxisSensors sensors = sensors_of(scenario.view, chance);
-  // Where the launcher is said to be wrong by a turn, too: all else is then the same.
+  // Drawn even where the error is given, so that all other draws are the same.
   const Vector3d drawn = chance.normal_vector(1.0);
   std::optional<Euler312> told;
   if (const auto& launcher = scenario.launcher) {
@@ -74,7 +74,7 @@ Expected<FlownBody> flown(const TumblingScenario& scenario, const Orbit& orbit) 
 Expected<FlownOrientation> flown(const OrientationScenario& scenario, const Orbit& orbit) {
   Chance chance{scenario.view.seed};
   const ThreeAxisSensors sensors = sensors_of(scenario.view, chance);
-  // Other draws than the telemetry's, which is then the same whatever the computer does.
+  // A separate stream of draws keeps the telemetry's draws the same whatever the computer does.
   Chance on_board{~scenario.view.seed};
   return orientation_motion(scenario.truth, sensors.gyro, orbit, on_board)
       .and_then([&](Orientation&& orientation) {

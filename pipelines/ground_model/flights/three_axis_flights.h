@@ -1,5 +1,5 @@
 /// @file
-/// Flights of a three-axis spacecraft as they are flown, and seen from the ground.
+/// Simulated flights of three-axis spacecraft, and the telemetry that the ground sees of them.
 
 #pragma once
 
@@ -18,25 +18,25 @@
 
 namespace spindrift {
 
-/// How the ground sees a body.
+/// Sensors of a body, and the faults of what the ground receives from them.
 struct ThreeAxisView {
   std::uint64_t seed;
-  ThreeAxisSensors sensors;                   ///< The bias of the gyro is drawn
-  double bias_sigma_rad_s;                    ///< by this,
+  ThreeAxisSensors sensors;                   ///< Sensors; the gyro bias is drawn
+  double bias_sigma_rad_s;                    ///< with this standard deviation,
   std::optional<Eigen::Vector3d> bias_rad_s;  ///< unless it is given.
   ThreeAxisFaults faults;
 };
 
-/// What the launcher will tell of the attitude at separation.
+/// Attitude at separation that the launcher reports.
 struct LauncherTelling {
-  double sigma_rad;                        ///< About each axis.
-  std::optional<Eigen::Vector3d> off_rad;  ///< It is wrong by this; drawn where empty.
+  double sigma_rad;                        ///< Standard deviation about each axis.
+  std::optional<Eigen::Vector3d> off_rad;  ///< Error of the report; drawn where empty.
 };
 
 struct SeparationScenario {
   ThreeAxisView view;
   SeparationTruth truth;
-  double first_star_fix_s;  ///< T4
+  double first_star_fix_s;  ///< T4: time of the first star fix.
   std::optional<LauncherTelling> launcher;
 };
 
@@ -52,13 +52,13 @@ struct OrientationScenario {
 
 struct FlownBody {
   BodyMotion motion;
-  Eigen::Vector3d bias_rad_s;  ///< Of the gyro.
+  Eigen::Vector3d bias_rad_s;  ///< Bias of the gyro.
   ThreeAxisTelemetry telemetry;
 };
 
 struct FlownSeparation {
   FlownBody body;
-  std::optional<Euler312> told;  ///< By the launcher: body in the orbit frame at T1.
+  std::optional<Euler312> told;  ///< Report of the launcher: body in the orbit frame at T1.
 };
 
 struct FlownOrientation {
@@ -67,10 +67,9 @@ struct FlownOrientation {
   OrientationOutcome outcome;
 };
 
-/// @return NoCoverage where the orbit or the field ends before; InvalidConfiguration for what
-/// cannot
-///         be flown (see each motion); Unobservable where a launcher is to tell and there is no
-///         orbit frame at T1.
+/// @return NoCoverage where the orbit or the field ends too early; InvalidConfiguration for what
+///         cannot be flown (see each motion); Unobservable for a launcher's report without an orbit
+///         frame.
 Expected<FlownSeparation> flown(const SeparationScenario& scenario, const Orbit& orbit);
 Expected<FlownBody> flown(const TumblingScenario& scenario, const Orbit& orbit);
 Expected<FlownOrientation> flown(const OrientationScenario& scenario, const Orbit& orbit);

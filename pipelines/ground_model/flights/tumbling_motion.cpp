@@ -11,7 +11,7 @@
 namespace spindrift {
 namespace {
 
-/// It ends with a step.
+/// Returns a step of which the flight is a whole multiple.
 double step_s(double end_s, double fastest_rad_s) {
   constexpr double kTurn_rad = 0.01;
   constexpr double kLongest_s = 1.0;

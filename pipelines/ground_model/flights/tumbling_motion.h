@@ -1,5 +1,5 @@
 /// @file
-/// A body that nobody controls: it turns as it was left, and as its surroundings make it.
+/// Motion of an uncontrolled body: free rotation under disturbance torques.
 
 #pragma once
 
@@ -12,12 +12,12 @@ namespace spindrift {
 
 struct TumblingTruth {
   BodyTruth body;
-  Eigen::Vector3d wheels_body_nms = Eigen::Vector3d::Zero();  ///< What they hold and keep.
+  Eigen::Vector3d wheels_body_nms = Eigen::Vector3d::Zero();  ///< Constant momentum of the wheels.
 };
 
-/// In steps in which the body turns by a fiftieth of a radian, of a second at most.
-/// @return NoCoverage where the orbit or the field ends before; InvalidConfiguration for a body
-///         that cannot be, and one that comes to turn five times as fast.
+/// Simulates in steps of at most 1 s, and of at most 0.01 rad at the rate of the start.
+/// @return NoCoverage where the orbit or the field ends too early; InvalidConfiguration for an
+///         impossible inertia, and for a body that comes to turn too fast for the step.
 Expected<BodyMotion> tumbling_motion(const TumblingTruth& truth, const Orbit& orbit);
 
 }  // namespace spindrift

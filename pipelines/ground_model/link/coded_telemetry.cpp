@@ -9,14 +9,14 @@
 namespace spindrift {
 namespace {
 
-/// The double nearest to so many nanoseconds: what a file of telemetry reads back as.
+/// Rounds to nanoseconds, the double that a telemetry file reads back as.
 double on_nanosecond(double interval_s) { return std::round(interval_s * 1e9) / 1e9; }
 
 class OnBoardCounter {
  public:
   explicit OnBoardCounter(double resolution_s) : resolution_s_{resolution_s} {}
 
-  /// @param sent_down Whether the link carries it.
+  /// @param sent_down Whether the link carries the pulse.
   void see(const Pulse& pulse, bool sent_down) {
     if (pulse.channel == PulseChannel::Sun1) {
       const CodedFrame next{.t = pulse.t, .period_s = period_until(pulse.t), .delay_s = {}};
@@ -36,7 +36,7 @@ class OnBoardCounter {
   }
 
  private:
-  /// Empty beyond what the counter holds.
+  /// Returns the counted interval since the frame was opened; empty beyond the counter's range.
   std::optional<double> counted(TaiTime t) const {
     const double ticks = std::round(seconds_between(open_->t, t) / resolution_s_);
     const double interval_s = on_nanosecond(ticks * resolution_s_);
@@ -63,7 +63,7 @@ class OnBoardCounter {
 
   double resolution_s_;
   std::optional<CodedFrame> open_;
-  bool whole_ = true;  ///< So far, no edge of `open_` fell in a silence.
+  bool whole_ = true;  ///< True while no edge of `open_` has fallen in a silence.
   std::vector<CodedFrame> frames_;
 };
 

@@ -21,7 +21,7 @@ struct Arrivals {
   std::vector<Arrival> silenced;
 };
 
-/// Everything that can befall one edge. Draws as often whatever happens.
+/// Applies all that can happen to one edge. The number of draws is the same whatever happens.
 void send(const PulseLink& link, const TrueEdge& edge, Chance& chance, ReceivedPass& pass,
           Arrivals& arrivals) {
   const ChannelFaults& faults = link.channels.at(index_of(edge.channel));
@@ -70,7 +70,7 @@ void sort_by_time(std::vector<Arrival>& arrivals) {
   });
 }
 
-/// `arrivals` are in order of time.
+/// Displaces edges of different channels that are too close. `arrivals` are in order of time.
 void interfere(double interference_s, Chance& chance, std::vector<Arrival>& arrivals) {
   std::vector<bool> hit(arrivals.size());
   for (std::size_t i = 0; i < arrivals.size(); ++i) {

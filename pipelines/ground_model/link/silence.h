@@ -1,5 +1,5 @@
 /// @file
-/// When nothing comes.
+/// Spans of time in which no telemetry arrives.
 
 #pragma once
 

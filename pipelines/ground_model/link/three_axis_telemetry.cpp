@@ -15,7 +15,7 @@ namespace {
 
 using Eigen::Vector3d;
 
-/// Sends what the sensors of one motion measure.
+/// Sends what the sensors measure of one motion.
 class Downlink {
  public:
   Downlink(const BodyMotion& motion, TaiTime start, const ThreeAxisFaults& faults, Chance& chance)

@@ -1,6 +1,5 @@
 /// @file
-/// What gyro, sun sensor, star tracker and magnetometer send down of a body's motion, and what does
-/// not arrive.
+/// Telemetry of gyro, sun sensor, star tracker and magnetometer for the motion of a body.
 
 #pragma once
 
@@ -22,50 +21,50 @@
 
 namespace spindrift {
 
-/// A sample at `from_s` behind the start, and one every step on to the end.
+/// Sampling times: a first sample `from_s` after the start, then one every step until the end.
 struct Sampling {
   double from_s;
   double step_s;
 };
 
-/// Noise is one standard deviation about each axis, of a magnetometer along it. What is read is
-/// rounded to whole multiples of the resolution; 0: it is not.
+/// True gyro. The noise is a standard deviation about each axis (of a magnetometer, along each
+/// axis). Readings are rounded to multiples of the resolution; 0: they are not.
 struct TrueGyro {
   Sampling sampling;
   double noise_rad_s;
   Eigen::Vector3d bias_rad_s;
-  std::optional<double> range_rad_s;  ///< It stops there; empty: nowhere.
-  double resolution_rad_s = 0.0;      ///< About each axis.
+  std::optional<double> range_rad_s;  ///< Rate at which the reading saturates; empty: nowhere.
+  double resolution_rad_s = 0.0;      ///< Resolution about each axis.
 };
 
-/// Sees the Sun unless the Earth hides it.
+/// True sun sensor; it sees the Sun unless the Earth hides it.
 struct TrueSunSensor {
   Sampling sampling;
   double noise_rad;
-  double half_cone_rad;                                        ///< Of its field of view about -Z.
-  Eigen::Vector3d misalignment_rad = Eigen::Vector3d::Zero();  ///< The small turn of its axes.
-  double resolution = 0.0;  ///< Of each element of the unit vector.
+  double half_cone_rad;  ///< Half-angle of its field of view about -Z.
+  Eigen::Vector3d misalignment_rad = Eigen::Vector3d::Zero();  ///< Small rotation of its axes.
+  double resolution = 0.0;  ///< Resolution of each element of the unit vector.
 };
 
-/// @param sun_body Unit.
+/// @param sun_body Unit vector.
 bool is_in_view(const TrueSunSensor& sensor, const Eigen::Vector3d& sun_body);
 
 struct TrueStarTracker {
   Sampling sampling;
   double noise_rad;
-  Eigen::Quaterniond q_body_sensor;  ///< The true one.
+  Eigen::Quaterniond q_body_sensor;  ///< True mounting attitude.
 };
 
-/// Reads the main field of the Earth.
+/// True magnetometer; it reads the main field of the Earth.
 struct TrueMagnetometer {
   Sampling sampling;
   double noise_nt;
-  Eigen::Vector3d bias_nt;  ///< Body axes.
+  Eigen::Vector3d bias_nt;  ///< Bias in body axes.
   MainFieldModel field;
-  double resolution_nt = 0.0;  ///< Along each axis.
+  double resolution_nt = 0.0;  ///< Resolution along each axis.
 };
 
-// A sensor that is empty is not on board.
+// Sensors on board; a sensor that is not is empty.
 struct ThreeAxisSensors {
   std::optional<TrueGyro> gyro;
   std::optional<TrueSunSensor> sun_sensor;
@@ -76,7 +75,7 @@ struct ThreeAxisSensors {
 struct ThreeAxisFaults {
   double lost = 0.0;             ///< Probability that a sample does not arrive.
   double sun_outlier = 0.0;      ///< Probability that a sun vector is off,
-  double sun_outlier_rad = 0.0;  ///< by so much, any way.
+  double sun_outlier_rad = 0.0;  ///< by this angle, in any direction.
   std::vector<Silence> silences = {};
   std::vector<Silence> gyro_gaps = {};
 };
@@ -86,13 +85,14 @@ struct ThreeAxisTelemetry {
   std::vector<SunDirection> sun;
   std::vector<StarFix> stars;
   std::vector<MagneticField> fields;
-  std::vector<TaiTime> sun_outliers;  ///< Of `sun`.
-  std::int64_t missing = 0;           ///< Measured, and did not arrive.
+  std::vector<TaiTime> sun_outliers;  ///< Times of the outliers in `sun`.
+  std::int64_t missing = 0;           ///< Number of samples measured that did not arrive.
 };
 
-/// Draws as often whatever happens to a sample.
-/// @param orbit To the end of the motion. @return NoCoverage where it does not reach, or where the
-///        model of the field does not; InvalidInput where the field is asked for within the core.
+/// Simulates the telemetry. The number of random draws is the same whatever happens to a sample.
+/// @param orbit Must reach to the end of the motion.
+/// @return NoCoverage where the orbit or the field model does not reach; InvalidInput where the
+///         field is asked for within the core.
 Expected<ThreeAxisTelemetry> three_axis_telemetry(const BodyMotion& motion, TaiTime start,
                                                   const ThreeAxisSensors& sensors,
                                                   const ThreeAxisFaults& faults, const Orbit& orbit,

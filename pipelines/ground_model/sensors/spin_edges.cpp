@@ -19,10 +19,11 @@ namespace {
 
 constexpr double kNarrowestHalf_rad = 0.25 * kRadPerDeg;
 
-// A step this small changes no nanosecond; the last one is a hundred times better than it is long.
+// A step this small changes no nanosecond. The root after the last secant step is a hundred times
+// more accurate than that step is long.
 constexpr double kConverged_s = 1e-10;
-constexpr double kSlopeFrom_s = 1e-6;                // Nearer points give rounding for a slope.
-constexpr double kLeastTurn_rad = 0.25 * kTurn_rad;  // Between two edges of a channel.
+constexpr double kSlopeFrom_s = 1e-6;  // Slopes between closer points are mere rounding.
+constexpr double kLeastTurn_rad = 0.25 * kTurn_rad;  // Least turn between two edges of a channel.
 constexpr int kMostSteps = 30;
 constexpr double kConverged_rad = 1e-13;
 constexpr int kMostHalvings = 60;
@@ -31,16 +32,16 @@ double azimuth_of(const Eigen::Vector3d& direction) {
   return std::atan2(direction.y(), direction.x());
 }
 
-/// How deep a ray from the spacecraft dips below the horizon, of any unit; negative: it misses.
-/// In a space where the horizon is the unit sphere about `centre`; 0 is the cone that touches it.
+/// Returns how deep a ray of any length from the spacecraft dips below the horizon, in a space
+/// where the horizon is the unit sphere about `centre`. Negative: it misses; 0: it is tangent.
 double depth(const Eigen::Vector3d& ray, const Eigen::Vector3d& centre) {
   return centre.dot(ray) - std::sqrt(centre.squaredNorm() - 1.0) * ray.norm();
 }
 
-/// The depth of a beam that turns about the axis, by its azimuth.
+/// Gives the depth of a beam that turns about the axis as a function of its azimuth.
 class BeamDepth {
  public:
-  /// @param squeezed_from_tipped To the space of `depth`, where the Earth is at `centre`.
+  /// @param squeezed_from_tipped Map to the space of `depth`, where the Earth is at `centre`.
   BeamDepth(double mount_angle_rad, const Eigen::Matrix3d& squeezed_from_tipped,
             Eigen::Vector3d centre)
       : east_{std::sin(mount_angle_rad) * squeezed_from_tipped.col(0)},
@@ -69,7 +70,8 @@ class BeamDepth {
             .curvature = -centre_.dot(turning) - tangent_ * length_curvature};
   }
 
-  /// Where the beam is deepest, near `guess_rad`; empty where the Earth stands about the axis.
+  /// Returns the azimuth near `guess_rad` where the beam is deepest; empty where there is no
+  /// maximum, as with the Earth along the axis.
   std::optional<double> deepest_near(double guess_rad) const {
     double azimuth_rad = guess_rad;
     for (int i = 0; i < kMostSteps; ++i) {
@@ -86,7 +88,8 @@ class BeamDepth {
     return std::nullopt;
   }
 
-  /// The root between a depth above 0 and one below, by Newton's steps, halving where they leave.
+  /// Returns the azimuth of zero depth between one inside the horizon and one outside, by Newton
+  /// steps that are replaced by bisection where they leave the interval.
   double limb_between(double inside_rad, double outside_rad) const {
     double azimuth_rad = 0.5 * (inside_rad + outside_rad);
     for (int i = 0; i < kMostHalvings; ++i) {
@@ -178,7 +181,7 @@ auto SpinEdges<Motion>::sun_due(PulseChannel channel, const View& view) const ->
   const double middle_rad = azimuth_of(sun) + truth_.sun_sensor.slit_separation_rad;
   const double sine =
       sun.z() / std::hypot(sun.x(), sun.y()) * std::tan(truth_.sun_sensor.slit_cant_rad);
-  // Beyond, the Sun's circle does not reach the canted slit.
+  // Where |sine| reaches 1, the Sun's circle misses the canted slit.
   return std::abs(sine) < 1.0 ? Due{.azimuth_rad = middle_rad + std::asin(sine), .seen = lit}
                               : Due{.azimuth_rad = middle_rad, .seen = false};
 }
@@ -194,7 +197,7 @@ auto SpinEdges<Motion>::earth_due(const TrueInfrared& sensor, bool in, const Vie
     return unseen;
   }
   const double outside_rad = *deepest_rad + (in ? -std::numbers::pi : std::numbers::pi);
-  // Where the chord shrinks to nothing or grows to the whole turn its edge goes on from there.
+  // Where the chord shrinks to nothing or grows to the whole turn, its edge goes on there, unseen.
   if (!(beam.at(*deepest_rad).depth > 0.0)) {
     return {.azimuth_rad = *deepest_rad + sensor.azimuth_rad, .seen = false};
   }
@@ -222,8 +225,9 @@ auto SpinEdges<Motion>::due(PulseChannel channel, const View& view) const -> Due
   }
 }
 
-/// The crossing within half a turn of the guess, by secants: what the body lags behind is nearly
-/// linear in time. It is wrapped once only: an edge that moves must not lead to another turn's.
+/// Finds the crossing within half a turn of the guess by secants, since the lag of the body is
+/// nearly linear in time. Only the first lag is wrapped to half a turn and later ones follow it
+/// continuously: an edge that moves must not lead to another turn's.
 template <SpunBody Motion>
 auto SpinEdges<Motion>::crossing_near(PulseChannel channel, double guess_s) -> Expected<Crossing> {
   double t_s = guess_s;
@@ -248,17 +252,17 @@ auto SpinEdges<Motion>::crossing_near(PulseChannel channel, double guess_s) -> E
       return Crossing{.t_s = t_s, .seen = expected.seen};
     }
   }
-  // A chord that comes or goes within this very turn: it is too narrow to be seen.
+  // The chord appears or vanishes within this very turn, so it is too narrow to be seen.
   return Crossing{.t_s = guess_s, .seen = false};
 }
 
-/// The crossing a turn after the one at `t_s`.
+/// Finds the crossing one turn after the one at `t_s`.
 template <SpunBody Motion>
 auto SpinEdges<Motion>::crossing_after(PulseChannel channel, double t_s) -> Expected<Crossing> {
   const double guess_s = t_s + kTurn_rad / truth_.motion.rate_at_rad_s(t_s);
   return crossing_near(channel, guess_s).map([&](const Crossing& next) {
     const double turned_rad = truth_.motion.azimuth_rad(next.t_s) - truth_.motion.azimuth_rad(t_s);
-    // An edge that goes against the spin as fast as it is no edge to be seen.
+    // An edge that moves against the spin as fast as the body turns has no next crossing.
     return turned_rad > kLeastTurn_rad ? next : Crossing{.t_s = guess_s, .seen = false};
   });
 }

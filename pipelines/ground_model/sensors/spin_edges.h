@@ -1,5 +1,5 @@
 /// @file
-/// When the sensors of a spinning spacecraft really see the Sun and the Earth.
+/// Simulates when the sensors of a spinning spacecraft see the Sun and the edges of the Earth.
 ///
 /// Each edge is the root of its own condition at its own time: the body turns, nutates and cones,
 /// the spacecraft moves along its orbit, the Sun along the ecliptic. For the geometry of an
@@ -32,25 +32,25 @@
 
 namespace spindrift {
 
-/// A pencil beam as it really sits, and its electronics.
+/// True alignment of a pencil-beam infrared sensor and error of its electronics.
 struct TrueInfrared {
   double mount_angle_rad;
   double azimuth_rad;
-  double chord_excess_rad = 0.0;  ///< The chord comes out wider by this, half at each end.
+  double chord_excess_rad = 0.0;  ///< Excess of the measured chord, half of it at each end.
 };
 
-/// An ellipsoid of revolution about the pole; a sphere where both are the same.
+/// Ellipsoid of revolution about the pole; a sphere where both radii are equal.
 struct EarthFigure {
   double equatorial_km;
   double polar_km;
-  Eigen::Vector3d pole_icrf;  ///< Unit length.
+  Eigen::Vector3d pole_icrf;  ///< Unit vector, ICRF.
 };
 
-/// The infrared horizon: the sphere of the Earth's equatorial radius or the WGS-84 ellipsoid, its
-/// half axes longer by the altitude.
+/// Returns the infrared horizon: the sphere of the Earth's equatorial radius or the WGS-84
+/// ellipsoid, its half axes lengthened by the CO2 altitude.
 EarthFigure infrared_horizon(const Horizon& horizon, const Eigen::Vector3d& pole_icrf);
 
-/// A body that spins about an axis at rest, and what leans away from it: SpinMotion or BodySpin.
+/// A turn about an inertially fixed axis and a tilt from it: SpinMotion or BodySpin.
 template <class Motion>
 concept SpunBody = requires(const Motion& motion, double t_s) {
   {Eigen::Vector3d{motion.axis_icrf}};
@@ -60,7 +60,7 @@ concept SpunBody = requires(const Motion& motion, double t_s) {
   { motion.end_s() } -> std::same_as<double>;
 };
 
-/// What there is, as opposed to what the mission file says of it.
+/// The true spacecraft, sensors and horizon, as opposed to what the mission file says of them.
 template <SpunBody Motion>
 struct SpinTruthOf {
   TaiTime start;
@@ -73,38 +73,37 @@ struct SpinTruthOf {
 using SpinTruth = SpinTruthOf<SpinMotion>;
 
 struct TrueEdge {
-  double t_s;  ///< Behind the start.
+  double t_s;  ///< Time since the start of the motion.
   PulseChannel channel;
 };
 
-/// The edges of a pass, asked for in slices.
-///
-/// Good to 1e-10 s within a day. A chord narrower than half a degree, or within half a degree of
-/// the whole turn, is not seen: no beam is that fine, and its edges are no longer roots that a step
-/// can find.
+/// Finds the edges of a pass, slice by slice. The times are accurate to 1e-10 s within a day. A
+/// chord narrower than half a degree, or within half a degree of the whole turn, counts as unseen:
+/// no beam is that fine, and steps would miss its edges.
 template <SpunBody Motion>
 class SpinEdges {
  public:
-  /// `orbit` outlives it.
+  /// @param orbit Must outlive this object.
   SpinEdges(const SpinTruthOf<Motion>& truth, const Orbit& orbit);
 
-  /// The edges from where the last slice ended (at first: the start) up to `end_s`, exclusive, in
-  /// order of time and channel.
-  /// @return NoCoverage where orbit or motion ends before (a turn ahead of the edges is looked at);
-  ///         Unobservable where it dips below the horizon.
+  /// Returns the edges from the end of the last slice (at first: the start) up to `end_s`,
+  /// exclusive, in order of time and channel.
+  /// @return NoCoverage where orbit or motion ends too early (the search looks a turn ahead of the
+  ///         edges); Unobservable where the spacecraft dips below the horizon.
   Expected<std::vector<TrueEdge>> until(double end_s);
 
-  /// Turns that slit 1 has begun at the Sun since the start, whether it was seen or not.
+  /// Returns how often slit 1 has passed the Sun since the start, whether it saw the Sun or not.
   std::int64_t revolutions() const { return revolutions_; }
 
  private:
-  /// Geometry of an instant about the sensors' axis.
+  /// Holds the geometry of an instant in the axes that are tipped with the body.
   struct View {
-    Eigen::Vector3d sun_tipped;            ///< Unit.
-    Eigen::Vector3d earth_tipped_km;       ///< Spacecraft -> Earth's centre.
-    Eigen::Matrix3d squeezed_from_tipped;  ///< To a space where the horizon is the unit sphere.
+    Eigen::Vector3d sun_tipped;            ///< Unit vector to the Sun.
+    Eigen::Vector3d earth_tipped_km;       ///< Vector from the spacecraft to the Earth's centre.
+    Eigen::Matrix3d squeezed_from_tipped;  ///< Map to a space where the horizon is the unit sphere.
   };
-  /// Azimuth of slit 1 at which a channel's edge happens; without an edge one nearby, to count on.
+  /// Azimuth of slit 1 at which a channel's edge happens. Without an edge it is a nearby azimuth,
+  /// from which the search goes on to the next turn.
   struct Due {
     double azimuth_rad;
     bool seen;

@@ -1,5 +1,5 @@
 /// @file
-/// What a sensor of a three-axis spacecraft reads, by the truth and its error.
+/// Readings of the sensors of a three-axis spacecraft, computed from the truth and an error.
 
 #pragma once
 
@@ -12,13 +12,13 @@
 
 namespace spindrift {
 
-/// To the nearest whole multiple of `resolution`; as it is, where that is 0.
+/// Rounds each component to the nearest multiple of `resolution`, and not at all where that is 0.
 inline Eigen::Vector3d rounded(const Eigen::Vector3d& reading, double resolution) {
   return resolution > 0.0 ? Eigen::Vector3d{resolution * (reading / resolution).array().round()}
                           : reading;
 }
 
-/// @param range_rad_s Where it stops about each axis; empty: nowhere.
+/// @param range_rad_s Rate at which the gyro saturates about each axis; empty: it does not.
 inline Eigen::Vector3d gyro_reading(const Eigen::Vector3d& rate_body_rad_s,
                                     const Eigen::Vector3d& error_rad_s,
                                     const std::optional<double>& range_rad_s) {
@@ -26,7 +26,8 @@ inline Eigen::Vector3d gyro_reading(const Eigen::Vector3d& rate_body_rad_s,
   return (rate_body_rad_s + error_rad_s).cwiseMax(-most_rad_s).cwiseMin(most_rad_s);
 }
 
-/// @param direction_body Unit. @param off_rad The way that it is turned, along two axes across it.
+/// @param direction_body Unit vector.
+/// @param off_rad Displacement of the direction along two axes across it.
 inline Eigen::Vector3d direction_reading(const Eigen::Vector3d& direction_body,
                                          const Eigen::Vector2d& off_rad) {
   const Eigen::Vector3d first = direction_body.unitOrthogonal();
@@ -34,7 +35,7 @@ inline Eigen::Vector3d direction_reading(const Eigen::Vector3d& direction_body,
   return quaternion_by(off_rad.x() * second - off_rad.y() * first) * direction_body;
 }
 
-/// @return q_icrf_sensor. @param off_rad A small turn, axes of the sensor.
+/// @param off_rad Small rotation vector of the error, sensor axes. @return q_icrf_sensor.
 inline Eigen::Quaterniond star_reading(const Eigen::Quaterniond& q_icrf_body,
                                        const Eigen::Quaterniond& q_body_sensor,
                                        const Eigen::Vector3d& off_rad) {

@@ -13,25 +13,24 @@
 namespace spindrift {
 namespace {
 
-// Without a clock no more than this is kept: noise alone must not fill the memory.
+// Most edges kept without a clock: noise alone must not fill the memory.
 constexpr std::size_t kMostWaiting = 1024;
 // A revolution stays open at least this long, so that a channel seen for the first time finds it.
 constexpr double kOpen_turns = 0.75;
 constexpr double kChordGate_turns = 0.2;
-// However long the silence, an edge must lie nearer than this to a turn to be counted with it.
+// However long the silence, an edge counts with a turn only if it lies nearer to it than this.
 constexpr double kMostReach_turns = 0.4;
 // A clock less certain than this may have miscounted the turns of a silence: it starts afresh.
 constexpr double kLost_turns = 0.2;
-// So many revolutions without a good edge of the reference, and another channel takes over.
+// Another channel takes over after this many revolutions without a good reference edge.
 constexpr int kSilentReference = 10;
-// From the edges that have waited for the clock a channel is learnt when it has been seen in so
-// many turns, and in one of so many.
+// A channel is learnt from the edges that waited for the clock when it was seen in at least
+// kFewestSeen turns, and in at least one of kMostTurnsAnEdge turns.
 constexpr std::size_t kFewestSeen = 3;
 constexpr std::size_t kMostTurnsAnEdge = 3;
-// The other channels' edges of as many turns as a step of the rate is looked for in, and a few
-// more.
+// Edges of all channels are kept for a few more turns than a step of the rate is searched in.
 constexpr std::size_t kMostRecent = 16 * kPulseChannels;
-// From so many good edges in a row on a channel is fit to set the clock.
+// A channel is fit to set the clock after this many good edges in a row.
 constexpr int kFitReference = 3;
 
 constexpr std::array<PulseChannel, kPulseChannels> kChannels = {
@@ -106,8 +105,8 @@ Association Associator::finish() {
 }
 
 void Associator::try_to_start(bool at_end, Association& out) {
-  // The edges have to tell where the other channels are; those of the last turn, and of a chord
-  // that straddles sun1, may be still to come.
+  // The edges must show where the other channels are; those of the last turn, and of a chord that
+  // straddles sun1, may not have come yet.
   const auto sun1_edges = std::count_if(waiting_.begin(), waiting_.end(), [](const Pulse& pulse) {
     return pulse.channel == PulseChannel::Sun1;
   });
@@ -144,7 +143,7 @@ void Associator::try_to_start(bool at_end, Association& out) {
   }
 }
 
-/// The silence was too long: the clock cannot say for certain which turn this is.
+/// Gives up the clock after a silence too long for it to tell which turn `pulse` is in.
 void Associator::give_up_clock(const Pulse& pulse, Association& out) {
   while (!open_.empty()) {
     close_front(out);
@@ -158,7 +157,8 @@ void Associator::give_up_clock(const Pulse& pulse, Association& out) {
   intervals_.forget_notes_before(pulse.t);
 }
 
-/// Of those that have waited: the first of copies, and none that came alone where they are usual.
+/// Returns the waiting edges without their copies, and without those that came alone where copies
+/// usually lie apart.
 std::vector<Pulse> Associator::telling_edges() {
   for (const Pulse& pulse : waiting_) {
     copies_.behind_first_s(pulse, clock_->period_s());
@@ -185,7 +185,7 @@ std::vector<Pulse> Associator::telling_edges() {
   return telling;
 }
 
-/// Those that have an edge in some of the turns; the others once they have.
+/// Learns the channels that have edges in enough turns; the others are learnt once they have.
 void Associator::learn_phases() {
   std::array<std::vector<double>, kPulseChannels> counts;
   std::set<double> turns;
@@ -196,7 +196,7 @@ void Associator::learn_phases() {
       turns.insert(std::round(count - phases_.at(reference_, count)));
     }
   }
-  // The last one may still be going on.
+  // The last turn may be incomplete.
   const std::size_t whole = std::max<std::size_t>(turns.size(), 2) - 1;
   const std::size_t fewest = std::max(std::min(whole, kFewestSeen), whole / kMostTurnsAnEdge);
   for (const PulseChannel channel : kChannels) {
@@ -214,7 +214,7 @@ void Associator::note_recent(const Pulse& pulse) {
   }
 }
 
-/// A step to quite another rate: a second edge in each turn of the reference alone is none.
+/// Tells whether other channels share the period: a second edge of the reference alone is no step.
 bool Associator::is_of_all_channels(const PulseTrain& comb) const {
   const auto begin = std::find_if(recent_.begin(), recent_.end(), [&](const Pulse& pulse) {
     return elapsed_s(comb.t, pulse.t) >= -kOnComb_sigma * comb.scatter_s;
@@ -234,8 +234,8 @@ bool Associator::is_good_reference(const Pulse& pulse) const {
                          {.sigma = config_.screening.sigma, .most = gate_turns(reference_)});
 }
 
-/// After a step in the spin rate the last edges of the reference agree with one another and not
-/// with the clock: it is set by them, its count not behind the old one's.
+/// Sets the clock anew after a step of the spin rate, when the latest reference edges agree with
+/// one another and not with the clock. The count of turns does not go back.
 void Associator::restart_after_step(const Pulse& pulse) {
   const double phase = clock_->phase_turns(pulse.t);
   const double expected = phases_.at(reference_, phase);
@@ -258,7 +258,7 @@ void Associator::restart_after_step(const Pulse& pulse) {
   setting.phase_turns =
       static_cast<double>(number) + expected - std::round(teeth.phase_turns(pulse.t));
   clock_ = SpinClock{setting};
-  // The comb's period is that of the reference's own edges: the clock keeps to them.
+  // The comb has the period of the reference edges, so that their phase does not drift.
   phases_.define(reference_, number, expected);
   intervals_.begin_anew(noise_s);
   rate_step_.forget();
@@ -270,7 +270,7 @@ double Associator::clock_sigma_turns(double phase_turns) const {
   return clock_->sigma_s(phase_turns, reference_wander()) / clock_->period_s();
 }
 
-/// The clock can say which turn it is.
+/// Tells whether the clock is certain of the turn at `t`.
 bool Associator::counts(TaiTime t) const {
   return clock_sigma_turns(clock_->phase_turns(t)) <= kLost_turns;
 }
@@ -279,15 +279,15 @@ double Associator::reference_wander() const {
   return sees_the_sun(reference_) ? 0.0 : earth_wander_turns(reference_, clock_->period_s());
 }
 
-/// The clock's, which cannot tell the Earth's apparent motion from the body's.
+/// Returns the clock's period. Its sigma includes the Earth's apparent motion, which the clock
+/// cannot tell from the body's.
 SpinPeriod Associator::period_at(TaiTime t) const {
   SpinPeriod period = clock_->period_at(t, reference_wander());
   period.sigma_s = std::hypot(period.sigma_s, apparent_motion_s(reference_, period.period_s));
   return period;
 }
 
-/// How far from its expectation an edge is still counted with a turn: further when a silence has
-/// left the clock uncertain.
+/// Returns how far from its expectation an edge still counts with a turn: further after a silence.
 double Associator::reach_turns(PulseChannel channel, double phase_turns) const {
   return std::clamp(config_.screening.sigma * clock_sigma_turns(phase_turns), gate_turns(channel),
                     kMostReach_turns);
@@ -308,7 +308,7 @@ void Associator::place(const Pulse& pulse, bool spoilt, Association& out) {
   const double first_phase = clock_->phase_turns(later_by_s(pulse.t, -behind_s.value_or(0.0)));
   close_before(phase, out);
   const bool lies_near = phases_.knows(pulse.channel) && count_of(pulse).near;
-  // Where copies matter, the first of them tells where its channel is once another has come.
+  // Where copies matter, the first shows where its channel is, but only once a copy has come.
   const bool tells = behind_s.has_value() ==
                      copies_.are_apart(pulse.channel, edge_sigma_s(config_.noise, pulse.channel));
   if (pulse.channel != reference_ && !lies_near && tells) {
@@ -332,8 +332,7 @@ Associator::Count Associator::count_of(const Pulse& pulse) const {
           .near = std::abs(count - turn) <= reach_turns(pulse.channel, phase)};
 }
 
-/// Empty where the edge is too far from any turn, its revolution is closed already, or its channel
-/// is not known.
+/// Returns null when no turn is near, its revolution is closed, or its channel is unknown.
 Revolution* Associator::revolution_of(const Pulse& pulse) {
   if (!phases_.knows(pulse.channel)) {
     return nullptr;
@@ -342,7 +341,8 @@ Revolution* Associator::revolution_of(const Pulse& pulse) {
   return count.near ? open_revolution(count.turn) : nullptr;
 }
 
-/// Of two edges of one channel, the nearer to where it is expected stays.
+/// Puts an edge into its revolution. Of two edges of one channel the nearer to its expectation
+/// stays, unless they are copies and the earliest counts.
 void Associator::put(Revolution& revolution, const Pulse& pulse, std::optional<Rejection> spoilt_by,
                      Association& out) {
   const auto turn = static_cast<double>(revolution.number);
@@ -371,10 +371,10 @@ void Associator::put(Revolution& revolution, const Pulse& pulse, std::optional<R
   rejection = spoilt_by;
 }
 
-/// Of copies, the earliest of which lies further from where it is expected. It counts all the same
-/// where all are one; where they come in any order, as all channels then are early by the same and
-/// no limit of a channel's own cuts that; and where this channel has followed the later of two
-/// receivers and others the earlier.
+/// Tells whether the earliest copy counts although a later one lies nearer to the expectation. It
+/// does where it is within the limits; where the copies are too close to matter; where they come in
+/// any order, since all channels are then early by the same amount and no limit of one channel may
+/// cut that; and where this channel has followed the later of two receivers and others the earlier.
 bool Associator::earliest_counts(const Revolution& revolution, const Pulse& earliest) const {
   const PulseChannel channel = earliest.channel;
   return !copies_.are_apart(channel, edge_sigma_s(config_.noise, channel)) ||
@@ -382,7 +382,7 @@ bool Associator::earliest_counts(const Revolution& revolution, const Pulse& earl
          is_expected(revolution, earliest);
 }
 
-/// As the edge of its channel in that revolution.
+/// Tells whether the edge lies within the limits of its expectation in that revolution.
 bool Associator::is_expected(const Revolution& revolution, const Pulse& pulse) const {
   const auto turn = static_cast<double>(revolution.number);
   if (pulse.channel != reference_) {
@@ -394,12 +394,12 @@ bool Associator::is_expected(const Revolution& revolution, const Pulse& pulse) c
                          {.sigma = config_.screening.sigma, .most = reach_turns(reference_, turn)});
 }
 
-/// @param apart_s From another edge of its channel.
+/// @param apart_s Time from another edge of its channel.
 bool Associator::is_copy(const Pulse& pulse, double apart_s) const {
   return apart_s <= kCopies_turns * clock_->period_s() && copies_.are_usual(pulse.channel);
 }
 
-/// @param apart_s From the edge of its channel that counts.
+/// @param apart_s Time from the edge of its channel that counts.
 void Associator::leave_over(const Pulse& pulse, std::optional<Rejection> spoilt_by, double apart_s,
                             Association& out) {
   const bool copy = !spoilt_by && is_copy(pulse, apart_s);
@@ -412,7 +412,7 @@ void Associator::leave_over(const Pulse& pulse, std::optional<Rejection> spoilt_
   out.left_over.push_back(left_over(pulse, copy ? Rejection::Copy : spoilt_by));
 }
 
-/// Empty when that revolution is closed already, or precedes the first.
+/// Returns null when that revolution is closed or precedes the first.
 Revolution* Associator::open_revolution(std::int64_t number) {
   if (number < first_open_) {
     return nullptr;
@@ -456,15 +456,15 @@ void Associator::close_front(Association& out) {
   open_.pop_front();
 }
 
-/// Of all edges alike where channels are expected to interfere: with less weight for those that met
-/// the channels would seem too far from each other.
+/// Returns one sigma of the displacement by interference, turns. All edges of channels expected to
+/// interfere have it: were it given to spoilt ones only, the channels would seem too far apart.
 double Associator::displaced_turns(const Revolution& revolution, PulseChannel channel) const {
   const bool displaced =
       interfering_pairs_.contains(channel) || revolution.edge_rejections.at(index_of(channel));
   return displaced ? interfering_pairs_.displacement_s() / clock_->period_s() : 0.0;
 }
 
-/// Where copies are usual one of them alone may be either: it is not used, and tells of no place.
+/// Rejects an edge that came alone where copies usually lie apart, since it may be any of them.
 void Associator::judge_lone(Revolution& revolution) const {
   for (const PulseChannel channel : kChannels) {
     std::optional<Rejection>& rejection = revolution.edge_rejections.at(index_of(channel));
@@ -504,7 +504,7 @@ void Associator::judge_others(Revolution& revolution) {
     }
     const double count = clock_->phase_turns(*edge);
     const double displaced = displaced_turns(revolution, channel);
-    // Of spoilt edges too: most of a channel's may be.
+    // Spoilt edges are followed too, since most edges of a channel may be spoilt.
     const bool believed =
         (phases_.knows(channel) && phases_.follow(channel, revolution.number, count - turn,
                                                   std::hypot(clock_sigma, displaced))) ||
@@ -515,8 +515,8 @@ void Associator::judge_others(Revolution& revolution) {
   }
 }
 
-/// Where channels are expected to interfere, the edges that escaped did so by their noise: all of
-/// them lie too far from each other, and their mean is wrong.
+/// Rejects the remaining edges of channels expected to interfere: they escaped by their noise, so
+/// all of them lie too far from each other, and their mean is wrong.
 void Associator::judge_neighbours(Revolution& revolution) const {
   for (const PulseChannel channel : kChannels) {
     std::optional<Rejection>& rejection = revolution.edge_rejections.at(index_of(channel));
@@ -526,8 +526,8 @@ void Associator::judge_neighbours(Revolution& revolution) const {
   }
 }
 
-/// Hands the clock over: to sun1 as soon as it is fit, to another channel when the reference has
-/// been silent for long.
+/// Hands the clock over to sun1, or from an infrared channel to sun2, once that is fit, and to
+/// another channel when the reference has long been silent.
 void Associator::count_silence(const Revolution& revolution) {
   using enum PulseChannel;
   turns_without_reference_ = revolution.good_edge(reference_) ? 0 : turns_without_reference_ + 1;
@@ -550,7 +550,7 @@ void Associator::count_silence(const Revolution& revolution) {
 void Associator::change_reference(PulseChannel channel, std::int64_t turn) {
   const auto turn_d = static_cast<double>(turn);
   const bool was_the_earth = !sees_the_sun(reference_);
-  // From here on the old one is followed again.
+  // From here on the phase of the old reference is followed again.
   phases_.define(reference_, turn, phases_.at(reference_, turn_d));
   reference_ = channel;
   phases_.set_reference(channel);
@@ -564,7 +564,7 @@ void Associator::change_reference(PulseChannel channel, std::int64_t turn) {
     const double drift = phases_.drift(channel);
     clock_->shift(turn, late_turns, drift);
     if (was_the_earth) {
-      // What was taken for the body's drift is in part the Earth's.
+      // Part of what was taken for the body's drift is the Earth's apparent motion.
       clock_->loosen(phases_.phase_sigma(channel, turn_d), phases_.drift_sigma(channel, turn_d),
                      kEarthAcceleration_per_s2);
     }

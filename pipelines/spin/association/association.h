@@ -1,19 +1,19 @@
 /// @file
-/// Association: which edge belongs to which revolution, and which is accepted; by spin phase, never
-/// by the order of arrival.
+/// Association: decides by spin phase, never by order of arrival, which edge belongs to which
+/// revolution and which is accepted.
 ///
-/// A clock counts spin phase in turns from the sun1 edges; where sun1 is silent, from those of
-/// another channel. Each channel is expected at its own phase, learnt from edges that agree and
-/// followed as the Earth moves; an edge belongs to the revolution whose expected phase it is
-/// nearest to. So a chord that straddles the next sun1, or hovers about it, stays with one
-/// revolution. An edge further from its expectation than the screening's sigmas is kept with its
-/// revolution and rejected. After a silence too long for the clock to say what turn it is, it
-/// starts afresh, and the count goes on from the best guess. When the edges of a channel agree on
-/// another phase (the Earth moved during a silence, the spin rate stepped), that one is adopted.
+/// A clock counts spin phase in turns from the sun1 edges, or from those of another channel while
+/// sun1 is silent. Each channel is expected at its own phase, which is learnt from edges that agree
+/// and followed as the Earth moves; an edge belongs to the revolution with the nearest expected
+/// phase. So a chord that straddles or hovers about the next sun1 stays with one revolution. An
+/// edge further from its expectation than the screening limit is kept and rejected. After a silence
+/// too long for the clock to tell which turn it is, the clock starts afresh and counts on from the
+/// best guess. When the edges of a channel agree on another phase (the Earth moved during a
+/// silence, the spin rate stepped), that phase is adopted.
 ///
-/// Of copies the earliest counts that lies where it is expected: of those within the noise of each
-/// other the nearest would be chosen by what came before it, and their errors would not average
-/// out.
+/// Of several copies of an edge, the earliest that lies where it is expected counts. Taking the
+/// copy nearest to its expectation would depend on the edges before it, and errors would not
+/// average out.
 
 #pragma once
 
@@ -36,40 +36,40 @@
 namespace spindrift {
 
 struct Association {
-  std::vector<Revolution> closed;                            ///< In order of number.
-  std::vector<PulseUse> left_over;                           ///< Edges that found no place.
-  std::vector<CopiedEdge> copies = {};                       ///< Of those.
-  std::vector<InterferingChannels> began_to_interfere = {};  ///< In this pass for the first time.
+  std::vector<Revolution> closed;                            ///< Closed revolutions, by number.
+  std::vector<PulseUse> left_over;                           ///< Edges placed in no revolution.
+  std::vector<CopiedEdge> copies = {};                       ///< Copies among `left_over`.
+  std::vector<InterferingChannels> began_to_interfere = {};  ///< Pairs new in this pass.
 };
 
 class Associator {
  public:
   explicit Associator(const SpinConfig& config);
 
-  /// @param pulse Not earlier than the one before.
+  /// Places an edge, or keeps it until the clock has started.
+  /// @param pulse Not earlier than the previous pulse.
   Association push(const Pulse& pulse);
 
-  /// An edge that one of another channel has spoilt: it is not to be used, but says about where its
-  /// channel is.
+  /// Takes an edge spoilt by another channel: it is rejected, but shows roughly where its own is.
   Association push_spoilt(const Pulse& pulse);
 
-  /// What the spacecraft itself says of its period (coded telemetry), before the edges of that
-  /// frame: a pass of a few frames needs no more to start the clock, and the value is tested as the
-  /// revolution's candidate where no interval ends at its sun1.
+  /// Takes the spin period that coded telemetry states, before the edges of its frame. It lets the
+  /// clock start in a pass of a few frames, and is the period candidate where no interval ends at
+  /// its sun1.
   void note_period(TaiTime t_sun1, double period_s);
 
-  /// The pass has ended: closes what is open.
+  /// Ends the pass and closes the open revolutions.
   Association finish();
 
-  /// So far in the pass.
+  /// Returns the pairs that have interfered so far in the pass.
   const std::vector<InterferingChannels>& interfering() const {
     return interfering_pairs_.interfering();
   }
-  /// Likewise: which of several edges counted was left to noise.
+  /// Tells whether noise has decided, so far in the pass, which of several copies counted.
   bool noise_chose_among_copies() const { return noise_chose_among_copies_; }
 
  private:
-  /// The turn whose edge a pulse is nearest to, and whether it is near enough to be that.
+  /// The turn with the expected edge nearest to a pulse, and whether it is near enough to be it.
   struct Count {
     std::int64_t turn;
     bool near;
@@ -113,23 +113,23 @@ class Associator {
   double reach_turns(PulseChannel channel, double phase_turns) const;
 
   SpinConfig config_;
-  std::vector<Pulse> waiting_;  ///< Until the period is known.
+  std::vector<Pulse> waiting_;  ///< Edges kept until the period is known.
 
   std::optional<SpinClock> clock_;
-  std::optional<SpinClock> lost_clock_;          ///< Before a silence too long for it.
-  std::optional<double> count_sigma_turns_;      ///< For the revolution that closes next.
+  std::optional<SpinClock> lost_clock_;          ///< Clock given up after a long silence.
+  std::optional<double> count_sigma_turns_;      ///< Turn-count sigma for the next to close.
   PulseChannel reference_ = PulseChannel::Sun1;  ///< The channel that sets the clock.
-  bool sun1_known_ = false;                      ///< Phase 0 is where sun1 is.
+  bool sun1_known_ = false;                      ///< Whether phase 0 is that of sun1.
   int turns_without_reference_ = 0;
   RateStepDetector rate_step_;
-  std::deque<Pulse> recent_;  ///< The last, without copies.
+  std::deque<Pulse> recent_;  ///< The latest edges, without copies.
   Copies copies_;
   bool noise_chose_among_copies_ = false;
   ExpectedPhases phases_;
   InterferingPairs interfering_pairs_;
   PeriodIntervals intervals_;
 
-  std::deque<Revolution> open_;  ///< In order of number; only those with an edge.
+  std::deque<Revolution> open_;  ///< Open revolutions with an edge, by number.
   std::int64_t first_open_ = 0;  ///< Revolutions before this one are closed.
 };
 

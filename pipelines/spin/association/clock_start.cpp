@@ -19,25 +19,23 @@ using enum PulseChannel;
 
 constexpr std::array<PulseChannel, kPulseChannels> kByPreference = {Sun1,     Sun2,    NorthIn,
                                                                     NorthOut, SouthIn, SouthOut};
-// Edges on the comb before it is accepted.
+// Fewest edges on a comb, or agreeing notes, before the clock starts.
 constexpr std::size_t kFewestSun1 = 7;
 constexpr std::size_t kFewestOthers = 20;
 constexpr std::size_t kFewestAtEnd = 3;
 constexpr std::size_t kNotesToAgree = 3;
-// A bend of the comb is not seen where it leaves its edges less than about this many scatters from
-// a straight line; there its ends lie off by as much, and their slope by twice that along the
-// whole.
+// A bend of the comb is not seen where it leaves the edges less than about this many scatters from
+// a straight line: its ends may then be off by as much, its slope by twice that along the whole.
 constexpr double kHidden_scatters = 3.0;
 constexpr double kSamePeriod = 0.01;
-// What channels say of the period differs by less, unless one has half of its edges or twice as
-// many.
+// Periods of channels differ by less, unless one has half of its edges or twice as many.
 constexpr double kAnotherPeriod = 1.2;
-// The Earth's motion and noise move an interval by less.
+// The motion of the Earth and noise change an interval by a smaller part of it.
 constexpr double kSameInterval = 0.02;
-// A pass begins where so many edges follow within so many turns.
+// A pass begins where kFewestOfRun edges follow within kOneRun_turns.
 constexpr std::ptrdiff_t kFewestOfRun = 3;
 constexpr double kOneRun_turns = 10.0;
-// One sigma of a rate that lies anywhere between those of a low orbit in either sense.
+// One sigma of a rate uniform between those of a low orbit in either sense.
 constexpr double kUnknownEarthRate_rad_s = kEarthMotion_rad_s / std::numbers::sqrt3;
 
 auto same_period_as(const PeriodNote& one) {
@@ -56,8 +54,8 @@ std::vector<TaiTime> times_of(std::span<const Pulse> pulses, PulseChannel channe
   return times;
 }
 
-/// A lost sun1 makes a period of several turns: of the middle period, the shortest that two notes
-/// say and that it is a multiple of.
+/// Returns the note of a single turn. A lost sun1 makes a period of several turns, so this is the
+/// shortest period that two notes state and that divides the middle one.
 PeriodNote note_of_one_turn(const std::vector<PeriodNote>& notes, const PeriodNote& middle) {
   PeriodNote shortest = middle;
   for (const PeriodNote& note : notes) {
@@ -72,15 +70,16 @@ PeriodNote note_of_one_turn(const std::vector<PeriodNote>& notes, const PeriodNo
   return shortest;
 }
 
-/// Of lost edges a train has a period of several turns; its other edges may be one turn apart.
+/// Tells whether two successive edges are one period apart. A train that lost edges seems to have a
+/// period of several turns, but some of its edges may still be one turn apart.
 bool have_interval(const std::vector<TaiTime>& edges, double period_s) {
   return std::adjacent_find(edges.begin(), edges.end(), [period_s](TaiTime a, TaiTime b) {
            return std::abs(elapsed_s(a, b) - period_s) <= kSameInterval * period_s;
          }) != edges.end();
 }
 
-/// More channels agree on another period: this one may miss every other edge, or have a second one
-/// half a turn later, and all turn alike.
+/// Tells whether more channels agree on another period. All turn alike, so this channel then misses
+/// every other edge, or has a second one half a turn later.
 bool is_outvoted(const OtherChannels& others, double period_s) {
   std::vector<double> said_s = others.periods_s;
   said_s.push_back(period_s);
@@ -92,8 +91,8 @@ bool is_outvoted(const OtherChannels& others, double period_s) {
                      [&](double one_s) { return votes_for(one_s) > votes_for(period_s); });
 }
 
-/// The setting with its turns counted so that the first edge near the comb is on turn 0; a stray
-/// one before, which happens to be near it as well, has few behind it.
+/// Returns the clock with the first edge near the comb on turn 0. A stray edge before it that lies
+/// near the comb by chance is passed over, since few edges follow it.
 SpinClock counted_from(SpinClock::Setting setting, const std::vector<TaiTime>& edges,
                        PulseChannel channel, double phase_turns) {
   const SpinClock clock{setting};
@@ -159,8 +158,8 @@ SpinClock::Setting setting_of(const PulseTrain& comb, double noise_s) {
   const double turns = std::max(1.0, comb.turns);
   const double hidden_turns = kHidden_scatters * comb.scatter_s / comb.period_s;
   const double span_s = turns * comb.period_s;
-  // A drift that was seen, by the middle of several parabolas, leaves between its ends twice what
-  // hides from a straight line.
+  // A drift found as the median of several parabolas leaves, between the ends, twice what hides
+  // from a straight line.
   const double drift_sigma =
       comb.drift_per_s2 == 0.0
           ? kFirstDrift_per_s2
@@ -218,7 +217,7 @@ std::optional<ClockStart> start_clock(const SpinConfig& config, std::span<const 
     return std::nullopt;
   }
   const auto first = std::find_if(sane.begin(), sane.end(), agrees);
-  // Either period is the mean of its turn, half a turn from its sun1.
+  // Each period is the mean over its turn, half a turn from its sun1.
   const double apart_s = std::abs(elapsed_s(first->t_sun1, chosen.t_sun1)) + period_s;
   const double drifted_s = period_s * period_s * kFirstDrift_per_s2 * apart_s;
   const double sigma_s = std::hypot(std::numbers::sqrt2 * config.noise.sun_s, drifted_s);

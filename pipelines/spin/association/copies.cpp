@@ -10,18 +10,18 @@ namespace spindrift {
 namespace {
 
 constexpr std::size_t kLast = 10;
-// Of fewer revolutions with copies it is no custom: one edge in twenty may come doubled.
+// Copies become usual with at least this many revolutions: one edge in twenty may come doubled.
 constexpr std::ptrdiff_t kFewest = 3;
-// And with fewer no longer: of two receivers that lose half of their edges a third come twice.
+// Copies stay usual with at least this many: two receivers that lose half still give a third twice.
 constexpr std::ptrdiff_t kFewestToStay = 2;
 constexpr std::size_t kMostBehind = 100;
 constexpr std::size_t kFewestBehind = 30;
-// Between the quartiles of the distances, in parts of their median: 1.2 where both orders are as
-// likely, 0.8 where the first is so in 95 of 100 revolutions, and the bias a fiftieth of the
-// scatter.
+// Interquartile range of the distances, in parts of their median, from which copies come in any
+// order: 1.2 where both orders are equally likely, 0.8 where one holds in 95 of 100 revolutions,
+// and the bias is a fiftieth of the scatter.
 constexpr double kAnyOrder = 0.8;
-// The bias is up to 0.6 of the median distance: such a part of the noise of an edge is that of a
-// mean of thousands.
+// Part of an edge's noise below which the median distance does not matter: the bias is up to 0.6 of
+// that distance, and so no more than the noise of a mean of thousands of edges.
 constexpr double kNothing = 0.02;
 
 bool are_most(const std::deque<bool>& had_copies) {
@@ -29,7 +29,7 @@ bool are_most(const std::deque<bool>& had_copies) {
   return with >= kFewest && 2 * with > std::ssize(had_copies);
 }
 
-// Of the last choices: an edge that is spoilt leaves the later one now and then.
+// Fewest of the last choices for the later copy to count: a spoilt edge leaves it now and then.
 constexpr std::ptrdiff_t kFewestLater = 3;
 
 double quantile(std::deque<double> values, double share) {

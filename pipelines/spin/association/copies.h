@@ -1,6 +1,6 @@
 /// @file
-/// Copies: a channel gives one leading edge a revolution. Where in most revolutions several lie
-/// within a twentieth of a turn, several receivers heard the same one, or one rang.
+/// Recognition of copies: a channel gives one leading edge per revolution. Where most revolutions
+/// bring several within a twentieth of a turn, several receivers heard it, or a receiver rang.
 
 #pragma once
 
@@ -13,51 +13,51 @@
 
 namespace spindrift {
 
-/// So near to each other edges of one channel are one.
+/// Edges of one channel nearer to each other than this are copies of one edge.
 inline constexpr double kCopies_turns = 0.05;
 
 /// An edge that is left out as another one's copy.
 struct CopiedEdge {
   Pulse pulse;
-  double apart_s;  ///< From the edge that counts, either way.
+  double apart_s;  ///< Absolute time to the edge that counts.
 };
 
-/// What follows what, channel by channel; knows no phases, so that it holds for channels of which
-/// nothing is known yet.
+/// Tracks, channel by channel, which edges follow each other. It uses no phases, so that it works
+/// for channels of which nothing is known yet.
 class Copies {
  public:
-  /// @param pulse Later than the one before of its channel, or they are gone through anew.
-  /// @return How far behind the first edge of its revolution it comes; empty: it is the first, or
-  /// copies are not usual, so that one edge may be as good as the other.
+  /// @param pulse Later than the previous one of its channel, unless all are gone through anew.
+  /// @return How far the pulse is behind the first edge of its revolution; empty when it is the
+  /// first, or when copies are not usual, so that either edge may be the right one.
   std::optional<double> behind_first_s(const Pulse& pulse, double period_s);
 
-  /// Most of the channel's last revolutions brought several edges, and since then some still do; or
-  /// those of most channels.
+  /// Tells whether most of the channel's last revolutions brought several edges and some still do,
+  /// or whether that holds for most channels.
   bool are_usual(PulseChannel channel) const;
 
-  /// Of two edges of a revolution the later counts, or the earlier.
+  /// Records whether the later or the earlier of two edges of a revolution counts.
   void note_choice(PulseChannel channel, bool later);
-  /// The later of its edges count, of another channel the earlier: they are of two receivers, which
-  /// do not agree on the time.
+  /// Tells whether the later copy counts on this channel and the earlier one on another: they come
+  /// from two receivers that do not agree on the time.
   bool disagree_with_others(PulseChannel channel) const;
 
-  /// Likewise, and so far apart that it matters beside the noise of an edge which of them counts.
-  /// One that comes alone may be either.
+  /// Tells whether copies are usual and lie so far apart, beside the noise of an edge, that it
+  /// matters which of them counts. An edge that comes alone may then be any of them.
   bool are_apart(PulseChannel channel, double noise_s) const;
 
-  /// The channel's edges come now in this order, now in that: the earliest is the one that noise
-  /// made early, and all that rests on it is off by a part of the distance.
+  /// Tells whether the channel's copies come in random order: the earliest is then the one that
+  /// noise made early, and all that rests on it is off by a part of the distance.
   bool are_in_any_order(PulseChannel channel, double noise_s) const;
 
  private:
   struct Channel {
-    TaiTime first{};              ///< Of the last revolution.
-    std::deque<bool> had_copies;  ///< The last revolutions.
+    TaiTime first{};              ///< First edge of the last revolution.
+    std::deque<bool> had_copies;  ///< Whether each of the last revolutions had copies.
     bool are_usual = false;
-    std::deque<bool> later;       ///< The last choices.
-    std::deque<double> behind_s;  ///< The first copies of the last revolutions with any.
+    std::deque<bool> later;       ///< Whether the later copy counted, for the last choices.
+    std::deque<double> behind_s;  ///< Delays of the first copies, in the last revolutions with any.
   };
-  /// Empty: nothing was chosen so far.
+  /// Tells whether the later copy counts; empty where copies are unusual or choices were few.
   std::optional<bool> is_later(PulseChannel channel) const;
 
   std::array<Channel, kPulseChannels> channels_;

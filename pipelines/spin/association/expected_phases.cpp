@@ -23,25 +23,26 @@ constexpr double kSunDrift = 1e-4;
 constexpr double kSunWander = 1e-6;
 // A chord hovering about sun1 keeps its revolution until it has drifted this far past.
 constexpr double kHover_turns = 0.25;
-// Learnt from no more than this.
+// Most edges that a channel is learnt from.
 constexpr std::size_t kMostLearnt = 32;
-// So many edges in a row that miss their place and agree on another one move it there; fewer where
-// hardly more were at the old one, or none. Strays of a silent channel, one in fifty turns, do so
-// by chance once in ten million turns, as long as they have to come within so many revolutions.
+// This many edges in a row that miss their place and agree on another move it there; fewer where no
+// more were accepted at the old one. Strays of a silent channel, one in fifty turns, do so by
+// chance once in ten million turns, as they must come within kAgreeWithin revolutions.
 constexpr std::size_t kStraysToAgree = 5;
 constexpr std::size_t kFewestToAgree = 3;
-// A channel that scatters more than stated shows itself by as many, and never scatters by more.
+// Widest scatter of a channel that scatters more than stated; it needs kStraysToAgree turns.
 constexpr double kWidest_turns = 0.02;
 constexpr std::size_t kMostStrays = 9;
 constexpr int kAgreeWithin = 20;
-// Without a good edge in so many revolutions a channel is silent.
+// A channel is silent after this many revolutions without a good edge.
 constexpr int kSilent = 30;
-// Of where the slits stand to each other: beyond, the Sun is on the other side of the body.
+// The lag between the slits differs from their separation by less: beyond, the Sun is on the other
+// side of the body.
 constexpr double kSlitLag_turns = 0.25;
 
 double fraction(double turns) { return turns - std::floor(turns); }
 
-/// An edge may come doubled.
+/// Counts the turns of the points, since an edge may come doubled.
 std::size_t turns_among(const std::vector<PhasePoint>& points) {
   std::set<double> turns;
   std::transform(points.begin(), points.end(), std::inserter(turns, turns.end()),
@@ -49,8 +50,8 @@ std::size_t turns_among(const std::vector<PhasePoint>& points) {
   return turns.size();
 }
 
-/// Whether so many turns have an edge within `off` of the line, or enough for edges that scatter
-/// more.
+/// Tells whether `fewest_turns` turns have an edge within `off` of the line, or kStraysToAgree
+/// turns one that scatters more.
 bool is_no_chance(const std::vector<PhasePoint>& points, const RobustLine& line, double off,
                   std::size_t fewest_turns) {
   std::vector<PhasePoint> near;
@@ -61,9 +62,9 @@ bool is_no_chance(const std::vector<PhasePoint>& points, const RobustLine& line,
          (turns_among(line.agreeing) >= kStraysToAgree && line.scatter <= kWidest_turns);
 }
 
-/// More than half of the turns that have an edge on the line have one at another place besides.
+/// Tells whether more than half of the turns with an edge on the line also have one elsewhere.
 bool has_another_place(std::span<const double> counts, const RobustLine& line) {
-  std::vector<double> behind;  // The line, further than a copy.
+  std::vector<double> behind;  // Phases behind the line, further than a copy.
   std::vector<double> turns;
   for (const double count : counts) {
     const double turn = std::floor(count - line.phase + kCopies_turns);
@@ -181,7 +182,7 @@ bool ExpectedPhases::learn(PulseChannel channel, std::span<const double> counts,
     return false;
   }
   const auto edges = static_cast<double>(line->agreeing.size());
-  // A few edges say less of the drift than what is possible does.
+  // A few edges tell less of the drift than its possible range does.
   const double possible = most_drift(channel) / kMostEarthRates;
   const double seen = std::hypot(line->scatter * std::sqrt(12.0) / (edges * std::sqrt(edges)),
                                  wander(channel) * std::sqrt(edges));
@@ -245,7 +246,7 @@ double ExpectedPhases::drift_sigma(PulseChannel channel, double turn) const {
   return of(channel).phase->change_sigma_at(turn, {.measured = 0.0, .wander = wander(channel)});
 }
 
-/// Of the next edge, not of a mean of many.
+/// Returns one sigma of the next edge, not of a mean of many.
 double ExpectedPhases::sigma_turns(PulseChannel channel, double turn,
                                    double clock_sigma_turns) const {
   const double noise = noise_turns(channel);
@@ -312,7 +313,7 @@ bool ExpectedPhases::stray(PulseChannel channel, double count, double displaced_
   return agree;
 }
 
-/// @param line Of phases behind `count`.
+/// @param line Line through phases relative to `count`.
 bool ExpectedPhases::strays_have_another_place(PulseChannel channel, double count,
                                                RobustLine line) const {
   const std::deque<Stray>& strays = of(channel).strays;
@@ -348,8 +349,8 @@ double ExpectedPhases::latest(double turn) const {
   return latest;
 }
 
-/// The phase of a channel first seen, on the turn where its expected phase shall live: the Sun's
-/// about where the slits are, an in-edge in [0, 1), an out-edge within the turn behind its in-edge.
+/// Returns the phase of a newly seen channel on the turn that it is expected in: near the slits for
+/// the Sun, in [0, 1) for an in-edge, within a turn behind its in-edge for an out-edge.
 double ExpectedPhases::unwrapped(PulseChannel channel, double phase_turns, double turn) const {
   const auto behind = [&](PulseChannel in) {
     const double start = knows(in) ? at(in, turn) : 0.0;

@@ -23,7 +23,7 @@ struct InterferingChannels {
   std::int64_t revolutions = 0;
 };
 
-/// In fewer revolutions it may have been a phase learnt from a wrong edge.
+/// Fewest revolutions to report a pair: fewer may come from a phase learnt from a wrong edge.
 inline constexpr std::int64_t kFewestInterfering = 3;
 
 class InterferingPairs {
@@ -31,20 +31,20 @@ class InterferingPairs {
   /// @param window_s Edges nearer to each other than this spoil each other; 0: none do.
   explicit InterferingPairs(double window_s) : window_s_{window_s} {}
 
-  /// Those of the revolution that closes.
+  /// Finds the pairs expected to interfere in the revolution that closes.
   /// @param t Start of that revolution.
-  /// @return Pairs that have now been among them in `kFewestInterfering` revolutions.
+  /// @return Pairs that have now interfered in `kFewestInterfering` revolutions.
   std::vector<InterferingChannels> expect(const ExpectedPhases& phases, double turn,
                                           double clock_sigma_turns, TaiTime t);
 
-  /// Of the revolution that closes.
+  /// Tells whether the channel is expected to interfere in the revolution that closes.
   bool contains(PulseChannel channel) const { return interfering_pairs_.at(index_of(channel)); }
 
-  /// So far in the pass.
+  /// Returns the pairs so far in the pass.
   const std::vector<InterferingChannels>& interfering() const { return interfering_; }
 
-  /// One standard deviation of what interference moves an edge by: up to half the window either
-  /// way.
+  /// Returns one standard deviation of the displacement of an edge by interference, which is up to
+  /// half the window either way.
   double displacement_s() const;
 
  private:

@@ -8,7 +8,7 @@ namespace spindrift {
 namespace {
 
 constexpr std::size_t kMostNotes = 16;
-// After this many turns of refused intervals it is the edge that they start from that is doubtful.
+// After this many turns of refused intervals the edge that they start from is doubtful.
 constexpr std::int64_t kMostTurnsRefused = 5;
 
 }  // namespace
@@ -59,7 +59,7 @@ std::optional<PeriodCandidate> PeriodIntervals::candidate(
   return candidate;
 }
 
-/// What the spacecraft said, where no interval ends at this revolution's sun1.
+/// Returns the period that the spacecraft stated, where no interval ends at this revolution's sun1.
 std::optional<PeriodCandidate> PeriodIntervals::noted(
     const Revolution& revolution, const std::function<double(TaiTime)>& expected_s) {
   const std::optional<TaiTime>& sun1 = revolution.edge(PulseChannel::Sun1);

@@ -20,19 +20,19 @@ namespace spindrift {
 
 class PeriodIntervals {
  public:
-  /// @param edge_sigma_s One standard deviation of an edge's time; likewise below.
+  /// @param edge_sigma_s One standard deviation of an edge's time.
   PeriodIntervals(const SpinScreening& screening, double edge_sigma_s)
       : screening_{screening}, window_{screening, edge_sigma_s} {}
 
-  /// Another channel or another rate: no interval spans it.
+  /// Starts anew after a change of channel or rate, which no interval may span.
   void begin_anew(double edge_sigma_s);
 
-  /// What the spacecraft said.
+  /// Keeps a period that the spacecraft stated.
   void note(const PeriodNote& note);
   void forget_notes_before(TaiTime t);
   std::vector<PeriodNote> notes() const { return {notes_.begin(), notes_.end()}; }
 
-  /// Of a revolution whose edges are judged; an interval starts at the last good edge.
+  /// Returns the candidate of a judged revolution; intervals start at the last good edge.
   /// @param reference The channel that sets the clock.
   /// @param expected_s The period that the clock gives for an instant.
   /// @return Empty where there is neither edge nor note, and where an interval only starts.
@@ -51,7 +51,7 @@ class PeriodIntervals {
   SpinScreening screening_;
   SpinPeriodWindow window_;
   std::optional<IntervalStart> start_;
-  std::deque<PeriodNote> notes_;  ///< The last ones.
+  std::deque<PeriodNote> notes_;  ///< The latest notes.
 };
 
 }  // namespace spindrift

@@ -15,30 +15,30 @@ namespace {
 constexpr double kShortest_s = 60.0 / kFastestSearched_rpm;
 constexpr double kLongest_s = 60.0 / kSlowestSearched_rpm;
 constexpr std::size_t kMostEdges = 32;
-// An interval between edges so many places apart may be one turn: spurious ones lie between.
+// Edges up to this many places apart may be one turn apart, with spurious ones between them.
 constexpr std::size_t kNeighbours = 3;
-// Within this part of the period of its tooth an edge is on the comb while that is being found...
+// Part of the period within which an edge is on the comb while that is being found.
 constexpr double kNear = 0.02;
-// ...and once it is fitted this, or the stated noise where that is greater.
+// Part of it once the comb is fitted, unless the stated noise asks for more.
 constexpr double kOn = 0.005;
-// The longest period that explains this part of what any explains.
+// The longest period is taken that explains this part of what any explains.
 constexpr double kNearlyAsMany = 0.8;
 constexpr double kLeastShare = 0.65;
-// Of the turns between the edges: fewer, and it is a fraction of the true period.
+// Least share of turns with an edge: with fewer, the period is a fraction of the true one.
 constexpr double kLeastFilled = 0.45;
 // A longer gap is a silence, not lost edges.
 constexpr double kMostLost = 5.0;
 constexpr double kMostDrift_per_s2 = drift_per_s2(kMostDrift_rpm_h);
-// An uneven comb must leave this part of the scatter about an even one.
+// An uneven comb is taken if it leaves less than this part of the scatter about an even one.
 constexpr double kFarBetter = 0.5;
-// This share of the intervals is shorter than a turn, or hardly longer, where up to six receivers
-// give each edge; and a turn is no shorter than half of the interval there.
+// Where up to six receivers give each edge, this share of the intervals is at most about a turn; a
+// turn is at least kLeastOfInterval of the interval at that quantile.
 constexpr double kAboutATurn = 0.875;
 constexpr double kLeastOfInterval = 0.5;
 
 using Teeth = std::vector<PhasePoint>;  // The phase here is a time in seconds.
 
-/// The edges that follow one another by whole periods, from edges[first] on, on and on.
+/// Adds to `teeth` the edges that follow its last one by whole periods.
 template <class Iterator>
 void walk(Iterator edge, Iterator end, double period_s, Teeth& teeth) {
   const PhasePoint origin = teeth.front();
@@ -69,7 +69,7 @@ Teeth teeth_from(const std::vector<double>& edges_s, std::size_t first, double p
   return teeth;
 }
 
-/// The turns from the first tooth to the last, silences left out.
+/// Counts the turns from the first tooth to the last, without silences.
 double turns_heard(const Teeth& teeth) {
   double turns = 1.0;
   for (std::size_t i = 1; i < teeth.size(); ++i) {
@@ -116,8 +116,8 @@ void straighten(Teeth& teeth, double bend) {
   }
 }
 
-/// By how much the period changes in a turn, of itself: that of the middle one of the parabolas
-/// through three teeth far apart; 0 unless it explains the teeth far better than an even comb.
+/// Returns the relative change of the period in a turn: the median over the parabolas through three
+/// teeth far apart, or 0 unless it explains the teeth far better than an even comb.
 double bend_of(const Teeth& teeth, double noise, double period_s) {
   const std::size_t apart = teeth.size() / 3;
   if (apart == 0) {
@@ -160,7 +160,7 @@ std::optional<PulseTrain> train_of(std::span<const TaiTime> edges, double noise_
     return std::nullopt;
   }
 
-  // In units of the period, about the first tooth.
+  // The points are in units of the period, relative to the first tooth.
   std::vector<PhasePoint> points(teeth.size());
   std::transform(teeth.begin(), teeth.end(), points.begin(), [&](const PhasePoint& tooth) {
     const double turn = tooth.turn - teeth.front().turn;
@@ -186,7 +186,7 @@ std::optional<PulseTrain> train_of(std::span<const TaiTime> edges, double noise_
                     .turns = points.back().turn};
 }
 
-/// Nearly a turn where edges come several times, and else nearly two, or less.
+/// Returns an interval of nearly a turn where edges come several times, else of nearly two or less.
 double interval_about_a_turn_s(std::span<const TaiTime> edges) {
   std::vector<double> intervals_s(edges.size() - 1);
   std::transform(edges.begin(), edges.end() - 1, edges.begin() + 1, intervals_s.begin(), elapsed_s);
@@ -197,7 +197,7 @@ double interval_about_a_turn_s(std::span<const TaiTime> edges) {
   return *place;
 }
 
-/// The first of those that lie within a span; empty where most lie alone.
+/// Returns the first edge of each group within `within_s`; empty where most edges come alone.
 std::vector<TaiTime> first_of_copies(std::span<const TaiTime> edges, double within_s) {
   std::vector<TaiTime> first;
   std::vector<bool> copied;

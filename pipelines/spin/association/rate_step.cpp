@@ -11,15 +11,15 @@
 namespace spindrift {
 namespace {
 
-// Of so many edges so many are wrong when it is time to ask whether the clock is.
+// The clock is doubted when kDoubtful of the last kRecent edges are not where it expects them.
 constexpr std::size_t kRecent = 9;
 constexpr std::ptrdiff_t kDoubtful = 4;
 constexpr std::size_t kFewestAfterStep = 6;
-// A body that turns so much faster than before has an edge on nearly every turn. Otherwise it turns
-// as before, and the time stamps have stepped by a fraction of a turn.
+// A comb with a shorter period than this part of the clock's is a faster body if nearly every turn
+// has an edge. Otherwise the time stamps have stepped by a fraction of a turn.
 constexpr double kMuchFaster = 0.75;
 constexpr double kNearlyEvery = 0.8;
-// Turns of the clock, along all of the comb.
+// Turns by which the whole comb may deviate from a whole multiple of the clock period.
 constexpr double kSameTurns = 0.05;
 
 bool is_fraction(const PulseTrain& comb, double period_s) {
@@ -27,7 +27,7 @@ bool is_fraction(const PulseTrain& comb, double period_s) {
          static_cast<double>(comb.edges) < kNearlyEvery * (comb.turns + 1.0);
 }
 
-/// The clock's own, of every second turn or fewer.
+/// Tells whether the comb is the clock's own with edges on every second turn or fewer.
 bool is_multiple(const PulseTrain& comb, double period_s) {
   const double clock_turns = comb.period_s / period_s;
   const double whole = std::round(clock_turns);
@@ -65,7 +65,7 @@ std::optional<PulseTrain> RateStepDetector::new_pulse_train(double noise_s, doub
   const auto agreeing =
       std::count_if(recent_.begin(), recent_.end(),
                     [&](const ReferenceEdge& edge) { return edge.good && on_comb(edge); });
-  // Where half of them are good ones it is the clock's own.
+  // If half of the edges on the comb are good, it is the clock's own.
   const bool another = on_it >= static_cast<std::ptrdiff_t>(kFewestAfterStep) &&
                        2 * agreeing < on_it && on_comb(recent_.back());
   return another ? comb : std::nullopt;

@@ -14,19 +14,19 @@ namespace spindrift {
 
 class RateStepDetector {
  public:
-  /// @param good The clock expects an edge there.
+  /// @param good Whether the clock expects an edge at `t`.
   void add(TaiTime t, bool good);
-  /// A copy of the last one that the clock expects where it came: it stands for that.
+  /// Replaces the last edge by a copy of it that came where the clock expects it.
   void replace_last(TaiTime t) {
     if (!recent_.empty()) {
       recent_.back() = {.t = t, .good = true};
     }
   }
 
-  /// The comb of the last edges, where the clock should be set by it: the last one lies on it and
-  /// is not good, and it is not the clock's own.
-  /// @param noise_s Standard deviation of an edge as it was seen so far.
-  /// @param period_s The clock's.
+  /// Returns the comb of the latest edges if the clock should be set by it: the last edge lies on
+  /// it and is not good, and it is not the clock's own comb.
+  /// @param noise_s Standard deviation of an edge as observed so far.
+  /// @param period_s Period of the clock.
   std::optional<PulseTrain> new_pulse_train(double noise_s, double period_s) const;
 
   void forget() { recent_.clear(); }

@@ -22,7 +22,7 @@ struct Line {
   }
 };
 
-/// The deviation that just more than half of the points stay within.
+/// Returns the deviation that just more than half of the points stay within.
 double median_off(std::span<const PhasePoint> points, const Line& line,
                   std::vector<double>& scratch) {
   scratch.resize(points.size());

@@ -15,10 +15,10 @@ struct PhasePoint {
   double phase;
 };
 
-/// A straight line through those that agree.
+/// A straight line through the points that agree.
 struct RobustLine {
-  double turn;     ///< The middle of those that agree.
-  double phase;    ///< There.
+  double turn;     ///< Mean turn of the points that agree.
+  double phase;    ///< Phase on that turn, turns.
   double drift;    ///< Turns per turn.
   double scatter;  ///< Standard deviation about the line, at least the stated one.
   std::vector<PhasePoint> agreeing;
@@ -26,17 +26,17 @@ struct RobustLine {
   double at(double turn_then) const { return phase + drift * (turn_then - turn); }
 };
 
-/// Least median of deviations over the lines through two points, then least squares over what lies
-/// within three sigma of it (Rousseeuw and Leroy): any minority may be wrong.
+/// Fits a line by the least median of deviations over the lines through two points, then by least
+/// squares within three sigma of it (Rousseeuw and Leroy): any minority may be wrong.
 ///
-/// @param points No turn twice counts for more than one; at most a few tens, the cost is cubic.
-/// @param noise Standard deviation of a phase that is stated.
+/// @param points At most a few tens, since the cost is cubic.
+/// @param noise Stated standard deviation of a phase.
 /// @param most_drift Steeper lines are not considered.
 /// @return Empty for no points.
 std::optional<RobustLine> fit_robust_line(std::span<const PhasePoint> points, double noise,
                                           double most_drift);
 
-/// The phase of least summed distance to the others, round the circle.
+/// Returns the phase with the least summed distance to the others round the circle.
 /// @param phases At least one.
 double circular_median(std::span<const double> phases);
 

@@ -7,13 +7,13 @@
 namespace spindrift {
 namespace {
 
-// Turns a second, in a second: what is left of the rate's change beside an even drift, as in the
-// spin filter.
+// Wander of the spin rate in one second, turns/s: what is left of its change beside an even drift,
+// as in the spin filter.
 constexpr double kRateWander = 5e-7;
-// Turns a second squared, in a second.
+// Wander of the drift in one second, turns/s^2.
 constexpr double kDriftWander = 3e-10;
-// Eddy currents, warming and leaks seldom do more. A few turns tell of what does; before, to be
-// ready for any drift would leave the count uncertain through a silence of minutes.
+// Eddy currents, warming and leaks seldom cause more. A few turns reveal a larger drift; allowing
+// for any drift before that would leave the count uncertain through a silence of minutes.
 constexpr double kUsualDrift_per_s2 = 0.1 * kFirstDrift_per_s2;
 
 }  // namespace

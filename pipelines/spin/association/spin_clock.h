@@ -1,5 +1,5 @@
 /// @file
-/// Counts spin phase in turns, by the edges of the channel that it is set by.
+/// Spin clock: counts spin phase in turns by the edges of the channel that sets it.
 
 #pragma once
 
@@ -12,35 +12,34 @@
 
 namespace spindrift {
 
-/// One sigma of a drift of which nothing is known.
+/// One sigma of the drift of the spin rate while nothing is known of it, turns/s^2.
 inline constexpr double kFirstDrift_per_s2 = drift_per_s2(kFirstDrift_rpm_h);
 
-/// Phase n is where the sun1 edge of turn n is expected (or whatever stands in for it). The spin
-/// rate may drift evenly, by a few rpm an hour, and wander a little about that. As long as nothing
-/// is known of the drift, turns are counted as with a small one, but the period is not stated so.
+/// Counts turns: phase n is where the sun1 edge of turn n is expected, or its stand-in. The spin
+/// rate may drift evenly, by a few rpm an hour, and wander a little about that. While nothing is
+/// known of the drift, turns are counted as if it were small, but the period does not assume that.
 class SpinClock {
  public:
   struct Setting {
     TaiTime t;
-    double phase_turns;  ///< At t.
+    double phase_turns;  ///< Phase at t.
     double period_s;
     double period_sigma_s;
-    double sigma_s;             ///< Of t.
-    double drift_per_s2 = 0.0;  ///< Of the spin rate in turns a second.
+    double sigma_s;             ///< One sigma of t.
+    double drift_per_s2 = 0.0;  ///< Drift of the spin rate in turns a second.
     double drift_sigma_per_s2 = kFirstDrift_per_s2;
-    double scale = 1.0;  ///< See DriftState.
+    double scale = 1.0;  ///< Scatter over stated noise (DriftState).
   };
   explicit SpinClock(const Setting& setting);
 
   double phase_turns(TaiTime t) const;
   TaiTime t_of(double phase_turns) const;
   double period_s() const { return 1.0 / turns_.change(); }
-  /// @param earth_turns See follow.
   SpinPeriod period_at(TaiTime t, double earth_turns) const;
   double scale() const { return turns_.scale(); }
   double sigma_s(double phase_turns, double earth_turns) const;
 
-  /// @param phase_turns Where the edge at t is expected.
+  /// @param phase_turns Expected phase of the edge at `t`.
   /// @param noise_s Standard deviation of t.
   /// @param earth_turns Wander per turn of the phase of the edge's channel.
   bool accepts(double phase_turns, TaiTime t, double noise_s, double earth_turns,
@@ -48,12 +47,11 @@ class SpinClock {
   bool follow(double phase_turns, TaiTime t, double noise_s, double earth_turns,
               const DriftGate& gate_turns);
 
-  /// Adds to the count of turns.
   void add_turns(std::int64_t turns) { epoch_turn_ += static_cast<double>(turns); }
 
-  /// Puts phase `turn` by `phase_turns` later and lengthens the period by `drift` of itself.
+  /// Moves phase `turn` later by `phase_turns` and lengthens the period by `drift` of itself.
   void shift(std::int64_t turn, double phase_turns, double drift);
-  /// Adds errors of one sigma each: of the phase, of the period in parts of itself, of the drift.
+  /// Adds errors of one sigma each: to the phase, the period (in parts of itself) and the drift.
   void loosen(double phase_turns, double drift, double drift_per_s2);
 
  private:
@@ -61,7 +59,7 @@ class SpinClock {
 
   TaiTime epoch_;
   double epoch_turn_;
-  DriftFilter turns_;  ///< Behind epoch_turn_, over the seconds behind epoch_.
+  DriftFilter turns_;  ///< Turns since epoch_turn_ over seconds since epoch_.
   DriftFilter usual_;  ///< The same, supposing a usual drift.
 };
 

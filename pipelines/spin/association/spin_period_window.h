@@ -13,8 +13,8 @@
 
 namespace spindrift {
 
-/// Sliding window of period candidates: one alone is unreliable. What is tested is by how much each
-/// differs from the period expected at its time, so that a rate that drifts widens no limit.
+/// Tests period candidates in a sliding window, since one alone is unreliable. It tests by how much
+/// each differs from the period expected at its time, so that a drifting rate widens no limit.
 ///
 /// Rejected candidates stay in the window: when the rate really changes they become the majority,
 /// and the test follows.
@@ -25,9 +25,9 @@ class SpinPeriodWindow {
 
   /// Tests the interval `from` -> `to`, `turns` > 0 revolutions long, and adds it.
   PeriodCandidate add(TaiTime from, TaiTime to, std::int64_t turns, double expected_s);
-  /// The same for one turn timed elsewhere.
+  /// Tests and adds the period of one turn, timed on board.
   PeriodCandidate add(double period_s, double expected_s) { return add(period_s, 1.0, expected_s); }
-  /// An interval that ends at an edge that was rejected, as it is with that: it is not added.
+  /// Returns the candidate of an interval that ends at a rejected edge, without adding it.
   PeriodCandidate refused(TaiTime from, TaiTime to, std::int64_t turns,
                           Rejection rejected_by) const;
 
@@ -37,7 +37,7 @@ class SpinPeriodWindow {
   PeriodCandidate add(double period_s, double turns, double expected_s);
 
   SpinScreening screening_;
-  double candidate_sigma_s_;  ///< Of one turn.
+  double candidate_sigma_s_;  ///< One sigma of a candidate over one turn.
   SlidingRobustMean differences_s_;
 };
 

@@ -15,11 +15,11 @@
 namespace spindrift {
 namespace {
 
-// Fewer turns do not tell rate and drift from noise.
+// With fewer revolutions rate and drift cannot be told from noise.
 constexpr std::int64_t kFewestTurns = 3;
 constexpr int kMostChanges = 4;
 
-/// A wrong bias lets residuals drift as the geometry turns, which is no change of the attitude.
+/// Rejects a change that a further bias explains, since a wrong bias also makes residuals drift.
 bool is_change(const std::optional<Changepoint>& change, const EvaluatedFit& found) {
   if (!change) {
     return false;
@@ -28,7 +28,7 @@ bool is_change(const std::optional<Changepoint>& change, const EvaluatedFit& fou
   return !bias || change->gain > bias->gain + kSettled;
 }
 
-/// A step of the rate is dated by the clock alone, as a state lies between both or fits neither.
+/// Dates a rate step by pulse times alone: a state lies between the two rates or fits neither.
 std::optional<Changepoint> change_in(const PassModel& model, std::span<const PassEdge> edges,
                                      const EvaluatedFit& found) {
   auto change = find_changepoint(model, edges, found.fit.state);
@@ -53,7 +53,6 @@ Expected<void> suffices(std::span<const PassEdge> edges) {
   return {};
 }
 
-/// The best of one attitude, and the change that it does not explain.
 struct OneAttitude {
   PassModel model;
   Best of;
@@ -83,9 +82,9 @@ bool fits(const Expected<OneAttitude>& one) {
          one->of.best.excess_noise() <= 1.0;
 }
 
-/// A false axis may explain the edges as well as the true one, or need two attitudes where that
-/// needs no change: before either is accepted, the sky is searched.
-/// @param from The axes found are added.
+/// Searches the sky before accepting an unsettled axis or a change, since a false axis may fit as
+/// well or need a change where the true one does not.
+/// @param from Starting axes; the axes found are added.
 Expected<OneAttitude> solve_pass(const SpinConfig& config, const Orbit& orbit,
                                  std::span<const PassEdge> edges, StartingAxes& from,
                                  BiasSet estimated) {

@@ -1,5 +1,5 @@
 /// @file
-/// The solution from the last changepoint of attitude or rate on, and what is left out before it.
+/// Solves a pass from its last change of attitude or rate on and describes the edges left out.
 
 #pragma once
 
@@ -16,14 +16,14 @@
 
 namespace spindrift {
 
-/// The edges before a change.
+/// Describes the edges before the last change, which the solution does not use.
 struct LeftOut {
   TaiTime until;
   std::int64_t edges;
-  bool fit_one_attitude;  ///< Or are too few to tell.
+  bool fit_one_attitude;  ///< True also when the edges are too few to tell.
 };
 
-/// All that is found out of the edges from the last change on.
+/// Holds the solution of the edges from the last change on.
 struct Solved {
   PassModel model;
   std::span<const PassEdge> edges;
@@ -31,7 +31,7 @@ struct Solved {
   std::optional<LeftOut> left_out;
 };
 
-/// @return Unobservable where edges do not suffice, or change all the time; NoCoverage.
+/// @return Unobservable when the edges are too few or the state keeps changing; NoCoverage.
 Expected<Solved> solve_after_changepoint(const SpinConfig& config, const Orbit& orbit,
                                          std::span<const PassEdge> edges,
                                          const StartingAxes& starts, BiasSet estimated);

@@ -14,7 +14,7 @@ std::optional<OtherAxis> other_axis(const Solved& solved,
   return compared_with(solved.of.best, solved.model, solved.edges, *of_pass->other_icrf);
 }
 
-/// The axis is the one that the pass has settled on, not the other.
+/// Returns whether the solution's axis is the one that the pass had settled on.
 bool follows(const Eigen::Vector3d& axis_icrf, const std::optional<OtherAxis>& other,
              const AxisChoice& of_pass) {
   return of_pass.settled_by != SettledBy::Nothing &&

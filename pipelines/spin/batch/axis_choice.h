@@ -1,5 +1,5 @@
 /// @file
-/// Which axis a solution has taken among others, and what settled that.
+/// Records which of the competing axes a solution has taken and what settled the choice.
 
 #pragma once
 
@@ -10,7 +10,7 @@
 
 namespace spindrift {
 
-/// @param of_pass What the pass has taken before.
+/// @param of_pass Earlier choice of the same pass, if any.
 AxisChoice axis_choice(const Solved& solved, const std::optional<AxisChoice>& of_pass);
 
 }  // namespace spindrift

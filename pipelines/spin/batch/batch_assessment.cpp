@@ -37,7 +37,7 @@ void add_change(const BatchSolution& solution, const LeftOut& left_out, Reasons&
   }
 }
 
-/// What the body does that is no even spin.
+/// Adds the reasons for nutation and coning.
 void add_motion(const BatchSolution& solution, const BatchDoubts& doubts, Reasons& reasons) {
   using enum ReasonCode;
   if (solution.nutation && solution.nutation->found) {

@@ -1,5 +1,5 @@
 /// @file
-/// Quality and reasons of a solution of the estimator `batch`.
+/// Assesses the quality of a solution of the estimator `batch`, with reasons.
 
 #pragma once
 
@@ -11,21 +11,21 @@
 
 namespace spindrift {
 
-/// What a solution does not say of itself.
+/// Holds what assess() needs and a BatchSolution does not contain.
 struct BatchDoubts {
-  std::optional<Eigen::Vector3d> alternate_axis_icrf;  ///< Fits as well.
-  double revolutions;                                  ///< That the edges are of.
+  std::optional<Eigen::Vector3d> alternate_axis_icrf;  ///< Axis that explains the edges as well.
+  double revolutions;  ///< Number of revolutions that the edges span.
   std::optional<LeftOut> left_out;
   BiasSet estimated;
   BiasSet at_bound;
-  bool coning_by_edges;              ///< Nobody has asked for it.
-  std::optional<SensorBias> wanted;  ///< What the residuals still ask for.
+  bool coning_by_edges;              ///< True when the edges, not the mission file, ask for coning.
+  std::optional<SensorBias> wanted;  ///< Bias that the residuals still call for.
 };
 
-/// Most of the pass contradicts it, two edges for one, whatever may have happened in between.
+/// Returns whether left-out edges and outliers exceed twice the edges that the solution rests on.
 bool rests_on_few(const BatchSolution& solution, const LeftOut& left_out);
 
-/// As batch_estimator.h has it.
+/// Grades a solution by the quality rules in batch_estimator.h.
 Assessment assess(const BatchSolution& solution, const BatchDoubts& doubts);
 
 }  // namespace spindrift

@@ -28,13 +28,13 @@
 namespace spindrift {
 namespace {
 
-// A parabola through three times, at the ends and in the middle of a pass: by how many times their
-// own errors its slope at the end, and its curvature, are off, over the length and its square. So
-// much may a grid of the times hide where it shifts slowly against the turns.
+// Errors of a parabola through three times, at the ends and in the middle of a pass, per error of
+// one time: of its slope at the end over the length and of its curvature over the length squared. A
+// time grid that shifts slowly against the revolutions hides as much.
 constexpr double kLastRateOfThree = 5.1;
 constexpr double kDriftOfThree = 9.8;
 
-/// @param bound_rad2 Of the axis.
+/// @param bound_rad2 Covariance of the axis.
 std::optional<Error> axis_left_open(const Eigen::Matrix2d& bound_rad2) {
   if (bound_rad2.trace() < kOpen_rad * kOpen_rad) {
     return std::nullopt;
@@ -45,8 +45,8 @@ std::optional<Error> axis_left_open(const Eigen::Matrix2d& bound_rad2) {
                            std::min(std::sqrt(bound_rad2.trace()) / kRadPerDeg, 180.0))};
 }
 
-/// Where it began, whatever the solution slid to: near the Sun or the Earth the edges of one sensor
-/// seem to tell more.
+/// Tests the covariance at the starting axis: if the solution slid towards the Sun or the Earth,
+/// the edges of one sensor seem to determine the axis there.
 std::optional<Error> axis_open_at_start(const Solved& solved, const Eigen::Vector3d& start_icrf) {
   const auto start = initial_state(solved.model, solved.edges, start_icrf);
   if (!start) {
@@ -64,7 +64,7 @@ Error why_diverged(const Solved& solved) {
                       found.outliers, found.outliers + found.edges)};
 }
 
-/// Of the biases not estimated, what one step from the state would make of all together.
+/// Returns all biases but coning. Those not estimated get one step from the state, taken together.
 std::vector<BiasEstimate> all_biases(const EvaluatedFit& found) {
   const PassInformation information = found.beside_offsets();
   const SensorBiases& now = found.fit.state.biases;
@@ -128,9 +128,9 @@ std::vector<BatchEdge> said_to(const Solved& solved) {
   return said;
 }
 
-/// All but its assessment, and what an estimate of all biases would leave open.
-/// @param open_rad2 What the choice among biases does, of the axis: tilts.
-/// @param louder So many times the stated noise is that of the model.
+/// Returns the solution without assessment, choice and undetermined directions.
+/// @param open_rad2 Axis covariance from the choice among biases, as tilts.
+/// @param louder Ratio of the model's noise to the stated noise.
 BatchSolution solution_of(const Solved& solved, const Eigen::Matrix2d& open_rad2, double louder) {
   const EvaluatedFit& best = solved.of.best;
   const PassInformation& information = best.information;
@@ -183,7 +183,6 @@ struct Heard {
   PulseNoise noise;
 };
 
-/// @param louder So many times the stated noise is that of `config`.
 Expected<Heard> solve_with_noise(const SpinConfig& config, const Orbit& orbit,
                                  std::span<const PassEdge> edges, const StartingAxes& starts,
                                  double louder) {
@@ -218,7 +217,7 @@ Expected<Heard> solve_with_noise(const SpinConfig& config, const Orbit& orbit,
     return Unexpected{*open};
   }
   BatchSolution solution = solution_of(*solved, open_rad2, louder);
-  // Nor is it finite where they are not told apart at all.
+  // The covariance is not finite when the biases cannot be told apart at all.
   if (!(solution.estimate.covariance_rad2.trace() <= kOpen_rad * kOpen_rad)) {
     return unobservable("the biases that the edges ask for leave the axis open");
   }
@@ -271,7 +270,7 @@ Expected<BatchSolution> solve_batch(const SpinConfig& stated, const Orbit& orbit
   }
   const double louder = std::max(as_stated->noise.sun_s / config.noise.sun_s,
                                  as_stated->noise.infrared_s / config.noise.infrared_s);
-  // Too many edges passed for outliers, and slits and beams have wrong weights against each other.
+  // Too many edges counted as outliers, and slits and beams had wrong weights against each other.
   if (as_stated->solution.noise > 1.0 && louder > kLouder) {
     SpinConfig heard = config;
     heard.noise = as_stated->noise;

@@ -1,20 +1,19 @@
 /// @file
-/// The estimator `batch`: the state of the body that makes all edges of a pass the likeliest, with
-/// the biases of the sensors that they show, and the bound that no estimator can beat beside it.
+/// The estimator `batch`: finds the likeliest state of the body for all edges of a pass, the sensor
+/// biases that the edges show, and the Cramer-Rao bound of the axis.
 ///
-/// It begins at every axis it is given and keeps the likeliest. Where two axes explain the edges
-/// alike it is AMBIGUOUS. A pass in which the attitude or the rate has changed, which no axis in
-/// the sky explains without, is solved from the last change on. Biases are those that the mission
-/// asks for; where it does not say, the edges decide, one bias after the other, as long as one
-/// explains the residuals beyond doubt.
+/// It starts at every axis it is given and keeps the likeliest solution. Where two axes explain the
+/// edges equally well the solution is AMBIGUOUS. A pass with a change of attitude or rate, which no
+/// axis in the sky explains without one, is solved from the last change on. The mission file may
+/// name the biases to estimate; otherwise significant biases are added one after the other.
 ///
-/// Its quality is
-///     OK         all is well
-///     CONVERGING likewise, but of too few revolutions (convergence.h)
-///     AMBIGUOUS  another axis, named, fits as well
+/// The qualities are
+///     OK         none of the following applies
+///     CONVERGING as OK, but from too few revolutions (convergence.h)
+///     AMBIGUOUS  another axis, which is named, fits as well
 ///     DOUBTFUL   the edges scatter more than their noise, many are outliers, most of them lie
-///                before a change, or fit no axis; a bias or coning is not to be believed, or the
-///                residuals still ask for one
+///                before a change or fit no axis; a bias or coning is implausible, or the residuals
+///                call for another bias
 
 #pragma once
 
@@ -29,8 +28,8 @@
 
 namespace spindrift {
 
-/// @param edges In order of time.
-/// @return Unobservable where edges or starts do not suffice, with what is missing; NoCoverage.
+/// @param edges Edges in order of time.
+/// @return Unobservable, saying what is missing, when edges or starts do not suffice; NoCoverage.
 Expected<BatchSolution> solve_batch(const SpinConfig& config, const Orbit& orbit,
                                     std::span<const PassEdge> edges, const StartingAxes& starts);
 

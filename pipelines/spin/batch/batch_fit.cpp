@@ -20,20 +20,20 @@
 namespace spindrift {
 namespace {
 
-// The next step, which is not taken, would be of an eighth of the sigma of a pass of 150,000
-// revolutions at most: a hundredth of what its error is anyway.
+// At this tolerance the step not taken is at most an eighth of sigma for a pass of 150,000
+// revolutions, a hundredth of the actual error.
 constexpr double kFunctionTolerance = 2e-8;
 constexpr int kMostIterations = 50;
-// The coarse edges come first, and their far ones still pull.
+// The coarse fit begins far from the solution, so edges beyond this limit must still pull.
 constexpr double kCoarseLoss_sigmas = 3.0;
 
-/// Parameters as Ceres has them: rate and drift as changes since the start, in the angle they make.
+/// Holds the parameters of Ceres; rate and drift are changes since the start, as angles.
 struct Parameters {
   Eigen::Quaterniond q_icrf_spin;
   Eigen::Vector2d clock = Eigen::Vector2d::Zero();
   SensorBiases biases;
   std::vector<NutationStretch> nutation;
-  /// Of the edges outside any stretch.
+  /// Constant dummy unknowns for edges outside any stretch.
   Eigen::Vector4d none = Eigen::Vector4d::Zero();
 };
 
@@ -56,7 +56,7 @@ class Fit final : public ceres::EvaluationCallback {
   }
   Parameters& parameters() { return parameters_; }
 
-  /// Ceres has written the parameters that it asks about: what all edges share there is found once.
+  /// Ceres has written the new parameters; the work that all edges share is done once here.
   void PrepareForEvaluation(bool /*jacobians*/, bool new_point) override {
     if (new_point) {
       here_ = model_.at(state());
@@ -71,7 +71,8 @@ class Fit final : public ceres::EvaluationCallback {
   PassAtState here_;
 };
 
-/// Turns of the sky's axes by half of what Ceres' manifold steps, as changes of the quaternion.
+/// Returns the Jacobian of the quaternion by half the rotation angles about the ICRF axes, which
+/// are the steps of Ceres' manifold.
 Eigen::Matrix<double, 4, 3> quaternion_per_turn(const Eigen::Quaterniond& q) {
   Eigen::Matrix<double, 4, 3> slopes;
   slopes << q.w(), q.z(), -q.y(),  //
@@ -88,7 +89,7 @@ class EdgeCost final : public ceres::SizedCostFunction<1, 4, 2, kSensorBiases, k
   bool Evaluate(double const* const* /*at*/, double* residual, double** jacobians) const override {
     const PassAtState& here = fit_->here();
     const auto edge = here.residual(edge_);
-    // Where there is no such edge it is an outlier, and nothing moves it.
+    // An edge that the state does not predict counts as an outlier with zero slopes.
     residual[0] = edge ? edge->off : kOutlierSigmas;
     if (jacobians != nullptr) {
       write(edge.value_or(EdgeResidual{.off = 0.0, .slopes = EdgeSlopes::Zero()}),
@@ -155,7 +156,6 @@ void hold_biases(ceres::Problem& problem, double* biases, BiasSet estimated) {
   }
 }
 
-/// Each edge with the unknowns of its stretch.
 void add_edges(Fit& fit, std::span<const PassEdge> edges, std::size_t stride,
                ceres::LossFunction& loss, std::deque<EdgeCost>& costs, ceres::Problem& problem) {
   Parameters& at = fit.parameters();
@@ -182,7 +182,7 @@ ceres::Solver::Summary solve(Fit& fit, std::span<const PassEdge> edges, std::siz
   keeping.loss_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
   keeping.disable_all_safety_checks = true;
   keeping.evaluation_callback = &fit;
-  std::deque<EdgeCost> costs;  // Where they are they stay.
+  std::deque<EdgeCost> costs;  // A deque keeps the addresses that Ceres holds.
   PriorCost prior;
   ceres::Problem problem{keeping};
   Parameters& at = fit.parameters();
@@ -192,7 +192,7 @@ ceres::Solver::Summary solve(Fit& fit, std::span<const PassEdge> edges, std::siz
   hold_biases(problem, at.biases.data(), estimated);
 
   ceres::Solver::Options options;
-  // Each stretch of a day has unknowns that no edge of another depends on.
+  // With several stretches the equations are sparse, as each stretch has its own unknowns.
   options.linear_solver_type =
       at.nutation.size() > 1 ? ceres::SPARSE_NORMAL_CHOLESKY : ceres::DENSE_NORMAL_CHOLESKY;
   options.num_threads = 1;
@@ -227,7 +227,7 @@ SpinState coarse_fit(const PassModel& model, std::span<const PassEdge> edges,
 
 Expected<BatchFit> fit(const PassModel& model, std::span<const PassEdge> edges,
                        const SpinState& start, BiasSet estimated) {
-  // A start that nutates is the end of a fit, and too few edges would lose its frequency.
+  // A start with nutation is already the end of a fit, and a coarse fit would lose its frequency.
   Fit fit{model, start.nutation.empty() ? coarse_fit(model, edges, start, estimated) : start};
   ceres::TukeyLoss fine{kOutlierSigmas};
   const ceres::Solver::Summary summary = solve(fit, edges, 1, fine, estimated);

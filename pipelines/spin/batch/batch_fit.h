@@ -1,5 +1,5 @@
 /// @file
-/// The maximum-likelihood state of a pass: Ceres over all its edges, each with Tukey's biweight.
+/// Finds the maximum-likelihood state of a pass with Ceres, weighting edges by Tukey's biweight.
 
 #pragma once
 
@@ -13,21 +13,21 @@ namespace spindrift {
 
 struct BatchFit {
   SpinState state;
-  BiasSet at_bound;  ///< Biases that ran to what no sensor exceeds.
+  BiasSet at_bound;  ///< Biases that reached the bound of their prior.
   int iterations;
 };
 
-/// So many edges, spread over the pass, tell roughly what all do.
+/// Number of edges, spread over the pass, that is enough for a coarse fit.
 inline constexpr std::size_t kCoarseEdges = 6000;
 
-/// Where a start leads by some thousands of edges, robustly: which of several starts are one.
+/// Fits at most some thousands of edges with a Huber loss, to see which starts share a solution.
 SpinState coarse_fit(const PassModel& model, std::span<const PassEdge> edges,
                      const SpinState& start, BiasSet estimated);
 
-/// @param start Near enough that edges are told from outliers within a few degrees.
-/// @param estimated The biases that are unknown, each about zero by its prior; the others stay as
-///        they are at the start.
-/// @return Unobservable where no minimum is found.
+/// @param start State accurate to a few degrees, so that edges can be told from outliers.
+/// @param estimated Biases to estimate, each with its prior about zero; the others keep the values
+///        of the start.
+/// @return Unobservable when Ceres finds no minimum.
 Expected<BatchFit> fit(const PassModel& model, std::span<const PassEdge> edges,
                        const SpinState& start, BiasSet estimated);
 

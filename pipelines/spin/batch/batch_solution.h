@@ -1,5 +1,5 @@
 /// @file
-/// What the estimator `batch` finds out of a pass.
+/// Result of the estimator `batch` for one pass.
 
 #pragma once
 
@@ -16,58 +16,58 @@
 
 namespace spindrift {
 
-/// One bias other than coning, as edges and prior together have it.
+/// Holds the estimate of one bias other than coning, from the edges and the prior together.
 struct BiasEstimate {
   SensorBias bias;
-  double value;  ///< rad, or km; zero, the prior, where not observable.
-  double sigma;  ///< That of the prior where not observable.
+  double value;  ///< Value in rad or km; zero, as in the prior, where not observable.
+  double sigma;  ///< Standard deviation in rad or km; that of the prior where not observable.
   bool observable;
-  bool estimated;  ///< With the axis. Of others: what one step makes of them, not in the axis.
+  bool estimated;  ///< False for a one-step estimate outside the solution.
 };
 
-/// The sensors' axis leans away from the principal axis.
+/// Holds the coning estimate: the sensors' axis leans away from the principal axis.
 struct ConingEstimate {
-  ConingTest verdict;  ///< Detected only where it was estimated with the axis.
+  ConingTest verdict;  ///< Test of coning; detected only if coning was estimated with the axis.
   double tilt_sigma_rad;
   double azimuth_sigma_rad;
 };
 
-/// What an edge said to the solution.
+/// Holds the residual of one edge against the solution.
 struct BatchEdge {
   Pulse pulse;
-  /// Later than expected by so much; empty: the state has no such edge.
+  /// Lateness of the edge against the prediction; empty when the state predicts no such edge.
   std::optional<double> residual_s;
-  double sigma_s;  ///< Of its noise, as the solution takes it.
-  bool used;       ///< Within kOutlierSigmas.
+  double sigma_s;  ///< Noise of the edge that the solution assumes, s.
+  bool used;       ///< True within kOutlierSigmas.
 };
 
 struct BatchSolution {
   SpinEstimate estimate;
-  double drift_rad_s2;  ///< Of the rate, even over the pass.
+  double drift_rad_s2;  ///< Drift of the spin rate, constant over the pass.
   double drift_sigma_rad_s2;
-  /// Cramer-Rao bound of the axis, both directions together, with the stated noise and the biases
-  /// that are estimated.
+  /// Cramer-Rao bound of the axis, both directions together, with the stated noise and the
+  /// estimated biases.
   double bound_rad;
-  /// Root mean square error of the axis were no bias known better than by its prior, those held at
-  /// zero included (consider analysis): what sensors out of place could hide.
+  /// Root mean square error of the axis if every bias, including those held at zero, were known
+  /// only to its prior (consider analysis): the error that misplaced sensors could hide.
   double consider_sigma_rad;
-  /// Of every bias but coning: as estimated; of the others what the edges would say of all biases
-  /// together.
+  /// All biases but coning. Those not estimated with the axis hold what the edges would give if all
+  /// biases were estimated together.
   std::vector<BiasEstimate> biases;
-  /// Directions that the edges leave open were all biases of the pass unknown: one bias, or those
-  /// that cannot be told apart.
+  /// Bias directions that the edges leave open if all biases of the pass are unknown; each is one
+  /// bias, or several that cannot be told apart.
   std::vector<BiasSet> undetermined;
-  std::vector<double> singular_values;  ///< Of the whitened equations, largest first.
-  std::optional<TaiTime> changed;       ///< Attitude or rate did, the last time.
-  std::int64_t edges;                   ///< That it rests on.
+  std::vector<double> singular_values;  ///< Values of the whitened equations, largest first.
+  std::optional<TaiTime> changed;       ///< Time of the last change of attitude or rate.
+  std::int64_t edges;                   ///< Number of edges that the solution rests on.
   std::int64_t outliers;
-  double noise;  ///< Root of their mean square against the stated noise.
+  double noise;  ///< Root mean square residual relative to the stated noise.
   int iterations;
-  /// Empty where the edges do not suffice to look. What was found is the last stretch's.
+  /// Nutation of the last stretch that has it; empty when the edges are too few to search.
   std::optional<NutationSearch> nutation;
-  TaiTime nutation_t;  ///< Where FoundNutation says t_s; without one, that of the estimate.
+  TaiTime nutation_t;  ///< Time of FoundNutation::t_s, else of the estimate.
   ConingEstimate coning;
-  std::vector<BatchEdge> said = {};  ///< By all edges that it was solved with, in order of time.
+  std::vector<BatchEdge> said = {};  ///< Residuals of all edges of the solution, in order of time.
   AxisChoice choice = {};
 };
 

@@ -11,14 +11,14 @@
 namespace spindrift {
 namespace {
 
-// Nine are looked at: chi-squares of one degree, of coning two.
+// Nine biases are tested: chi-squares with one degree of freedom, two for coning.
 constexpr double kChance = 1.2e-5;
 const double kWanted = chi_square_beyond(kChance, 1.0);
 const double kConingWanted = chi_square_beyond(kChance, 2.0);
 
 using Unknowns = Eigen::Matrix<double, kBatchUnknowns, 1>;
 
-/// One by one; the second of coning goes with the first.
+/// Returns the biases not in `estimated`; ConingX stands for both unknowns of coning.
 std::vector<SensorBias> not_among(BiasSet estimated) {
   std::vector<SensorBias> biases;
   for (int i = 0; i < kSensorBiases; ++i) {
@@ -29,17 +29,17 @@ std::vector<SensorBias> not_among(BiasSet estimated) {
   return biases;
 }
 
-/// The step that all unknowns take when one more bias is estimated.
+/// Holds the step that all unknowns take when one more bias is estimated.
 struct Step {
   Unknowns unknowns;
   double gain;
-  double share_of_prior;  ///< Of what was open of the bias before, the share that is.
+  double share_of_prior;  ///< Ratio of the bias's sigma to its prior sigma.
 };
 
 Step step_with(const PassInformation& pass, BiasSet estimated, SensorBias bias) {
   const BiasSet added = unknowns_of(bias);
   const Observability together{pass, estimated | added};
-  // At the best state only what is added has a score left.
+  // At the best state only the added bias has a nonzero score.
   Unknowns score = Unknowns::Zero();
   std::vector<int> rows;
   double prior_volume = 1.0;
@@ -92,7 +92,7 @@ Eigen::Matrix2d other_biases_rad2(const PassInformation& information, BiasSet es
   double weights = 0.0;
   for (const SensorBias bias : not_among(estimated)) {
     const Step other = step_with(information, estimated, bias);
-    // The one chosen fits best, whatever one step says.
+    // The chosen bias fits best, whatever a single step says.
     const double behind = std::max(with_chosen.gain - other.gain, 0.0);
     const double weight = std::exp(-0.5 * behind) * other.share_of_prior;
     const Eigen::Vector2d apart_rad = (other.unknowns - with_chosen.unknowns).head<2>();

@@ -1,5 +1,5 @@
 /// @file
-/// Significance of biases, where the mission file does not say which to estimate.
+/// Tests which biases are significant when the mission file does not say which to estimate.
 
 #pragma once
 
@@ -12,27 +12,26 @@
 namespace spindrift {
 
 struct BiasGain {
-  SensorBias bias;  ///< Of coning, both unknowns, ConingX.
-  double gain;      ///< Of log likelihood, times two: of noise alone, a chi-square of one degree,
-                    ///< of coning two.
+  SensorBias bias;  ///< Bias; ConingX stands for both unknowns of coning.
+  double gain;      ///< Twice the gain of log likelihood, a chi-square under pure noise.
 };
 
-/// The gain from which on a bias explains what noise does not; for coning, which has two unknowns,
-/// it is higher.
+/// Returns the gain above which noise does not explain a bias; it is higher for coning, which has
+/// two unknowns.
 double significance_gain(SensorBias bias);
 
-/// Those that would explain the residuals, beside those that are estimated already, best first.
-/// @param information At the best state with these.
-/// @return Empty where noise explains them as well: at a chance of 1e-4 a pass there is one.
+/// Returns the biases, beyond those already estimated, that would explain the residuals, best
+/// first.
+/// @param information Equations at the best state with `estimated`.
+/// @return Empty when noise explains the residuals; a false alarm has a chance of 1e-4 per pass.
 std::vector<BiasGain> significant_biases(const PassInformation& information, BiasSet estimated);
 
-/// The first of them.
 std::optional<BiasGain> most_significant_bias(const PassInformation& information,
                                               BiasSet estimated);
 
-/// Mean square of what the axis would move by, were not `chosen` but another bias the true one,
-/// each weighted with how likely the residuals make it; tilts of the frame `spin`, rad^2.
-/// @param information At the best state without it.
+/// Returns the mean square motion of the axis if another bias than `chosen` were the true one, each
+/// weighted with its likelihood; as tilts of the frame `spin`, rad^2.
+/// @param information Equations at the best state without `chosen`.
 Eigen::Matrix2d other_biases_rad2(const PassInformation& information, BiasSet estimated,
                                   SensorBias chosen);
 

@@ -12,12 +12,11 @@ namespace spindrift {
 namespace {
 
 constexpr int kMostBiases = 3;
-// What one step says of a gain may be off by so much; each comparison is a fit.
+// A one-step gain may be off by this factor; each comparison of biases costs a fit.
 constexpr double kOneStep = 0.7;
 constexpr std::size_t kMostRivals = 3;
 
-/// What makes a fit with one more bias the less likely: misfit, priors, and how easily such a bias
-/// explains noise.
+/// Returns the cost of a fit: misfit, priors, and how easily the added bias explains noise.
 double cost_of(const EvaluatedFit& with, SensorBias bias) {
   double cost = with.misfit() + significance_gain(bias);
   for (int i = 0; i < kSensorBiases; ++i) {
@@ -26,8 +25,8 @@ double cost_of(const EvaluatedFit& with, SensorBias bias) {
   return cost;
 }
 
-/// Gains come from one step, which is some percent wrong: those near the largest are compared by
-/// what their fits leave. So is coning, which has the axis degrees off, where one step is worse.
+/// Returns the biases to compare by full fits: those whose one-step gain, which is inexact, is near
+/// the largest, and coning, for which one step is worse because it moves the axis by degrees.
 std::vector<SensorBias> competing_biases(std::span<const BiasGain> wanted, BiasSet estimated) {
   std::vector<SensorBias> rivals;
   for (const auto& [bias, gain] : wanted.first(std::min(wanted.size(), kMostRivals))) {
@@ -76,8 +75,8 @@ Expected<BiasSelection> select_biases(const PassModel& model, std::span<const Pa
     }
     added.open_rad2 += other_biases_rad2(now.beside_offsets(), now.estimated, likeliest->first);
     if (likeliest->first == ConingX) {
-      // A sensor misplaced in a way that is no bias here looks like it, and then the axis is off by
-      // about as much in any direction.
+      // A misplaced sensor that no modelled bias describes looks like coning, and then the axis is
+      // off by about the coning angle in any direction.
       added.open_rad2 += likeliest->second.fit.state.biases.segment<2>(ConingX).squaredNorm() *
                          Eigen::Matrix2d::Identity();
     }

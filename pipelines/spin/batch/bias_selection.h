@@ -1,5 +1,5 @@
 /// @file
-/// Forward selection of biases: significant ones are estimated, one after the other.
+/// Forward selection of biases: significant biases are added to the fit one after the other.
 
 #pragma once
 
@@ -11,11 +11,11 @@
 namespace spindrift {
 
 struct BiasSelection {
-  EvaluatedFit best;          ///< With all that are wanted.
-  Eigen::Matrix2d open_rad2;  ///< What the choice among them leaves open of the axis, tilts.
+  EvaluatedFit best;          ///< Fit with all significant biases estimated.
+  Eigen::Matrix2d open_rad2;  ///< Axis uncertainty from the choice among biases, tilts.
 };
 
-/// @return As fit().
+/// @return The errors of fit().
 Expected<BiasSelection> select_biases(const PassModel& model, std::span<const PassEdge> edges,
                                       EvaluatedFit without);
 

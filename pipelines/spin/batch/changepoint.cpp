@@ -9,13 +9,13 @@ namespace spindrift {
 namespace {
 
 constexpr std::size_t kSpans = 64;
-// Chi-square of five degrees: one in 10^9 for one place of the change, of which there are 63. Of
-// one degree, as outliers have it: one in 10^13, of 2,016; but they come in bursts.
+// The chance of such a chi-square is 1e-10 for five degrees of freedom, at one of 63 places of a
+// change, and 1e-13 for the one of the outlier test, at one of 2,016; but outliers come in bursts.
 constexpr double kSignificant = 55.0;
 
 using Motion = Eigen::Matrix<double, kMotionUnknowns, kMotionUnknowns>;
 
-/// What fitting these edges by themselves would gain.
+/// Returns the gain (twice log likelihood) of fitting these edges by themselves.
 double gain_of(const PassInformation& part) {
   const Motion information =
       part.information.topLeftCorner<kMotionUnknowns, kMotionUnknowns>() + Motion::Identity();
@@ -25,7 +25,7 @@ double gain_of(const PassInformation& part) {
 
 bool mostly_outliers(const PassInformation& part) { return part.outlier_share() > kMostOutliers; }
 
-/// Twice the log likelihood of its outliers, each edge being one at the same odds.
+/// Returns twice the log likelihood of the outliers if every edge is one with the same probability.
 double evenly(const PassInformation& part) {
   const auto all = static_cast<double>(part.edges + part.outliers);
   double sum = 0.0;
@@ -35,15 +35,15 @@ double evenly(const PassInformation& part) {
   return sum;
 }
 
-/// How much likelier other odds before than after make the outliers: a chi-square of one degree.
+/// Returns the chi-square (one degree of freedom) of different outlier shares before and after.
 double contrast(const PassInformation& before, const PassInformation& after) {
   PassInformation both = before;
   both += after;
   return evenly(before) + evenly(after) - evenly(both);
 }
 
-/// A state that fits one attitude leaves the edges of the other as outliers. What lies before may
-/// begin anywhere: at a change before this one.
+/// Finds a change by its outliers: a state that fits one attitude leaves the edges of the other as
+/// outliers. The stretch before may begin anywhere, for example at an earlier change.
 std::optional<Changepoint> change_to_outliers(const std::vector<SpanInformation>& spans) {
   std::optional<Changepoint> best;
   double clearest = kSignificant;

@@ -1,5 +1,5 @@
 /// @file
-/// Changepoints: whether one attitude and one uniformly drifting rate explain the whole pass.
+/// Tests whether one attitude and one uniformly drifting rate explain the whole pass.
 
 #pragma once
 
@@ -12,15 +12,15 @@
 
 namespace spindrift {
 
-/// Where two states, one before and one after, explain the edges beyond doubt better than one.
+/// Marks where one state before and one after explain the edges significantly better than one.
 struct Changepoint {
-  TaiTime t;               ///< The span in which it lies begins here.
-  std::size_t first_edge;  ///< Of those after it.
-  double gain;             ///< Of log likelihood, times two.
+  TaiTime t;               ///< Begin of the span of edges that contains the change.
+  std::size_t first_edge;  ///< Index of the first edge after the change.
+  double gain;             ///< Twice the gain of log likelihood.
 };
 
-/// @param state The one that explains them best.
-/// @return The last change that leaves edges as outliers, or else the clearest; empty: none.
+/// @param state State that explains all edges best.
+/// @return The clearest change that leaves edges as outliers, else the clearest; empty if none.
 std::optional<Changepoint> find_changepoint(const PassModel& model, std::span<const PassEdge> edges,
                                             const SpinState& state);
 

@@ -21,7 +21,7 @@ double median_of(std::vector<double>& values) {
 
 PulseNoise noise_seen(const PassModel& model, std::span<const PassEdge> edges,
                       const SpinState& state) {
-  std::array<std::vector<double>, kPulseChannels> off;  // In sigmas.
+  std::array<std::vector<double>, kPulseChannels> off;  // Residuals in sigmas.
   const PassAtState at = model.at(state);
   for (const PassEdge& edge : edges) {
     if (const auto met = at.meet(edge.pulse)) {

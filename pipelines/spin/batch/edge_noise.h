@@ -1,5 +1,5 @@
 /// @file
-/// Observed noise of the edges about a state, of slits and of beams separately.
+/// Observed noise of the edges about a state, separately for sun slits and infrared beams.
 
 #pragma once
 
@@ -10,8 +10,8 @@
 
 namespace spindrift {
 
-/// By the median deviation of each channel's edges from their median: neither outliers, however
-/// many the noise makes, nor a bias count. No less than stated.
+/// Estimates the noise from the median deviation of each channel's edges from their median, so that
+/// neither outliers nor a bias affect it. The result is never below the stated noise.
 PulseNoise noise_seen(const PassModel& model, std::span<const PassEdge> edges,
                       const SpinState& state);
 

@@ -17,19 +17,19 @@ namespace spindrift {
 struct EvaluatedFit {
   BatchFit fit;
   BiasSet estimated;
-  PassInformation information;  ///< Less what the unknowns of its nutation take of it.
-  OffsetPrior offsets_s2;       ///< Of the channels' times, which it takes for zero.
+  PassInformation information;  ///< Information, less what nutation takes.
+  OffsetPrior offsets_s2;       ///< Prior of channel time offsets; `information` assumes zero.
   std::optional<NutationSearch> nutation;
 
-  /// What the edges say whatever the offsets of their channels are: of the state that fits best
-  /// then, as far as one step leads there.
+  /// Returns the equations with unknown time offsets of the channels, one step nearer to the best
+  /// state.
   PassInformation beside_offsets() const;
   double excess_noise() const;
   double misfit() const;
 };
 
-/// @param start Its nutation is fitted anew, where it has any, and none is looked for.
-/// @return As fit().
+/// @param start Starting state; its nutation is fitted anew, but no further nutation is searched.
+/// @return The errors of fit().
 Expected<EvaluatedFit> explain(const PassModel& model, std::span<const PassEdge> edges,
                                const SpinState& start, BiasSet estimated);
 

@@ -14,19 +14,19 @@
 namespace spindrift {
 namespace {
 
-// So many tell a parabola to a fraction of a degree.
+// This many edges determine a parabola to a fraction of a degree.
 constexpr std::size_t kEnough = 4000;
-// The first parabola is off by a turn at most from one end to the other: little within a span.
+// The first parabola is off by at most one turn from end to end, which is little within a span.
 constexpr int kClockSpans = 64;
 constexpr int kPasses = 3;
 
 struct Counted {
   double part;       ///< Time from the middle of the pass, in half lengths.
-  double phase_rad;  ///< Predicted, in the turn that the revolution has.
+  double phase_rad;  ///< Predicted phase, unwrapped by the revolution number.
 };
 
-/// Sun1 begins a turn; edges of the same revolution follow within it, those of chords that straddle
-/// the next one included.
+/// Returns the phase unwrapped by revolutions: Sun1 begins a revolution and its other edges follow
+/// within one turn, also those of chords that straddle the next Sun1.
 double unwrapped_rad(double phase_rad, double phase_of_sun_rad, std::int64_t turns) {
   const double after_rad = wrapped_rad(phase_rad - phase_of_sun_rad);
   return static_cast<double>(turns) * kTurn_rad + phase_of_sun_rad +
@@ -48,8 +48,8 @@ double phase_at(const Eigen::Vector3d& clock, double part) {
   return clock[0] + (clock[1] + clock[2] * part) * part;
 }
 
-/// An edge may have been counted to the turn before or after. Each span of the pass has most of its
-/// edges in one place of the circle, which moves little from one to the next.
+/// Corrects edges that were counted to the revolution before or after: the edges of each span
+/// cluster at one phase, which moves little from one span to the next.
 void count_anew(const Eigen::Vector3d& clock, std::vector<Counted>& counted) {
   std::array<std::complex<double>, kClockSpans> places{};
   const auto span_of = [](const Counted& edge) {

@@ -1,5 +1,5 @@
 /// @file
-/// Initial phase, rate and drift of a pass about a given axis.
+/// Estimates initial phase, rate and drift of a pass for a given axis.
 
 #pragma once
 
@@ -11,9 +11,9 @@
 
 namespace spindrift {
 
-/// The turns have been counted: the unwrapped phase is a parabola in time.
-/// @param axis_icrf Unit; within some degrees.
-/// @return Unobservable where no edge is one that the axis has.
+/// Fits a parabola in time to the phase, which the counted revolutions unwrap.
+/// @param axis_icrf Unit vector within some degrees of the true axis.
+/// @return Unobservable when the axis predicts none of the edges.
 Expected<SpinState> initial_state(const PassModel& model, std::span<const PassEdge> edges,
                                   const Eigen::Vector3d& axis_icrf);
 

@@ -16,9 +16,9 @@
 namespace spindrift {
 namespace {
 
-// Two ends of two starts are one solution within this.
+// Two starts that end within this angle have reached the same solution.
 constexpr double kSameAxis_rad = 0.1 * kRadPerDeg;
-// Stated sigmas: a body that nutates, or noise not as stated.
+// Scatter, in stated sigmas, above which the body nutates or the noise is not as stated.
 constexpr double kScattered = 1.3;
 
 Expected<EvaluatedFit> with_stretches(const PassModel& model, std::span<const PassEdge> edges,
@@ -30,7 +30,7 @@ Expected<EvaluatedFit> with_stretches(const PassModel& model, std::span<const Pa
   });
 }
 
-/// Most edges would lie where Tukey's loss is not convex, and the steps to its minimum be many.
+/// Returns whether most edges would lie where Tukey's loss is not convex, which makes the fit slow.
 bool is_scattered(const PassModel& model, std::span<const PassEdge> edges, const SpinState& state) {
   const std::size_t stride = std::max<std::size_t>(edges.size() / kCoarseEdges, 1);
   std::vector<PassEdge> few;
@@ -50,8 +50,8 @@ Expected<EvaluatedFit> with_nutation(const PassModel& model, std::span<const Pas
   return with_stretches(model, edges, steady.fit.state, steady.estimated, std::move(nutation));
 }
 
-/// Nutation is taken out before anything else is asked of the residuals: it would hide changes and
-/// biases, which themselves are slow and do not look like it.
+/// Takes out nutation first, because it would hide changes and biases, which are slow and do not
+/// look like nutation.
 Expected<EvaluatedFit> explain_motion(const PassModel& model, std::span<const PassEdge> edges,
                                       const SpinState& near, BiasSet estimated) {
   if (is_scattered(model, edges, near)) {
@@ -73,7 +73,7 @@ bool likelier(const EvaluatedFit& one, const EvaluatedFit& other) {
   return one.misfit() < other.misfit();
 }
 
-/// Near each axis that a start leads to, in the order of the starts.
+/// Returns a state near each distinct axis that the starts lead to, in the order of the starts.
 Expected<std::vector<SpinState>> ends_of(const PassModel& model, std::span<const PassEdge> edges,
                                          std::span<const Eigen::Vector3d> starts,
                                          BiasSet estimated) {
@@ -97,8 +97,7 @@ Expected<std::vector<SpinState>> ends_of(const PassModel& model, std::span<const
   return ends;
 }
 
-/// Of those that the edges leave possible, the ones that the mission expects; all, where it expects
-/// none of them.
+/// Returns the possible axes that agree with the mission's prior, or all if none does.
 std::vector<EvaluatedFit> expected_of(std::vector<EvaluatedFit> possible,
                                       const std::optional<SpinPrior>& prior) {
   const auto is_unexpected = [&](const EvaluatedFit& one) {

@@ -1,15 +1,15 @@
 /// @file
-/// Free nutation in a stretch of a pass, as four unknowns of the estimator.
+/// Models free nutation in a stretch of a pass by four unknowns of the estimator.
 ///
-/// The body, tipped in the frame `spin` by the rotation (e_x, e_y), gives its edges as an even spin
-/// about the tipped axes would. While dissipation drives it, the tilt grows evenly in its
-/// logarithm:
+/// The body, tipped in the frame `spin` by the rotation (e_x, e_y), gives the edges that uniform
+/// spin about the tipped axes would give. Dissipation makes the tilt grow exponentially:
 ///
 ///     e_x + i e_y = g exp(kappa x + i (n phi + delta x))
 ///
-/// with phi the phase of the even spin from the middle of the pass, n times round in a turn of the
-/// body, and x the time in the stretch from -1 to 1. Unknowns are g, kappa and delta; n stays.
-/// Where nutation grows by much, or its frequency with it, a pass is many stretches.
+/// Here phi is the phase of the uniform spin from the middle of the pass, n the nutation cycles per
+/// turn of the body, and x the time in the stretch from -1 to 1. The unknowns are g, kappa and
+/// delta; n is fixed. A pass in which nutation grows much or changes its frequency has many
+/// stretches.
 
 #pragma once
 
@@ -24,7 +24,7 @@ using NutationSlopes = Eigen::Matrix<double, 1, kNutationUnknowns>;
 
 struct NutationStretch {
   TaiTime begin;
-  TaiTime end;  ///< Exclusive.
+  TaiTime end;  ///< End of the stretch, exclusive.
   double per_turn;
   Eigen::Matrix<double, kNutationUnknowns, 1> unknowns;  ///< g (rad), kappa, delta (rad).
 
@@ -32,11 +32,11 @@ struct NutationStretch {
   double half_s() const;
 };
 
-/// The tilt at an instant.
+/// Holds the tilt at an instant and its slopes.
 struct NutationTilt {
   Eigen::Vector2d rotation_rad;
   Eigen::Matrix<double, 2, kNutationUnknowns> per_unknown;
-  Eigen::Vector2d per_phase;  ///< rad/rad
+  Eigen::Vector2d per_phase;  ///< Change of the tilt with the phase, rad/rad.
 };
 NutationTilt tilt_at(const NutationStretch& stretch, TaiTime t, double phase_rad);
 

@@ -10,12 +10,12 @@
 namespace spindrift {
 namespace {
 
-// A bias that has so much of an open direction takes part in it.
+// Component of an open direction above which a bias takes part in it.
 constexpr double kTakesPart = 0.35;
 
 using Scales = Eigen::Matrix<double, kBatchUnknowns, 1>;
 
-/// One radian of motion, one sigma of the prior of a bias.
+/// Returns the units of the unknowns: one radian for motion, one prior sigma for a bias.
 Scales scales() {
   Scales all = Scales::Ones();
   for (int i = 0; i < kSensorBiases; ++i) {
@@ -69,7 +69,7 @@ double Observability::drift_variance(double half_s) const {
 }
 
 double Observability::last_rate_variance(double half_s) const {
-  // Rate at the middle, and twice what the drift turns the body by in half the pass.
+  // Rate at the middle plus the change by drift over half the pass, from the unknowns as angles.
   const Eigen::Vector2d last{1.0 / half_s, 2.0 / half_s};
   return last.dot(covariance_.block<2, 2>(3, 3) * last);
 }
@@ -122,7 +122,7 @@ std::vector<BiasEstimate> Observability::biases(const SensorBiases& biases) cons
   return all;
 }
 
-/// What the edges say of those estimated, the motion eliminated; in units of the priors.
+/// Returns the information on the estimated biases, motion eliminated, in units of the priors.
 Eigen::MatrixXd Observability::of_biases() const {
   const Eigen::Matrix<double, kMotionUnknowns, kMotionUnknowns> motion =
       scaled_.topLeftCorner<kMotionUnknowns, kMotionUnknowns>() +
@@ -149,7 +149,7 @@ std::vector<BiasSet> Observability::undetermined() const {
         direction |= unknowns_of(estimated_[static_cast<std::size_t>(j)]);
       }
     }
-    // Directions that are open alike come mixed, and may have the same biases.
+    // Equally open directions come mixed and may consist of the same biases.
     if (std::find(all.begin(), all.end(), direction) == all.end()) {
       all.push_back(direction);
     }

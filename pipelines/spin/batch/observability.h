@@ -1,5 +1,5 @@
 /// @file
-/// Observability: covariance with the priors, and directions that the edges leave undetermined.
+/// Covariance with the priors, and the directions that the edges leave undetermined.
 
 #pragma once
 
@@ -11,60 +11,59 @@
 
 namespace spindrift {
 
-/// Those that any edge of the pass depends on.
+/// Returns the biases that any edge of the pass depends on.
 BiasSet seen_biases(const PassInformation& information);
 
-/// The covariance of motion and biases, the priors of the biases included.
+/// Holds the covariance of motion and biases, including the priors of the biases.
 class Observability {
  public:
-  /// @param estimated The others are known to be what they are in the state.
+  /// @param estimated Biases to estimate; the others are taken as known.
   Observability(const PassInformation& information, BiasSet estimated);
 
   using Matrix = Eigen::Matrix<double, kBatchUnknowns, kBatchUnknowns>;
-  /// Of all unknowns of pass_model.h; zero beside the diagonal for biases that are known.
+  /// Covariance of all unknowns of pass_model.h; off-diagonals of known biases are zero.
   const Matrix& covariance() const { return covariance_; }
-  /// Tilts of the frame `spin`, rad^2; where the edges leave a direction open, large.
+  /// Covariance of the tilts of the frame `spin`, rad^2; large where the edges leave a direction
+  /// open.
   Eigen::Matrix2d axis_covariance_rad2() const { return covariance_.topLeftCorner<2, 2>(); }
   Eigen::Matrix2d coning_covariance_rad2() const {
     return covariance_.block<2, 2>(kMotionUnknowns + ConingX, kMotionUnknowns + ConingX);
   }
-  /// What offsets of the channels' times, taken for zero, add to it.
-  /// @param information Of which it is.
+  /// Returns the axis covariance that unknown time offsets of the channels add, rad^2.
+  /// @param information Equations that this object was made from.
   Eigen::Matrix2d offsets_rad2(const PassInformation& information,
                                const OffsetPrior& offsets_s2) const;
-  /// Of the drift of the rate, (rad/s^2)^2. @param half_s Half length of the pass.
+  /// Returns the variance of the rate drift, (rad/s^2)^2. @param half_s Half length of the pass.
   double drift_variance(double half_s) const;
-  /// Of the rate at the end of the pass. @param half_s Its half length.
+  /// Returns the variance of the rate at the end of the pass. @param half_s Its half length.
   double last_rate_variance(double half_s) const;
 
-  /// What all unknowns would move by from a state, to the best. Zero for biases that are known.
-  /// @param information Of that state; @param biases too.
+  /// Returns the step of all unknowns from a state to the best one; zero for known biases.
+  /// @param information Equations at that state. @param biases Biases of that state.
   Eigen::Matrix<double, kBatchUnknowns, 1> step(const PassInformation& information,
                                                 const SensorBiases& biases) const;
 
-  /// What the estimated biases would move by from a state that is the best with others held.
-  /// @param information Of that state; @param biases too.
+  /// Returns the step of the estimated biases from a state that is the best with other biases held.
+  /// @param information Equations at that state. @param biases Biases of that state.
   SensorBiases bias_step(const PassInformation& information, const SensorBiases& biases) const;
 
-  /// Root mean square error of the axis of such a state, rad: where the axis would move to, and
-  /// what would be left open then.
+  /// Returns the root mean square error of the axis, rad, from step and covariance.
   double rms_error_rad(const PassInformation& information, const SensorBiases& biases) const;
 
-  /// Singular values of the whitened equations, in units of the priors (motion: 1 rad), largest
-  /// first: below 1 the edges say less of a direction than was known before.
+  /// Returns the singular values of the whitened equations in units of the priors (motion: 1 rad),
+  /// largest first. Below 1 the edges say less about a direction than the prior.
   std::vector<double> singular_values() const;
 
-  /// @param biases Of the state.
   std::vector<BiasEstimate> biases(const SensorBiases& biases) const;
 
-  /// Every direction of the biases that the edges leave open: the biases that take part in it.
+  /// Returns the biases that take part in each bias direction that the edges leave open.
   std::vector<BiasSet> undetermined() const;
 
  private:
   Eigen::MatrixXd of_biases() const;
 
   std::vector<SensorBias> estimated_;
-  Matrix scaled_ = Matrix::Zero();  ///< Information in units of the priors, without them.
+  Matrix scaled_ = Matrix::Zero();  ///< Information without the priors, in their units.
   Matrix covariance_ = Matrix::Zero();
 };
 

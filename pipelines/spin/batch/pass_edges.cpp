@@ -13,11 +13,11 @@
 namespace spindrift {
 namespace {
 
-// From so near a fit ends at the same place. The narrowest chord vanishes within a degree.
+// Starts this near end at the same place. The narrowest chord vanishes within a degree.
 constexpr double kSameStart_rad = 0.1 * kRadPerDeg;
 
-/// Not where it should be, or with nothing to compare it with; else it is one of several edges of
-/// an angle that failed its test.
+/// Returns whether the edge itself is bad: out of place or without anything to compare it with.
+/// Otherwise it is one of several edges of an angle that failed its test.
 bool is_bad(Rejection rejection) {
   return rejection != Rejection::Geometry &&
          std::none_of(kMeasuredAngles.begin(), kMeasuredAngles.end(),

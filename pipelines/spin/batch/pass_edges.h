@@ -1,5 +1,5 @@
 /// @file
-/// What the estimator `batch` needs of a pass, gathered from its products as they arise.
+/// Collects what the estimator `batch` needs from the products of a pass as they arise.
 
 #pragma once
 
@@ -21,31 +21,31 @@ class PassEdges {
  public:
   void note(const SpinProduct& product);
 
-  /// An operator's word on telemetry from `t` on: what it leaves out is forgotten, and at the first
-  /// edge behind a manoeuvre all before it.
+  /// Applies an operator action valid from `t`: excluded edges are dropped, and at the first edge
+  /// after a manoeuvre all earlier edges.
   void act(TaiTime t, const SpinAction& action);
 
-  /// A day of six edges a turn at 100 rpm: memory is not for ever. Of more they are the last.
+  /// Bounds the memory to a day of six edges a turn at 100 rpm; beyond it the last edges are kept.
   static constexpr std::size_t kMost = 900'000;
 
-  /// Forgets all but so many of the last revolutions.
+  /// Keeps the edges of the last `revolutions` revolutions only.
   void keep_last(std::int64_t revolutions);
 
-  /// When the last of them was: the time of the solution of all. Empty: there are none.
+  /// Returns the time of the last edge, which is the time of the solution; empty without edges.
   std::optional<TaiTime> last() const;
 
-  /// As the other estimators say (CopiesInNoise).
+  /// Returns whether another estimator reported CopiesInNoise.
   bool noise_chose_among_copies() const { return noise_chose_among_copies_; }
 
-  /// More than `kMost` came.
+  /// Returns whether more than `kMost` edges came.
   bool forgot_some() const { return forgot_some_; }
 
-  /// All edges that a revolution had a place for, in order of time; those too whose angles failed
-  /// their test, as an angle rests on several edges and the fit finds the one.
+  /// Returns all edges assigned to a revolution, in order of time. Edges of angles that failed
+  /// their test are included, since an angle rests on several edges and the fit finds the bad one.
   std::vector<PassEdge> edges() &&;
 
-  /// Axes of the other estimators, which settle it where `sequential` is OK; where it is not, all
-  /// that the last fix leaves. Without any, where the mission expects the axis.
+  /// Returns the axes of the other estimators, and those of the last fix unless `sequential` is OK.
+  /// If there are none, the axis that the mission expects.
   StartingAxes starts(const std::optional<SpinPrior>& prior) const;
 
  private:
@@ -59,7 +59,7 @@ class PassEdges {
 
   std::vector<PassEdge> edges_;
   Exclusions<PulseChannel> excluded_;
-  std::set<TaiTime> manoeuvres_;  ///< To come.
+  std::set<TaiTime> manoeuvres_;  ///< Times of manoeuvres that no edge has passed yet.
   std::int64_t last_revolution_ = 0;
   bool forgot_some_ = false;
   bool noise_chose_among_copies_ = false;

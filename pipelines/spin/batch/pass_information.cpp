@@ -8,10 +8,10 @@
 namespace spindrift {
 namespace {
 
-// Noise as stated exceeds the limit in one fit of a million. A chance of its own, not the sigmas of
-// variance_factor.h: this limit follows the skewness of the chi-square and so holds for the few
-// edges of a part of a pass too. Results depend on it; kContradictionChance would be 4.86 sigmas
-// instead of 4.75.
+// Noise as stated exceeds the limit in one fit of a million. This chance is separate from the
+// sigmas of variance_factor.h because this limit follows the skewness of the chi-square and so
+// holds for the few edges of a part of a pass too. Results depend on it; kContradictionChance would
+// be 4.86 sigmas instead of 4.75.
 const double kSignificantSigmas = normal_beyond(1e-6);
 
 }  // namespace
@@ -39,8 +39,8 @@ double PassInformation::excess_noise(int unknowns) const {
   if (!(freedom > 0.0)) {
     return 1.0;
   }
-  // The quantile by Cornish and Fisher to the skewness: twice that chance at one degree of freedom,
-  // 1.3 times at ten.
+  // Cornish-Fisher quantile up to the skewness; the actual chance is twice the nominal one at one
+  // degree of freedom, 1.3 times at ten.
   const double limit = freedom + kSignificantSigmas * std::sqrt(2.0 * freedom) +
                        kSignificantSigmas * kSignificantSigmas * 2.0 / 3.0;
   return squares > limit ? squares / freedom : 1.0;

@@ -15,32 +15,32 @@
 
 namespace spindrift {
 
-/// Farther from where the state has it (sigmas) an edge has no weight: Tukey's biweight.
+/// Residual, in sigmas, beyond which an edge has no weight in Tukey's biweight.
 inline constexpr double kOutlierSigmas = 8.0;
-/// With a larger share of outliers nothing is explained.
+/// Share of outliers beyond which a state explains nothing.
 inline constexpr double kMostOutliers = 0.5;
-/// Of normal noise so weighted, the share of its information that is left, and the mean slope of
-/// the weighted residual.
+/// Share of the information of normal noise that Tukey's weights leave, and the mean slope of the
+/// weighted residual.
 inline constexpr double kEfficiency = 0.99401;
 inline constexpr double kMeanSlope = 0.90991;
 
 struct PassInformation {
   Eigen::Matrix<double, kBatchUnknowns, kBatchUnknowns> information =
       Eigen::Matrix<double, kBatchUnknowns, kBatchUnknowns>::Zero();
-  /// Slopes times residuals: where a step of the unknowns by -(information^-1 score) leads to zero.
+  /// Slopes times residuals; the step -(information^-1 score) of the unknowns makes it zero.
   Eigen::Matrix<double, kBatchUnknowns, 1> score = Eigen::Matrix<double, kBatchUnknowns, 1>::Zero();
-  Considered<kBatchUnknowns, kChannelOffsets> offsets = {};  ///< Of the channels' times.
-  double squares = 0.0;                                      ///< Of the residuals.
+  Considered<kBatchUnknowns, kChannelOffsets> offsets = {};  ///< Terms of the channels' offsets.
+  double squares = 0.0;                                      ///< Sum of the squared residuals.
   std::int64_t edges = 0;
-  std::int64_t outliers = 0;  ///< Not among these.
+  std::int64_t outliers = 0;  ///< Number of outliers, not counted in `edges`.
 
   PassInformation& operator+=(const PassInformation& other);
   double outlier_share() const;
-  double misfit() const;  ///< Squares, an outlier's as the least that it may be.
-  /// How many times their variance is what the stated noise makes it; 1 unless significantly more.
-  /// @param unknowns Estimated from these edges.
+  double misfit() const;  ///< Sum of squares in which each outlier counts kOutlierSigmas squared.
+  /// Returns the ratio of the observed to the stated variance; 1 unless significantly more.
+  /// @param unknowns Number of unknowns estimated from these edges.
   double excess_noise(int unknowns) const;
-  /// What they say whatever the offsets of the channels' times are, which are no biases.
+  /// Returns the equations with the channels' time offsets, which are no biases, eliminated.
   PassInformation less_offsets(const OffsetPrior& offsets_s2) const;
 };
 
@@ -48,7 +48,7 @@ struct PassInformation {
 PassInformation information_of(const PassModel& model, std::span<const PassEdge> edges,
                                const SpinState& state, double outlier_sigmas = kOutlierSigmas);
 
-/// The same by spans of the pass that hold equally many edges. At most `spans`, each at least one.
+/// Holds the equations of one of at most `spans` spans with equally many edges, at least one each.
 struct SpanInformation {
   TaiTime begin;
   std::size_t first_edge;

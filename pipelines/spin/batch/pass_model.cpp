@@ -12,7 +12,7 @@
 namespace spindrift {
 namespace {
 
-// Within it the Sun moves by 0.0001 deg, and a satellite's fall from its second order by 1 m.
+// Within this span the Sun moves by 0.0001 deg and an orbit leaves its second order by 1 m.
 constexpr double kSkySpan_s = 10.0;
 
 const NutationStretch* stretch_at(const SpinState& state, TaiTime t) {
@@ -22,7 +22,7 @@ const NutationStretch* stretch_at(const SpinState& state, TaiTime t) {
   return found != state.nutation.end() && found->holds(t) ? &*found : nullptr;
 }
 
-/// By axes that are tipped, to axes that are not.
+/// Converts slopes with respect to the tipped axes to slopes with respect to the untipped axes.
 void untip(const NutationTilt& tilt, ComparedEdge& met) {
   const Eigen::Vector3d tipped_rad{tilt.rotation_rad.x(), tilt.rotation_rad.y(), 0.0};
   const Eigen::Vector3d per_tipped = met.expected.phase_per_rotation;
@@ -55,12 +55,12 @@ Expected<PassModel> PassModel::make(const SpinConfig& config, const Orbit& orbit
     const TaiTime middle = later_by_s(first, (static_cast<double>(span) + 0.5) * kSkySpan_s);
     auto sky = surroundings.sky(std::min(middle, last));
     if (!sky) {
-      sky = surroundings.sky(edge.pulse.t);  // Beside a gap of the orbit.
+      sky = surroundings.sky(edge.pulse.t);  // The middle may lie in a gap of the orbit.
     }
     if (!sky) {
       return Unexpected{sky.error()};
     }
-    // Spans without an edge are never asked for.
+    // Spans without an edge are filled but never used.
     model.skies_.resize(span + 1, *sky);
   }
   return model;
@@ -121,7 +121,7 @@ std::optional<EdgeResidual> PassAtState::residual(const Pulse& edge) const {
       met->off_per_phase * part * part, -met->expected.phase_per_bias;
   residual.slopes /= met->sigma_rad;
   residual.nutation_slopes = met->off_per_nutation / met->sigma_rad;
-  // What an angle is worth changes with the rate as well; to first order.
+  // A timing error corresponds to an angle through the rate, so the rate adds a first-order slope.
   const double by_rate = -residual.off / met->rate_rad_s;
   residual.slopes[3] += by_rate / half_s;
   residual.slopes[4] += by_rate * 2.0 * dt_s / (half_s * half_s);

@@ -1,14 +1,15 @@
 /// @file
-/// What a body that spins about an axis at rest, at a rate that drifts evenly, and may nutate about
-/// it, gives of edges, and how far those that came are from it. In the unknowns
+/// Predicts the edges of a body that spins about a fixed axis at a uniformly drifting rate and may
+/// nutate about it, and compares them with the edges that came. In the unknowns
 ///
 ///     tilt x, tilt y, phase      rotation of the frame `spin` about its own axes, rad
 ///     rate, drift                each as the angle that it makes at the ends of the pass, rad
 ///     biases                     sensor_biases.h
-///     nutation                   of a stretch of the pass that has it, nutation_stretch.h
+///     nutation                   of a stretch of the pass, nutation_stretch.h
 ///
 /// an edge is one equation, (rate dt + drift dt^2/2 - phase predicted) / (rate sigma_t) = noise of
-/// one standard deviation, with dt from the middle of the pass: the time of a pulse, whitened.
+/// one standard deviation. This is the whitened time of a pulse, with dt from the middle of the
+/// pass.
 
 #pragma once
 
@@ -31,20 +32,20 @@
 
 namespace spindrift {
 
-/// An edge that a revolution had a place for.
+/// Holds an edge that was assigned to a revolution.
 struct PassEdge {
   Pulse pulse;
   std::int64_t revolution;
 };
 
-/// The frame `spin` has its third axis on the spin axis and turns with the rest of the sky: at the
-/// middle of the pass slit 1 is on its first axis.
+/// Holds the state of the body. The frame `spin` has its third axis on the spin axis and is fixed
+/// to the sky; at the middle of the pass slit 1 is on its first axis.
 struct SpinState {
   Eigen::Quaterniond q_icrf_spin;
-  double rate_rad_s;  ///< At the middle of the pass.
+  double rate_rad_s;  ///< Spin rate at the middle of the pass.
   double drift_rad_s2;
   SensorBiases biases = SensorBiases::Zero();
-  std::vector<NutationStretch> nutation = {};  ///< In order of time, apart from each other.
+  std::vector<NutationStretch> nutation = {};  ///< Stretches in order of time, without overlap.
 
   Eigen::Vector3d axis_icrf() const { return q_icrf_spin * Eigen::Vector3d::UnitZ(); }
 };
@@ -53,35 +54,35 @@ inline constexpr int kMotionUnknowns = 5;
 inline constexpr int kBatchUnknowns = kMotionUnknowns + kSensorBiases;
 using EdgeSlopes = Eigen::Matrix<double, 1, kBatchUnknowns>;
 
-/// Where a state expects an edge, and where it came.
+/// Compares where a state expects an edge with where it came.
 struct ComparedEdge {
-  PredictedEdge expected;  ///< Its change by rotation that of the frame `spin`, not of the tipped.
-  double phase_rad;        ///< Azimuth of slit 1 when it came, counted on from turn to turn.
-  double off_rad;          ///< More than expected by so much.
-  double sigma_rad;        ///< Of its noise.
+  PredictedEdge expected;  ///< Prediction, with slopes for the untipped `spin`.
+  double phase_rad;        ///< Azimuth of slit 1 at the edge, counted on over revolutions.
+  double off_rad;          ///< Azimuth beyond the expected one.
+  double sigma_rad;        ///< Noise of the edge as an angle.
   double rate_rad_s;
-  /// Change of `off_rad` with the phase, and with the unknowns of the stretch that it is in.
+  /// Change of `off_rad` with the phase, and with the unknowns of the stretch that holds the edge.
   double off_per_phase = 1.0;
   NutationSlopes off_per_nutation = NutationSlopes::Zero();
 };
 
-/// An edge against a state.
+/// Holds the whitened residual of an edge against a state.
 struct EdgeResidual {
-  double off;         ///< In standard deviations of its noise; positive: late.
-  EdgeSlopes slopes;  ///< Of `off`.
+  double off;         ///< Residual in standard deviations of the noise; positive when late.
+  EdgeSlopes slopes;  ///< Derivatives of `off` by the unknowns.
   NutationSlopes nutation_slopes = NutationSlopes::Zero();
 };
 
 class PassModel;
 
-/// The model at one state: what all its edges share is found once.
+/// Evaluates the model at one state, sharing the work that all edges have in common.
 class PassAtState {
  public:
-  /// @param model Outlives it.
+  /// @param model Must outlive this object.
   PassAtState(const PassModel& model, SpinState state);
 
   const SpinState& state() const { return state_; }
-  /// @return Empty where the state has no such edge; likewise the following.
+  /// @return Empty when the state predicts no such edge.
   std::optional<ComparedEdge> meet(const Pulse& edge) const;
   std::optional<EdgeResidual> residual(const Pulse& edge) const;
 
@@ -94,8 +95,8 @@ class PassAtState {
 
 class PassModel {
  public:
-  /// @param edges In order of time, at least one.
-  /// @return NoCoverage where the orbit does not reach all of them.
+  /// @param edges Edges in order of time, at least one.
+  /// @return NoCoverage when the orbit does not cover all edges.
   static Expected<PassModel> make(const SpinConfig& config, const Orbit& orbit,
                                   std::span<const PassEdge> edges);
 
@@ -104,7 +105,7 @@ class PassModel {
   const SpinConfig& config() const { return config_; }
   const Sky& sky_at(TaiTime t) const;
   TaiTime middle() const { return middle_; }
-  double half_s() const { return half_s_; }  ///< From the middle of the pass to its ends.
+  double half_s() const { return half_s_; }  ///< Half length of the pass, at least 1 s.
 
  private:
   PassModel(SpinConfig config, TaiTime first, TaiTime last);
@@ -114,7 +115,7 @@ class PassModel {
   TaiTime first_;
   TaiTime middle_;
   double half_s_;
-  std::vector<Sky> skies_;  ///< One for every kSkySpan_s.
+  std::vector<Sky> skies_;  ///< Sun and Earth, one entry per kSkySpan_s.
 };
 
 }  // namespace spindrift

@@ -13,10 +13,9 @@
 namespace spindrift {
 namespace {
 
-// A quarter of an hour at 100 rpm, in which it may grow e times and is found none the less; the
-// search takes as much memory as 2 KiB an edge.
+// A stretch is a quarter of an hour at 100 rpm; nutation that grows by e within it is still found.
+// The search takes 2 KiB of memory per edge.
 constexpr std::size_t kStretchEdges = 10'000;
-// Of a pass, however many its stretches.
 
 double phase_rad(const SpinState& state, double t_s) {
   return (state.rate_rad_s + 0.5 * state.drift_rad_s2 * t_s) * t_s;

@@ -1,6 +1,6 @@
 /// @file
-/// Free nutation of a pass: looked for stretch by stretch in what an even spin leaves of the edges,
-/// and what it takes of their information.
+/// Searches free nutation in each stretch of a pass, in the residuals of uniform spin, and reduces
+/// the information of the edges by the unknowns of the nutation.
 
 #pragma once
 
@@ -15,23 +15,23 @@
 namespace spindrift {
 
 struct PassNutation {
-  std::vector<NutationStretch> stretches;  ///< Where it was found: what a fit begins with.
-  /// Of the last of these; else of the last stretch of the pass. Empty where the edges do not
-  /// suffice to look.
+  std::vector<NutationStretch> stretches;  ///< Starting values of a fit.
+  /// Search of the last stretch with nutation, or of the last stretch of the pass if there is none.
+  /// Empty when the edges are too few to search.
   std::optional<NutationSearch> last;
 };
 
-/// @param edges In order of time.
-/// @param state The best without nutation; what it has of it is put aside.
+/// @param edges Edges in order of time.
+/// @param state Best state without nutation; any nutation in it is ignored.
 PassNutation find_pass_nutation(const PassModel& model, std::span<const PassEdge> edges,
                                 SpinState state);
 
-/// Half-angle, growth, period and lean as the stretch has them, with the sigmas of the search.
+/// Returns half-angle, growth, period and lean of the fitted stretch, with the sigmas of the
+/// search.
 FoundNutation as_fitted(const FoundNutation& found, const PassModel& model, const SpinState& state);
 
-/// What is left of the information on motion and biases, as the nutation of each stretch is
-/// unknown.
-/// @param information Of the same state, were it known.
+/// Returns the information on motion and biases when the nutation of each stretch is unknown.
+/// @param information Information at the same state with known nutation.
 PassInformation less_nutation(PassInformation information, const PassModel& model,
                               std::span<const PassEdge> edges, const SpinState& state);
 

@@ -13,12 +13,12 @@ namespace {
 
 // Parabolas through fewer edges follow their noise.
 constexpr std::size_t kFewest = 8;
-// Chi-square: noise, and nutation, gain some tens.
+// Chi-square beyond the some tens that noise and nutation gain.
 constexpr double kClear = 100.0;
 constexpr std::size_t kPlaces = 64;
 
 struct Turn {
-  std::size_t edge;  ///< Among all.
+  std::size_t edge;  ///< Index of the edge among all edges.
   double number;
   double t_s;
 };
@@ -40,7 +40,7 @@ std::vector<Turn> turns_of(std::span<const PassEdge> edges) {
   return turns;
 }
 
-/// What the best parabola leaves, s^2.
+/// Returns the sum of squared residuals of the best parabola, s^2.
 double left_over(std::span<const Turn> turns) {
   const double middle = 0.5 * (turns.front().number + turns.back().number);
   const double half = std::max(0.5 * (turns.back().number - turns.front().number), 1.0);
@@ -63,11 +63,11 @@ double left_over(std::span<const Turn> turns) {
 }
 
 struct Break {
-  std::size_t turn;  ///< The first after it.
+  std::size_t turn;  ///< Index of the first turn after the break.
   double squares_s2;
 };
 
-/// The best of some places from `first` to `last`.
+/// Returns the best break among some places from `first` to `last`.
 Break best_between(std::span<const Turn> turns, std::size_t first, std::size_t last) {
   const std::size_t step = std::max<std::size_t>((last - first) / kPlaces, 1);
   Break best{.turn = first, .squares_s2 = left_over(turns)};

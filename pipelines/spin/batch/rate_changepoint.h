@@ -1,5 +1,5 @@
 /// @file
-/// A step of the spin rate, found as a changepoint in the times of the turns.
+/// Finds a step of the spin rate as a changepoint in the times of the revolutions.
 
 #pragma once
 
@@ -11,11 +11,11 @@
 
 namespace spindrift {
 
-/// Where two parabolas, one before and one after, explain the times of a channel's edges by the
-/// turns counted beyond doubt better than one. Needs no axis, and so finds steps after which no
-/// state fits; to the turn.
-/// @param edges In order of time.
-/// @return Its `t` is that of the first edge after it; empty: there is none.
+/// Finds where two parabolas explain one channel's edge times, by counted revolution, significantly
+/// better than one. It needs no axis and so finds steps after which no state fits, to one
+/// revolution.
+/// @param edges Edges in order of time.
+/// @return The step, whose `t` is the time of the first edge after it; empty if there is none.
 std::optional<Changepoint> find_rate_changepoint(std::span<const PassEdge> edges);
 
 }  // namespace spindrift

@@ -14,19 +14,19 @@
 namespace spindrift {
 namespace {
 
-// Two ends are one axis within this.
+// Two ends within this angle are the same axis.
 constexpr double kSameEnd_rad = kRadPerDeg;
 constexpr int kAboutSun = 32;
-// 14 deg apart.
+// The starting axes over the sky are 14 deg apart.
 constexpr int kOverSky = 200;
 constexpr std::size_t kSample = 400;
 constexpr std::size_t kTried = 12;
 constexpr std::size_t kMost = 4;
-// What a sample says of all edges; an outlier more or less is no verdict.
+// A rival may fit the sample worse by this much, because a few outliers in a sample decide nothing.
 constexpr double kNearly = 100.0;
 constexpr double kGolden = 0.6180339887498949;
 
-/// A spiral from pole to pole.
+/// Returns a point of a spiral from pole to pole.
 Eigen::Vector3d place(int i) {
   const double z = 1.0 - (2.0 * i + 1.0) / kOverSky;
   const double ra_rad = kTurn_rad * kGolden * i;
@@ -34,7 +34,7 @@ Eigen::Vector3d place(int i) {
   return {across * std::cos(ra_rad), across * std::sin(ra_rad), z};
 }
 
-/// Every so many would be of one channel, where the channels come in turn.
+/// Samples by the golden ratio: a fixed stride would pick one channel where the channels alternate.
 std::vector<PassEdge> sample_of(std::span<const PassEdge> edges) {
   const double share = static_cast<double>(kSample) / static_cast<double>(edges.size());
   std::vector<PassEdge> sample;
@@ -47,8 +47,8 @@ std::vector<PassEdge> sample_of(std::span<const PassEdge> edges) {
   return sample;
 }
 
-/// All over the sky, and closer about the Sun and opposite to it: there a fit must begin nearer, as
-/// the Sun's azimuth turns fast.
+/// Returns axes over the whole sky, and denser ones about the Sun and opposite to it, where the
+/// Sun's azimuth turns fast and a fit must begin nearer.
 std::vector<Eigen::Vector3d> places_about(const Eigen::Vector3d& sun_icrf) {
   std::vector<Eigen::Vector3d> places;
   places.reserve(kOverSky + 2 * kAboutSun);
@@ -71,7 +71,7 @@ struct End {
   double misfit;
 };
 
-/// The best first, each axis once.
+/// Sorts the ends by misfit and keeps each axis once.
 void put_in_order(std::vector<End>& ends) {
   std::stable_sort(ends.begin(), ends.end(),
                    [](const End& one, const End& other) { return one.misfit < other.misfit; });
@@ -86,7 +86,7 @@ void put_in_order(std::vector<End>& ends) {
   ends = std::move(distinct);
 }
 
-/// Where all places lead to.
+/// Returns the ends of coarse fits from all starting places.
 std::vector<End> ends_in(const PassModel& model, std::span<const PassEdge> sample,
                          BiasSet estimated) {
   const Eigen::Vector3d sun_icrf = model.sky_at(model.middle()).sun_icrf.normalized();

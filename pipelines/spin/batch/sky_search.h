@@ -11,8 +11,8 @@
 
 namespace spindrift {
 
-/// Other axes that explain some hundreds of the edges, spread over the pass, better than this state
-/// or nearly as well; the best first, a few at most.
+/// Returns up to a few other axes that explain some hundreds of edges, spread over the pass, better
+/// than `state` or nearly as well; best first.
 std::vector<Eigen::Vector3d> competing_axes(const SpinState& state, const PassModel& model,
                                             std::span<const PassEdge> edges, BiasSet estimated);
 

@@ -1,5 +1,5 @@
 /// @file
-/// Where the estimator `batch` begins.
+/// Axes at which the estimator `batch` starts.
 
 #pragma once
 
@@ -12,10 +12,10 @@
 namespace spindrift {
 
 struct StartingAxes {
-  std::vector<Eigen::Vector3d> axes_icrf;  ///< Unit, likeliest first.
-  /// The true axis is near one of them beyond doubt. Otherwise all the sky is searched for others.
+  std::vector<Eigen::Vector3d> axes_icrf;  ///< Unit vectors, likeliest first.
+  /// True when the true axis is surely near one of them; otherwise the whole sky is searched.
   bool settled = true;
-  /// What the pass has taken; its other axis is compared with the solution, but is no start.
+  /// Earlier choice of the pass; its other axis is compared with the solution, but is no start.
   std::optional<AxisChoice> of_pass = {};
 };
 

@@ -10,7 +10,7 @@
 namespace spindrift {
 namespace {
 
-// Nutation of 0.2 deg puts edges off by ten.
+// Nutation of 0.2 deg moves edges by ten sigmas.
 constexpr double kFarthestSigmas = 30.0;
 }  // namespace
 

@@ -1,5 +1,5 @@
 /// @file
-/// Residuals of the edges against the best uniform spin, for the search for nutation.
+/// Residuals of the edges against the best uniform spin, as input of the nutation search.
 
 #pragma once
 
@@ -11,13 +11,13 @@
 
 namespace spindrift {
 
-/// Of edges within thirty sigmas, or thirty times what all scatter by, of where the state has them:
-/// nutation puts them off by several.
+/// Returns residuals of the edges within 30 sigmas of their prediction, or within 30 times the
+/// observed scatter, because nutation moves edges by several sigmas.
 std::vector<UniformSpinResidual> uniform_spin_residuals(const PassModel& model,
                                                         std::span<const PassEdge> edges,
                                                         const SpinState& state);
 
-/// How many sigmas one standard deviation of them is, whatever their outliers; at least 1.
+/// Returns the robust standard deviation of the residuals in sigmas, at least 1.
 double scatter_of(std::span<const UniformSpinResidual> residuals);
 
 }  // namespace spindrift

@@ -1,5 +1,5 @@
 /// @file
-/// The prior that an operator gives who chooses one of the axes that a revolution leaves possible.
+/// Prior for an axis that an operator chose among those that a revolution leaves possible.
 
 #pragma once
 
@@ -14,8 +14,8 @@
 
 namespace spindrift {
 
-/// So narrow that the nearest of the others is three sigmas away.
-/// @param root_icrf, others_icrf Unit; one other at least.
+/// Returns a prior so narrow that the nearest other axis is three sigmas away.
+/// @param root_icrf, others_icrf Unit vectors; at least one other.
 inline SpinPrior prior_choosing(const Eigen::Vector3d& root_icrf,
                                 std::span<const Eigen::Vector3d> others_icrf) {
   double nearest_rad = std::numbers::pi;

@@ -15,7 +15,8 @@ namespace spindrift {
 namespace {
 
 constexpr int kSilentRevolutions = 5;
-// Near-tangent fixes may lack the true candidate: false ones lie near an axis that is known worse.
+// A near-tangent fix may lack the true candidate: false ones lie near an axis known worse than
+// this.
 constexpr double kWidest_rad = 3.0 * kRadPerDeg;
 constexpr int kContradictionsInARow = 20;
 
@@ -23,10 +24,10 @@ double sigma_of(const AxisCandidate& candidate) {
   return std::sqrt(candidate.covariance_rad2.trace());
 }
 
-/// What a beam should see from a candidate, wherever the Earth may be within noise and model.
+/// The range of chords that a beam may see about a candidate, within noise and model errors.
 struct ChordRange {
   double least_rad = kTurn_rad;
-  double most_rad = 0.0;  ///< 0: it misses the disc. A whole turn: it never leaves it.
+  double most_rad = 0.0;  ///< 0: the beam misses the disc. A turn: it never leaves it.
 };
 
 ChordRange chords_from(const AxisCandidate& candidate, const SunEarthDirections& sun_earth,
@@ -38,7 +39,7 @@ ChordRange chords_from(const AxisCandidate& candidate, const SunEarthDirections&
   const double margin_rad =
       kContradictionSigmas * std::sqrt(towards.dot(candidate.covariance_rad2 * towards)) +
       kModelLimit_rad;
-  constexpr int kPlaces = 5;  // Either side.
+  constexpr int kPlaces = 5;  // Places on either side.
   ChordRange range;
   for (int place = -kPlaces; place <= kPlaces; ++place) {
     const double there_rad = std::abs(earth_rad + margin_rad * place / kPlaces);
@@ -77,7 +78,7 @@ Nearest nearest_to(const KnownAxis& known, const AxisCandidates& found,
           .verdict = alone ? PriorVerdict::Chooses : PriorVerdict::NearSeveral};
 }
 
-/// The candidate that continues a steady axis, when no other may.
+/// Returns the candidate that continues a steady axis, when no other may.
 std::optional<std::size_t> continues(const StationaryAxis& steady, const AxisCandidates& found,
                                      const std::vector<std::size_t>& possible) {
   constexpr double kGate = kContradictionSigmas * kContradictionSigmas;

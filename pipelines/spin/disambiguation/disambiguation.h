@@ -1,5 +1,5 @@
 /// @file
-/// True or false solution (Wang 2015): which of a revolution's candidates the axis is.
+/// True or false solution (Wang 2015): decides which candidate of a revolution is the axis.
 
 #pragma once
 
@@ -20,27 +20,27 @@
 
 namespace spindrift {
 
-/// What an axis known beforehand says of candidates.
+/// What an axis known beforehand says of the candidates.
 enum class PriorVerdict {
-  Chooses,      ///< One of them.
-  FarFromAll,   ///< By more than three sigmas.
-  NearSeveral,  ///< It does not tell them apart.
+  Chooses,      ///< It chooses one of them.
+  FarFromAll,   ///< All are more than three sigmas away.
+  NearSeveral,  ///< Several are near: it does not tell them apart.
 };
 
-/// Asks in this order, and the first that answers settles it:
-///   GEOMETRY    the measurements themselves tell the candidates apart; not accepted where a
-///               healthy beam that should see the Earth has been silent for five revolutions, or
-///               from the first on;
-///   CONSTRAINT  one candidate only is consistent, gives the chord that each beam saw, and does
-///               not show the Earth to a healthy beam that is silent, five revolutions running;
+/// Decides which candidate is the axis by the first of these tests that answers:
+///   GEOMETRY    the measurements themselves tell the candidates apart; the fix is not accepted
+///               where a healthy beam that should see the Earth has been silent for five
+///               revolutions, or from the first on;
+///   CONSTRAINT  only one candidate is consistent, gives the chord that each beam saw, and does
+///               not show the Earth to a healthy beam silent for five revolutions running;
 ///   PRIOR       one candidate is within three sigmas of the axis that is known already, and nearer
-///               to it than every other by more than a sigma (that of the candidates included);
-///   DISPERSION  one branch of candidates stays where it is while the others drift.
-/// The mission's prior may be false: the dispersion is asked as well, and where it answers it
-/// overrules the prior. What the pass has established is not asked again.
-/// Otherwise the fix is AMBIGUOUS and not accepted. When the dispersion settles, the AMBIGUOUS
-/// fixes of the window are given again; later ones are the candidates that continue that axis, as
-/// long as no other comes near it.
+///               to it than every other by more than a sigma (that of the candidate included);
+///   DISPERSION  one branch of candidates stays in place while the others drift.
+/// The mission's prior may be false: the dispersion is asked as well, and overrules the prior where
+/// it answers. An axis that the pass has established is not tested again. Where no test answers,
+/// the fix is AMBIGUOUS and not accepted. When the dispersion settles the axis, the AMBIGUOUS fixes
+/// of the window are given again; later fixes take the candidate that continues that axis, as long
+/// as no other comes near it.
 class Disambiguator {
  public:
   explicit Disambiguator(const SpinConfig& config);
@@ -53,13 +53,13 @@ class Disambiguator {
                               const SunEarthDirections& sun_earth, const AxisCandidates& candidates,
                               const std::optional<KnownAxis>& established);
 
-  /// The beam that contradicts the last fix by its silence, where geometry left but one axis.
+  /// Returns the beam whose silence contradicts the last fix, where geometry left only one axis.
   std::optional<Side> silent_despite_view() const { return silent_where_seen_; }
 
-  /// On the last candidates that the mission's prior was asked about; empty: it never was.
+  /// Returns what the mission's prior said of the last candidates; empty if it was never asked.
   std::optional<PriorVerdict> prior_verdict() const { return prior_verdict_; }
 
-  /// What the dispersion settled on with the last fix, and by how much; empty: it did not then.
+  /// Returns what the dispersion settled on with the last fix; empty if it settled nothing then.
   const std::optional<StationaryBranch>& newly_stationary() const { return newly_steady_; }
 
  private:
@@ -67,8 +67,8 @@ class Disambiguator {
     std::int64_t revolution;
     TaiTime t;
     AxisCandidates found;
-    std::vector<std::size_t> possible;    ///< Those that break no constraint.
-    std::optional<std::size_t> by_prior;  ///< The one that the mission's prior chooses.
+    std::vector<std::size_t> possible;    ///< Candidates that break no constraint.
+    std::optional<std::size_t> by_prior;  ///< Candidate that the mission's prior chooses.
   };
 
   void note_silence(const RevolutionMeasurements& measured);
@@ -90,14 +90,14 @@ class Disambiguator {
 
   SpinConfig config_;
   std::array<int, 2> silent_revolutions_{};
-  std::array<bool, 2> heard_{};  ///< Ever.
+  std::array<bool, 2> heard_{};  ///< Whether the beam was ever heard.
   std::optional<Side> silent_where_seen_;
   std::optional<PriorVerdict> prior_verdict_;
   Dispersion dispersion_;
   std::optional<StationaryBranch> newly_steady_;
   std::optional<StationaryAxis> steady_;
-  int contradictions_ = 0;       ///< Revolutions running that no candidate continued `steady_`.
-  std::deque<Pending> pending_;  ///< AMBIGUOUS so far, or settled by the mission's prior alone.
+  int contradictions_ = 0;       ///< Revolutions in a row that did not continue `steady_`.
+  std::deque<Pending> pending_;  ///< Fixes AMBIGUOUS so far, or settled by the prior alone.
 };
 
 }  // namespace spindrift

@@ -16,29 +16,29 @@ namespace spindrift {
 namespace {
 
 constexpr double kLevel = 1e-8;
-// Likewise by the likelihood ratio, which sees a slow drift that the F-test spreads over all
-// blocks: the branches come from the same measurements, so that their noise is in both squares and
-// the difference is what the other has drifted. e^30 to one. But where candidates are known so
-// badly, or near-tangent, their curvature would be taken for a drift.
+// Difference of squares for e^30 to one in the likelihood ratio, which sees a slow drift that the
+// F-test spreads over all blocks: the branches come from the same measurements, so their noise is
+// in both squares and the difference is what the other has drifted. But where candidates are known
+// worse than kNearlyLinear_rad, or near-tangent, their curvature would be taken for a drift.
 constexpr double kDecisive = 60.0;
 constexpr double kNearlyLinear_rad = 1.2 * kRadPerDeg;
-// A branch whose scatter is much more than that of its noise does not stay where it is.
+// A branch with more variance than this, in units of its noise, does not stay in place.
 constexpr double kSteadyVariance = 2.5;
 constexpr std::size_t kFewestBlocks = 3;
 constexpr std::size_t kMostBranches = 4;
-// The mean that a branch's next candidate is compared with.
+// Most candidates in the mean that a branch's next candidate is compared with.
 constexpr double kRecent = 8.0;
 // A candidate farther from its branch than this, in squared sigmas, does not continue it.
 constexpr double kGate = 36.0;
-// Ways to link candidates and branches that differ by less cannot be told apart.
+// Ways to link candidates and branches whose costs differ by less cannot be told apart.
 constexpr double kClear = 25.0;
 constexpr int kSkippedInARow = 5;
-// What the errors of the model change by while the geometry turns: the oblate Earth's limb.
+// Share of the model errors that changes as the geometry turns: the oblate Earth's limb.
 constexpr double kModelChange = 0.2;
-// Rounding and what nobody thought of.
+// Floor of the sigma of a candidate, for rounding and errors that no model has.
 constexpr double kFloor_rad = 0.02 * kRadPerDeg;
 
-/// From `from` to `to` along the great circle, in the tangent plane at `from`.
+/// Returns the great-circle offset from `from` to `to`, in the tangent plane at `from`.
 Eigen::Vector2d offset_rad(const Eigen::Vector3d& from, const Eigen::Vector3d& to,
                            const Eigen::Matrix<double, 3, 2>& basis) {
   const Eigen::Vector2d along = basis.transpose() * to;
@@ -96,9 +96,9 @@ std::optional<StationaryBranch> Dispersion::add(std::span<const AxisCandidate> c
   return found;
 }
 
-/// Tries every way to link candidates and branches: there are four of either at most. The true one
-/// stays where it is, so that how far another has gone tells nothing: beyond the gate all cost
-/// alike.
+/// Tries every way to link candidates and branches: there are at most four of either. The true axis
+/// stays in place, so how far another has gone says nothing: all links beyond the gate cost the
+/// same.
 Dispersion::Matching Dispersion::match(std::span<const AxisCandidate> candidates) const {
   const std::size_t size = std::max(candidates.size(), branches_.size());
   std::vector<std::size_t> order(size);
@@ -154,7 +154,7 @@ bool Dispersion::skips(std::span<const AxisCandidate> candidates, const Matching
     return true;
   }
   skipped_ = 0;
-  if (unclear || continued == 0) {  // Crossed, or all have moved.
+  if (unclear || continued == 0) {  // The branches crossed, or all moved.
     branches_.clear();
     block_length_ = 1;
     return true;
@@ -283,7 +283,7 @@ std::optional<StationaryBranch> Dispersion::steady() const {
   if (variance(*least) > kSteadyVariance) {
     return std::nullopt;
   }
-  // A scatter below that of the noise is the model's caution, and nothing to compare with.
+  // A scatter below the noise only shows a cautious noise model, so the noise replaces it.
   const double noise = std::max(variance(*least), 1.0);
   const bool by_likelihood = !unlike_ && nearly_linear();
   double least_ratio = std::numeric_limits<double>::infinity();

@@ -1,6 +1,6 @@
 /// @file
-/// Dispersion test: which of several continuous branches of candidate axes is constant: Sun and
-/// Earth move, the true axis does not.
+/// Dispersion test: finds which of several continuous branches of candidate axes is constant, since
+/// Sun and Earth move and the true axis does not.
 
 #pragma once
 
@@ -25,39 +25,39 @@ struct StationaryAxis {
   double count;
 };
 
-/// A branch that stays where it is, and what says so.
+/// A branch that stays in place, and the evidence for that.
 struct StationaryBranch {
   StationaryAxis axis;
-  /// Of the other branch that comes nearest to it: its variance over that of this one, each in
-  /// units of its noise; this one's is taken to be at least its noise.
+  /// Least ratio of the variance of another branch to that of this one, each in units of its noise;
+  /// that of this branch counts at least as its noise.
   double scatter_ratio;
-  /// Natural logarithm; likewise. Empty: the F-test of the scatters was enough.
+  /// Natural logarithm of the least likelihood ratio. Empty: the F-test of the scatters was enough.
   std::optional<double> log_likelihood_ratio;
 };
 
-/// Follows the candidates of successive revolutions in branches, and sums each branch up in blocks
-/// of as many revolutions as keep their number below the window: however slowly the geometry
-/// turns, it shows in the end.
+/// Follows the candidates of successive revolutions in branches, and sums each branch up in blocks.
+/// Blocks grow so that their number stays below the window, and a slow turn of the geometry shows
+/// too.
 ///
 /// The scatter of a branch's blocks is taken about the best constant axis with constant errors of
 /// the model, normalised by the candidates' own covariances, so that branches of unequal noise
-/// compare. It is steady when its scatter is that of noise, and less than that of every other
-/// branch at a level of 1e-8: with some hundred looks at a pass, a false choice is one in a
-/// million. Or, where the candidates mirror each other and are known well, when its squares are so
-/// much less that it is e^30 times likelier to be constant.
+/// compare. A branch is steady when its scatter is that of noise, and less than that of every other
+/// branch at a level of 1e-8: with some hundred tests in a pass, a false choice is one in a
+/// million. Where the candidates mirror each other and are known well, it is also steady when its
+/// sum of squares is so much less that it is e^30 times likelier to be constant.
 class Dispersion {
  public:
   /// @param window Most blocks that a branch keeps.
   explicit Dispersion(std::size_t window);
 
-  /// One revolution's candidates. Left out where they lie too near each other to say which belongs
-  /// to which branch, or off the branches; when five follow each other like that, the branches have
-  /// crossed, or moved: what is known of them is given up.
+  /// Adds one revolution's candidates. They are left out where it is unclear which belongs to which
+  /// branch, or where they lie off the branches; after five such revolutions in a row the branches
+  /// have crossed, or moved, and are given up.
   /// @return The steady branch, when there is one.
   std::optional<StationaryBranch> add(std::span<const AxisCandidate> candidates);
 
-  /// The candidates are no mirror images, or some are near-tangent and the rest a selection:
-  /// their noise is unlike, and only the F-test decides from here on.
+  /// Notes that the candidates are no mirror images, or some are near-tangent and the rest a
+  /// selection: their noise differs, and only the F-test decides from here on.
   void note_unlike() { unlike_ = true; }
 
  private:
@@ -76,12 +76,12 @@ class Dispersion {
     std::vector<Block> blocks;
     long last_seen;
   };
-  /// By candidate: its branch; empty for one that continues none.
+  /// Branch of each candidate; empty for one that continues none.
   using Links = std::vector<std::optional<std::size_t>>;
   struct Matching {
     Links links;
-    double cost;    ///< Squared distances, in all.
-    double margin;  ///< By which every other way to link them costs more.
+    double cost;    ///< Sum of squared distances.
+    double margin;  ///< Extra cost of the next best links.
   };
   struct Scatter {
     double squares;

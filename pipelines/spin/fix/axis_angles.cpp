@@ -15,15 +15,15 @@ namespace spindrift {
 namespace {
 
 constexpr double kNearTangentSigmas = 3.0;
-// Of the model, whose errors are drawn but once.
+// Sigmas of model errors, which are constant over the pass.
 constexpr double kModelSigmas = 3.0;
-// A chord narrower than so many sigmas is near-tangent: where noise of five sigmas changes its
-// cosine, the second order is a quarter of the first.
+// A chord narrower than this many sigmas is near-tangent: at five sigmas of noise the second-order
+// change of its cosine is a quarter of the first-order change.
 constexpr double kNarrowSigmas = 10.0;
 
-/// Cones that touch within noise and model. Where they miss each other by so little, the roots that
-/// are missing may be the true ones.
-/// @param excess By how much they miss each other; negative where they cross.
+/// Notes cones that touch within noise and model. If they miss each other by so little, the missing
+/// roots may be the true ones.
+/// @param excess Gap between the cones; negative where they cross.
 void note_near_tangent(const Uncertain& excess, AxisSolutions& found) {
   const double noise_sigmas = excess.value() > 0.0 ? kContradictionSigmas : kNearTangentSigmas;
   const bool near_tangent =
@@ -32,8 +32,8 @@ void note_near_tangent(const Uncertain& excess, AxisSolutions& found) {
   found.near_tangent = found.near_tangent || near_tangent;
 }
 
-/// Those in (0, 180) deg, and those outside that noise and model may have put there: opposite to
-/// the Sun, say, where the axis hardly depends on the dihedral, it goes on smoothly.
+/// Returns roots in (0, 180) deg and those that noise and model may have moved outside. Opposite to
+/// the Sun, for example, the axis hardly depends on the dihedral and continues smoothly.
 std::vector<Uncertain> possible_angles(const ConeRootsOf<Uncertain>& roots) {
   std::vector<Uncertain> angles_rad = roots.angles_rad;
   std::copy_if(roots.outside_rad.begin(), roots.outside_rad.end(), std::back_inserter(angles_rad),
@@ -45,7 +45,7 @@ std::vector<Uncertain> possible_angles(const ConeRootsOf<Uncertain>& roots) {
   return angles_rad;
 }
 
-/// theta_e from both chords, which needs no rho; where the beams see the Earth at different
+/// Solves theta_e from both chords, without rho. Where the beams see the Earth at different
 /// half-angles, their chord equations differ by
 ///
 ///     (cos gN - cos gS) cos(theta_e) + b sin(theta_e) = cos(rho_N) - cos(rho_S)
@@ -62,7 +62,7 @@ Uncertain earth_angle_from_both(const FixInput& input) {
   return earth_angle_from_two_chords(north, south) - Uncertain{asin(sine)};
 }
 
-/// The roots of theta_e by the lone chord; where there is none, the reason.
+/// Returns the roots of theta_e from the lone chord; without any it sets the reason.
 std::vector<Uncertain> earth_angles_from_one(const FixInput& input, AxisSolutions& found) {
   const ChordOf<Uncertain>& chord = input.lone_chord();
   const Uncertain a = certain(std::cos(chord.mount_angle_rad));
@@ -83,7 +83,7 @@ std::vector<Uncertain> earth_angles_from_one(const FixInput& input, AxisSolution
   return std::move(roots.angles_rad);
 }
 
-/// How badly a place fits the angle between Sun and Earth.
+/// Returns the misfit of a root to the angle between Sun and Earth.
 Uncertain misfit(const FixInput& input, const AxisAngles& place) {
   const Uncertain along =
       Uncertain{cos(place.sun_angle_rad)} * Uncertain{cos(place.earth_angle_rad)};
@@ -94,9 +94,8 @@ Uncertain misfit(const FixInput& input, const AxisAngles& place) {
   return off.value() < 0.0 ? Uncertain{-off} : off;
 }
 
-/// Not only does one of them fit better: beyond noise and model it does so, and the other does not
-/// fit at all. (Noise that both share drops out of the difference; it may have moved both so far
-/// that the true one fits worse.)
+/// Tests that the better root fits better beyond noise and model and that the other does not fit at
+/// all. Noise that both share drops out of the difference, but may make the true one fit worse.
 bool fits_beyond_doubt(const FixInput& input, const AxisAngles& better, const AxisAngles& worse) {
   const auto beyond_doubt = [](const Uncertain& value) {
     return value.value() > std::hypot(kContradictionSigmas * noise_of(value),
@@ -107,7 +106,7 @@ bool fits_beyond_doubt(const FixInput& input, const AxisAngles& better, const Ax
          beyond_doubt(Uncertain{misfit_of_worse - misfit(input, better)});
 }
 
-/// Cases 2 and 3 with the dihedral.
+/// Input of cases 2 and 3 with the dihedral.
 OneChordInput<Uncertain> one_chord(const FixInput& input) {
   return {.chord = input.lone_chord(),
           .sun_angle_rad = *input.sun_angle,
@@ -143,7 +142,7 @@ void solve_one_chord(const FixInput& input, AxisSolutions& found) {
   }
 }
 
-/// The dihedral withheld: cones about Sun and Earth meet in two axes.
+/// Solves without the dihedral: cones about Sun and Earth meet in two axes.
 void meet(const FixInput& input, const Uncertain& earth_angle_rad, AxisSolutions& found) {
   const Uncertain& sun_angle_rad = *input.sun_angle;
   const Uncertain cosine =
@@ -165,7 +164,7 @@ void meet(const FixInput& input, const Uncertain& earth_angle_rad, AxisSolutions
   found.places.push_back({sun_angle_rad, earth_angle_rad, -dihedral_rad});
 }
 
-/// Cases 4 to 6: theta_s from the dihedral and the angle between Sun and Earth.
+/// Solves cases 4 to 6: theta_s from the dihedral and the angle between Sun and Earth.
 void find_sun_angles(const FixInput& input, const Uncertain& earth_angle_rad,
                      AxisSolutions& found) {
   const Uncertain b = Uncertain{sin(earth_angle_rad)} * Uncertain{cos(*input.dihedral)};
@@ -181,15 +180,15 @@ void find_sun_angles(const FixInput& input, const Uncertain& earth_angle_rad,
   }
 }
 
-/// Case 7 and its like: sun angle and dihedral from their one combination that sun2 gives. The
-/// roots are searched; their derivatives are those of an implicit function.
+/// Solves case 7 and its one-beam variants: sun angle and dihedral from their combination by sun2.
+/// The roots are searched; their derivatives are those of an implicit function.
 void unmix(const FixInput& input, const Uncertain& earth_angle_rad, AxisSolutions& found) {
   const MixedAzimuth mixed{.sensor = input.config.sun_sensor,
                            .azimuth_rad = input.mixed_azimuth->value(),
                            .earth_angle_rad = earth_angle_rad.value(),
                            .sun_earth_rad = input.sun_earth_rad};
   const SlitLags slit = slit_lags(mixed);
-  // Neither angle moves the misfit by more than itself.
+  // Either angle changes the misfit by at most its own change.
   Uncertain miss = certain(slit.nearest_miss);
   miss.derivatives() =
       earth_angle_rad.derivatives().cwiseAbs() + input.mixed_azimuth->derivatives().cwiseAbs();

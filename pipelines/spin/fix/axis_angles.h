@@ -13,27 +13,27 @@
 
 namespace spindrift {
 
-/// An axis by its angles to Sun and Earth and the dihedral between them.
+/// Holds an axis by its angles to Sun and Earth and the dihedral between them.
 struct AxisAngles {
   Uncertain sun_angle_rad;
   Uncertain earth_angle_rad;
   Uncertain dihedral_rad;
-  BeamViews beams = {};  ///< That it was solved with.
+  BeamViews beams = {};  ///< Beam views of the solution.
 };
 
-/// What was found on the way to a solution.
+/// Holds the roots found and their state.
 struct AxisSolutions {
   std::vector<AxisAngles> places;
-  bool told_apart = false;  ///< Only rank() knows.
+  bool told_apart = false;  ///< Set by rank().
   bool near_tangent = false;
-  std::optional<WhyNoFix> reason = {};  ///< Why there is none.
+  std::optional<WhyNoFix> reason = {};  ///< Reason for having no root.
 };
 
-/// With what the beams of `input` are said to see.
-/// @param input With a chord, and an azimuth or a sun angle.
+/// Solves the angles with the beam views of `input`.
+/// @param input Measurements with a chord, and an azimuth or a sun angle.
 AxisSolutions solve_axis_angles(const FixInput& input);
 
-/// Best first, and whether the first is beyond doubt the true one.
+/// Sorts the roots, best first, and tests whether the first is surely the true one.
 void rank(const FixInput& input, AxisSolutions& found);
 
 }  // namespace spindrift

@@ -23,20 +23,20 @@ tl::unexpected<NoCandidates> unobservable(WhyNoFix why) {
   return tl::unexpected{NoCandidates{.why = std::move(why)}};
 }
 
-/// Something that should be zero.
+/// Holds a value that should be zero, and its noise.
 struct Contradiction {
   double value;
   double noise;
 
   bool agrees() const { return std::abs(value) <= kContradictionSigmas * noise + kModelLimit_rad; }
-  /// None where rounding is all that there is.
+  /// Zero when the noise is rounding only.
   double chi_square() const {
     constexpr double kRounding = 1e-12;
     return noise > kRounding ? value * value / (noise * noise) : 0.0;
   }
 };
 
-/// The disc that both chords show, less what the orbit gives; empty: they show none.
+/// Returns the disc that both chords show less that of the orbit; empty if they show none.
 std::optional<Contradiction> disc_contradiction(const FixInput& input, const AxisAngles& place) {
   const Uncertain cosine = cos_disc_seen(*input.north(), place.earth_angle_rad);
   if (!(std::abs(cosine.value()) < 1.0)) {
@@ -49,10 +49,10 @@ std::optional<Contradiction> disc_contradiction(const FixInput& input, const Axi
 
 using Tangent = Eigen::Matrix<double, 2, kEdges + kModelErrors>;
 
-/// What the solution moves by when the axis does from which its beams see the horizon, both in the
-/// tangent plane. A beam that sees the limb farther out, or the chord's middle earlier, is as wrong
-/// as one whose limb or azimuth has that error.
-/// @param tangent What the solution moves by with each source of error, the views as they are.
+/// Returns the motion of the solution per motion of the axis from which its beams see the horizon,
+/// both in the tangent plane. A view with the limb farther out or the chord's middle earlier acts
+/// like a model error of limb or azimuth.
+/// @param tangent Motion of the solution per error source, with fixed views.
 Eigen::Matrix2d moved_by_views(const BeamViews& beams, const Eigen::Matrix<double, 3, 2>& basis,
                                const Tangent& tangent) {
   const auto& [north, south] = beams;
@@ -80,7 +80,7 @@ AxisCandidate candidate_at(const FixInput& input, const AxisAngles& place) {
   const Eigen::Vector3d unit = solved / norm;
   const Eigen::Matrix<double, 3, 2> basis = tangent_basis(unit);
   Tangent tangent = basis.transpose() * shifts / norm;
-  // Another axis sees another limb, and so on: a geometric series.
+  // Another axis sees another limb, which moves the axis again: a geometric series.
   tangent = (Eigen::Matrix2d::Identity() - moved_by_views(place.beams, basis, tangent))
                 .partialPivLu()
                 .solve(tangent)
@@ -110,7 +110,7 @@ NoFixCode cone_code(int geometry_case) {
   }
 }
 
-/// Near a double root, or where nothing fixes a direction, the linear covariance has no meaning.
+/// Near a double root, or in an undetermined direction, the linear covariance has no meaning.
 bool determined(const AxisCandidate& candidate) {
   return candidate.covariance_rad2.trace() < kLeastDetermined_rad * kLeastDetermined_rad;
 }
@@ -124,7 +124,7 @@ int geometry_case_of(const RevolutionMeasurements& measured) {
   };
   const bool north = has(NorthChord);
   const bool south = has(SouthChord);
-  // Both, north, south: in this order of cases.
+  // The cases are ordered by both chords, north only, south only.
   const int which = north && south ? 0 : (north ? 1 : 2);
   if (!north && !south) {
     return has(SunAngle) ? 9 : 0;
@@ -177,7 +177,7 @@ FoundCandidates axis_candidates(const SpinConfig& config, const RevolutionMeasur
   result.told_apart = found.told_apart;
   result.near_tangent = found.near_tangent;
   if (!input.both_chords() && result.geometry_case % 3 == 1) {
-    ++result.geometry_case;  // Both chords, of beams mounted alike: only north's is used.
+    ++result.geometry_case;  // Of two beams mounted alike only north's chord is used.
   }
   return result;
 }

@@ -5,7 +5,7 @@
 namespace spindrift {
 namespace {
 
-/// An azimuth that is the mean of those of the beams that have one.
+/// Adds the azimuth errors of the beams to an azimuth that is their mean.
 Uncertain with_azimuth_errors(Uncertain value, bool north, bool south) {
   const double share = north && south ? 0.5 : 1.0;
   value.derivatives()(kEdges + NorthAzimuth) += north ? share : 0.0;
@@ -13,7 +13,7 @@ Uncertain with_azimuth_errors(Uncertain value, bool north, bool south) {
   return value;
 }
 
-/// An azimuth of the Earth's centre, from one of the chords' middles.
+/// Converts the azimuth of a chord's middle to that of the Earth's centre.
 Uncertain of_centre(const Measured& azimuth, const BeamViews& beams) {
   return uncertain(azimuth) + lead_rad(beams, azimuth.noise_rad);
 }

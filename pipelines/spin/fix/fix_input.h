@@ -1,6 +1,5 @@
 /// @file
-/// What one revolution gives to solve the axis from: its good measurements with all that makes them
-/// uncertain.
+/// The good measurements of one revolution with their error sources, as input for solving the axis.
 
 #pragma once
 
@@ -16,15 +15,15 @@
 
 namespace spindrift {
 
-/// Refers to what it was made of.
+/// Holds references to the objects that it was made from.
 struct FixInput {
   const SpinConfig& config;
   const RevolutionMeasurements& measured;
   const SunEarthDirections& sun_earth;
-  BeamViews beams;  ///< That azimuths are corrected by.
+  BeamViews beams;  ///< Views that correct azimuths.
   double sun_earth_rad;
   std::optional<Uncertain> sun_angle;
-  std::optional<Uncertain> dihedral;  ///< The mean of the two, where both are there.
+  std::optional<Uncertain> dihedral;  ///< Mean of north and south if both exist.
   std::optional<Uncertain> mixed_azimuth;
   std::array<std::optional<ChordOf<Uncertain>>, 2> chords;
 
@@ -32,7 +31,7 @@ struct FixInput {
   const std::optional<ChordOf<Uncertain>>& south() const { return chords[1]; }
   bool both_chords() const { return north() && south(); }
   const ChordOf<Uncertain>& lone_chord() const { return north() ? *north() : *south(); }
-  /// rho, as the beam of the side sees it.
+  /// Half-angle rho of the Earth's disc as the side's beam sees it.
   Uncertain disc_rad(Side side) const {
     return with_model_error(certain(beams.at(index_of(side)).disc_rad),
                             side == Side::North ? NorthLimb : SouthLimb);
@@ -40,7 +39,7 @@ struct FixInput {
   Uncertain lone_disc_rad() const { return disc_rad(north() ? Side::North : Side::South); }
 };
 
-/// Beams whose mounting angles coincide count as one: north.
+/// Beams whose mounting angles coincide count as one, the north beam.
 FixInput fix_input(const SpinConfig& config, const RevolutionMeasurements& measured,
                    const SunEarthDirections& sun_earth, const BeamViews& beams);
 

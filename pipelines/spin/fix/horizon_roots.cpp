@@ -11,10 +11,10 @@
 namespace spindrift {
 namespace {
 
-// Each step leaves a tenth of the last, or less; what comes to rest more slowly is about to vanish.
+// Each step is at most a tenth of the last; a slower root is about to vanish.
 constexpr int kMostSteps = 10;
 constexpr double kAtRest_rad = 1e-8;
-// Roots that come this near to each other are one.
+// Roots closer than this are the same.
 constexpr double kSame_rad = 1e-6;
 
 Eigen::Vector3d axis_of(const SunEarthDirections& sun_earth, const AxisAngles& place) {
@@ -26,7 +26,7 @@ Eigen::Vector3d axis_of(const SunEarthDirections& sun_earth, const AxisAngles& p
       .normalized();
 }
 
-/// The root that `place` becomes, alone or not at all.
+/// Returns the root that `place` converges to, or no root if it vanishes.
 AxisSolutions follow(const FixInput& on_sphere, const AxisAngles& place) {
   const SunEarthDirections& sun_earth = on_sphere.sun_earth;
   Eigen::Vector3d axis_icrf = axis_of(sun_earth, place);

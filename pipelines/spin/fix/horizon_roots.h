@@ -1,5 +1,5 @@
 /// @file
-/// The solutions of a revolution on the mission's horizon, while the Earth moves.
+/// Solves a revolution on the mission's horizon, with the Earth moving.
 
 #pragma once
 
@@ -8,11 +8,10 @@
 
 namespace spindrift {
 
-/// Each root on the sphere at rest is solved again with what the beams see from it, until it
-/// converges: the horizon moves it by a degree or so, and changes little over that; more where
-/// roots come together. A root that vanishes is dropped. The others are ranked: which is the best,
-/// and whether it is beyond doubt the true one.
-/// @param on_sphere Made with views_of_sphere().
+/// Solves each root on the sphere at rest again with the beams' views of the horizon, until it
+/// converges. The horizon moves a root by about a degree and changes little over that; a root near
+/// another one may move more. Roots that vanish are dropped and the rest is ranked (see rank()).
+/// @param on_sphere Input made with views_of_sphere().
 AxisSolutions solve_on_horizon(const FixInput& on_sphere);
 
 }  // namespace spindrift

@@ -11,22 +11,22 @@ namespace spindrift {
 namespace {
 
 constexpr int kMostAngles = 5;
-// A chord that changes by more than so many times what the limb moves is not linear.
+// Slope of a chord with the limb beyond which the chord is not linear.
 constexpr double kSteepest = 10.0;
 
 using Errors = Eigen::Matrix<double, kModelErrors, 1>;
 
-/// How a measured angle moves.
+/// Slopes of a measured angle.
 struct Slope {
-  Eigen::Vector3d by_axis;  ///< In ICRF, across the axis.
+  Eigen::Vector3d by_axis;  ///< Slope in ICRF, across the axis.
   Errors by_errors = Errors::Zero();
 };
 
-/// A direction as the axis sees it.
+/// Holds a direction relative to the axis.
 struct Seen {
   double angle_rad;
-  Eigen::Vector3d towards;  ///< Unit, across the axis.
-  Eigen::Vector3d beside;   ///< Unit, a quarter turn about the axis further.
+  Eigen::Vector3d towards;  ///< Unit vector across the axis.
+  Eigen::Vector3d beside;   ///< Unit vector a quarter turn about the axis further.
 
   Seen(const Eigen::Vector3d& axis, const Eigen::Vector3d& direction)
       : angle_rad{angle_between_rad(axis, direction)} {
@@ -35,7 +35,7 @@ struct Seen {
   }
 };
 
-/// What each edge adds to an angle where it comes a second late, from one standard deviation.
+/// Returns the change of an angle per second that each edge is late, from its noise part.
 Eigen::Matrix<double, 1, kPulseChannels> per_second(const EdgeNoise& noise_rad,
                                                     const PulseNoise& noise) {
   Eigen::Matrix<double, 1, kPulseChannels> slopes;
@@ -54,7 +54,7 @@ class Slopes {
         sun_{axis, sun_earth.sun_icrf},
         earth_{axis, sun_earth.earth_icrf} {}
 
-  /// Empty for what is not linear.
+  /// Returns empty for an angle that is not linear.
   std::optional<Slope> of(SpinQuantity quantity, const Measured& value,
                           double predicted_rad) const {
     using enum SpinQuantity;
@@ -81,7 +81,7 @@ class Slopes {
     return {.by_axis = -sun_.towards, .by_errors = Errors::Unit(SunAngleError)};
   }
 
-  /// The azimuth of each beam whose edges it rests on.
+  /// Averages the azimuth errors of the beams whose edges take part.
   Slope of_dihedral(const EdgeNoise& noise_rad) const {
     const auto rests_on = [&](PulseChannel channel) {
       return noise_rad(static_cast<Eigen::Index>(channel)) != 0.0 ? 1.0 : 0.0;
@@ -94,7 +94,7 @@ class Slopes {
                          (north + south)};
   }
 
-  /// Of what predict_mixed_azimuth_rad() gives: the dihedral less the lag of slit 2.
+  /// Slope of predict_mixed_azimuth_rad(): the dihedral less the lag of slit 2.
   Slope of_mixed_azimuth(const EdgeNoise& noise_rad) const {
     const double tan_cant = std::tan(config_.sun_sensor.slit_cant_rad);
     const double sine = std::sin(sun_.angle_rad);
@@ -106,7 +106,7 @@ class Slopes {
     return slope;
   }
 
-  /// Of what predict_chord_rad() gives; an error makes the disc of the model too large.
+  /// Slope of predict_chord_rad(); a limb error makes the disc of the model too large.
   std::optional<Slope> of_chord(double mount_angle_rad, double chord_rad, ModelError limb) const {
     const double sine = std::sin(earth_.angle_rad);
     const double steepness = 2.0 / (std::sin(mount_angle_rad) * sine * std::sin(0.5 * chord_rad));
@@ -152,7 +152,8 @@ void AngleEquations::add(const SpinConfig& config, const RevolutionMeasurements&
   if (rows == 0) {
     return;
   }
-  // Edges are fewer than what they determine by one, the phase: the covariance has full rank.
+  // One edge fixes the phase, so angles are fewer than their edges and the covariance has full
+  // rank.
   const Eigen::LLT<Eigen::MatrixXd> covariance{noise_rad.topRows(rows) *
                                                noise_rad.topRows(rows).transpose()};
   const auto white_design = covariance.matrixL().solve(design.topRows(rows)).eval();
@@ -176,7 +177,7 @@ AngleEquations& AngleEquations::operator+=(const AngleEquations& other) {
   return *this;
 }
 
-/// What no angle fixes is known to a radian.
+/// Information of the axis with a weak prior of one radian for directions without angles.
 Eigen::Matrix2d AngleEquations::axis_information() const {
   return normal_.topLeftCorner<2, 2>() + Eigen::Matrix2d::Identity();
 }
@@ -187,8 +188,8 @@ Eigen::Vector3d AngleEquations::axis_icrf() const {
       .normalized();
 }
 
-/// Displacements in the plane at the reference into those at the axis, which near a celestial pole
-/// has another east.
+/// Transforms the tangent plane at the reference to that at the axis, as near a celestial pole
+/// their east differs.
 Eigen::Matrix2d AngleEquations::tangent_from_reference() const {
   return tangent_basis(axis_icrf()).transpose() * tangent_basis(reference_icrf_);
 }

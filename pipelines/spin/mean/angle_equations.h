@@ -4,10 +4,10 @@
 ///     r = H x + B b + C c + noise,
 ///
 /// with the residuals r against an axis near the true one, the displacement x of the axis in the
-/// tangent plane, the errors b of the model, the offsets c of the channels' times, and the noise of
-/// the edges that the angles share. The slopes H and B are those at the axis that the angles are
-/// compared with, never at what was measured: what an angle weighs must not depend on its own
-/// noise, or the mean lies to one side.
+/// tangent plane, the model errors b, the offsets c of the channels' times, and the noise of the
+/// edges that the angles share. The slopes H and B are those at the axis that the angles are
+/// compared with, never at measured values: if an angle's weight depended on its own noise, the
+/// mean would be biased.
 
 #pragma once
 
@@ -25,38 +25,38 @@ namespace spindrift {
 
 class AngleEquations {
  public:
-  static constexpr int kUnknowns = 2 + kModelErrors;  ///< x, then b.
+  static constexpr int kUnknowns = 2 + kModelErrors;  ///< The unknowns x, then b.
 
-  /// @param reference_icrf Unit: where x counts from.
+  /// @param reference_icrf Unit vector that x is counted from.
   explicit AngleEquations(Eigen::Vector3d reference_icrf)
       : reference_icrf_{std::move(reference_icrf)} {}
 
-  /// The good angles of one revolution, those left out that are not linear.
-  /// @param axis_icrf Unit; so near the true one that the others are linear in between.
+  /// Adds the good angles of one revolution, except those that are not linear.
+  /// @param axis_icrf Unit vector, so near the true axis that the angles are linear in between.
   void add(const SpinConfig& config, const RevolutionMeasurements& measured,
            const SunEarthDirections& sun_earth, const Eigen::Vector3d& axis_icrf);
 
-  /// @param other Of the same reference, and of other revolutions.
+  /// @param other Equations with the same reference, of other revolutions.
   AngleEquations& operator+=(const AngleEquations& other);
 
-  /// The axis that fits best where the model has no errors. Unit; a direction that no angle fixes
-  /// stays at the reference.
+  /// Returns the best-fitting axis without model errors, as a unit vector. A direction that no
+  /// angle determines stays at the reference.
   Eigen::Vector3d axis_icrf() const;
-  /// In the tangent plane at that axis: east, north. A direction that no angle fixes has a radian.
+  /// Axis covariance in its tangent plane: east, north. An undetermined direction gets one radian.
   Eigen::Matrix2d covariance_rad2() const;
-  /// What the axis scatters by, likewise, where the right sides of its two equations do so by that.
+  /// Returns the covariance of the axis for a covariance of its right-hand sides.
   Eigen::Matrix2d scatter_rad2(const Eigen::Matrix2d& of_right) const;
-  /// What each error of the model moves the axis by, for every radian of it; likewise.
+  /// Returns the axis motion per model error, rad/rad, in the tangent plane.
   Eigen::Matrix<double, 2, kModelErrors> model_shift() const;
 
-  /// What the offset of each channel's times moves the axis by, rad/s; likewise.
+  /// Returns the axis motion per time offset of each channel, rad/s, in the tangent plane.
   Eigen::Matrix<double, 2, kChannelOffsets> offset_shift() const;
 
   /// @name The normal equations of x and b
   /// @{
   const Eigen::Matrix<double, kUnknowns, kUnknowns>& normal() const { return normal_; }
   const Eigen::Matrix<double, kUnknowns, 1>& right() const { return right_; }
-  double squares() const { return squares_; }  ///< Of the residuals against the reference.
+  double squares() const { return squares_; }  ///< Sum of squares against the reference.
   int angles() const { return angles_; }
   const Considered<kUnknowns, kChannelOffsets>& offsets() const { return offsets_; }
   /// @}

@@ -80,7 +80,7 @@ void FixesByCase::begin_at(const Eigen::Vector3d& reference_icrf) {
   closed_.assign(kShares.size(), empty());
 }
 
-/// The stretches of a case that are still open count as one: in a few fixes a share means little.
+/// Merges the open stretches of each case, since the settled share of a few fixes means little.
 std::vector<FixesByCase::Group> FixesByCase::groups() const {
   std::vector<Group> all = closed_;
   for (const auto& [geometry_case, open] : open_) {

@@ -6,7 +6,7 @@
 namespace spindrift {
 namespace {
 
-/// Of a fix: 1/rad^2.
+/// Returns the weight of a fix, 1/rad^2.
 double weight_of(const Eigen::Matrix2d& covariance_rad2) { return 1.0 / covariance_rad2.trace(); }
 
 }  // namespace
@@ -33,7 +33,7 @@ double MeanAxis::excess_scatter() const {
     return 1.0;
   }
   const double scatter = (weight_sum_ - sum_icrf_.squaredNorm() / weight_sum_) / freedom;
-  // A sum of squares, chi-square of at least one degree of freedom for each fix.
+  // The sum of squares is a chi-square with at least one degree of freedom per fix.
   return variance_factor(scatter, freedom);
 }
 

@@ -12,22 +12,22 @@
 namespace spindrift {
 namespace {
 
-// A mean that is known so well (1 deg) is near enough for angles to be linear about it.
+// Angles are linear about a mean that is known to 1 deg.
 constexpr double kLinear_rad = kRadPerDeg;
-// Where a pass of the first fixes moves their mean by less, they are linear about it.
+// The first fixes are linear about their mean when relinearising moves it by less than this.
 constexpr double kConverged_rad = 1e-5;
 constexpr int kMostPasses = 8;
-// Each of these moves the mean.
+// Number of fixes that each trigger a relinearisation.
 constexpr std::size_t kFirstFixes = 8;
-// Where fewer of the fixes that there might be are settled, the mean is that of a selection.
+// Below this settled share the mean is that of a selection.
 constexpr double kMostlySettled = 0.5;
-// Of the squares: fixes that differ by more than wrong noise or model explain are not all true.
+// Ratio of squares beyond which noise and model errors do not explain how far fixes differ.
 constexpr double kScattered = 9.0;
-// Of two that differ nobody knows which is right.
+// Two differing fixes do not show which is right.
 constexpr std::size_t kFewestFixes = 3;
 
-/// The clock's, and what a grid of the times leaves open at both ends of the turns that it rests
-/// on: at least as many as would make the noise of a slit so small in a line through them.
+/// Returns the period error of the clock and of a time grid. The number of turns behind the period
+/// is the least that a line through times with the noise of a slit needs for this sigma.
 double period_sigma_s(const SpinPeriod& period, const PulseNoise& noise) {
   if (noise.grid_s == 0.0) {
     return period.sigma_s;
@@ -63,9 +63,10 @@ bool MeanEstimator::take(const SpinFix& fix) {
   return settled;
 }
 
-/// Revolutions without a root at all are missing besides: next to those that graze hardly any, as
-/// long as one of twenty is settled, and as many where one of a thousand is. As long as nothing
-/// tells branches apart it is not the noise that leaves their fixes open.
+/// Counts a fix as left out because of noise. Revolutions without any root are not counted; beside
+/// the near-tangent ones they are few if one fix in twenty is settled, as many if one in a
+/// thousand. Before the mean begins, ambiguous fixes are open because nothing separates branches,
+/// not by noise.
 void MeanEstimator::leave_out(Kept& kept, const SpinFix& fix) {
   const bool by_noise = fix.near_tangent ? fix.accepted || fix.resolution == Resolution::Ambiguous
                                          : mean_ && fix.resolution == Resolution::Ambiguous;
@@ -107,9 +108,8 @@ void MeanEstimator::add(const Kept& kept, const Eigen::Vector3d& axis_icrf) {
   fixes_.add(kept.geometry_case, kept.stretch, config_, kept.measured, kept.sun_earth, axis_icrf);
 }
 
-/// The first are added about a mean that rests on few. While all are kept, they are linear about
-/// what they have in common; afterwards the mean hardly moves. What does not converge among the
-/// fixes stays linear about their plain average.
+/// Adds all fixes again about their mean while all are kept; later the mean hardly moves. If this
+/// does not converge among the fixes, they stay linearised about the plain average.
 void MeanEstimator::relinearise() {
   const auto settled = std::count_if(kept_.begin(), kept_.end(),
                                      [](const Kept& kept) { return kept.fate == Fate::Settled; });
@@ -153,8 +153,8 @@ Eigen::Vector3d MeanEstimator::axis_icrf() const {
   return agrees_with_average() ? mean_->equations.axis_icrf() : average_.axis_icrf();
 }
 
-/// What may be wrong with a plain average does not average out: it is known as one fix is, and as
-/// well as it agrees with the least squares where these know the axis.
+/// Errors of a plain average do not average out: it is known as well as one fix, and as well as it
+/// agrees with a least-squares axis that is determined.
 Eigen::Matrix2d MeanEstimator::covariance_rad2() const {
   if (agrees_with_average()) {
     return least_squares_covariance_rad2();
@@ -172,13 +172,12 @@ Eigen::Matrix2d MeanEstimator::least_squares_covariance_rad2() const {
   return shown_rad2 + offsets_rad2();
 }
 
-/// What the offsets of the channels' times have moved the least squares by.
 Eigen::Matrix2d MeanEstimator::offsets_rad2() const {
   const Eigen::Matrix<double, 2, kChannelOffsets> shift = mean_->equations.offset_shift();
   return shift * offset_prior_s2(noise_) * shift.transpose();
 }
 
-/// By the residuals; or by the fixes themselves, where these differ and no error of the model
+/// Returns the excess noise of the residuals, or of the fixes where these differ and no model error
 /// explains it.
 double MeanEstimator::excess_noise() const {
   const double scatter = average_.excess_scatter();
@@ -187,13 +186,13 @@ double MeanEstimator::excess_noise() const {
              : verdict_.excess_noise;
 }
 
-/// Mean square of the error of one of the fixes, by what they state and how they scatter.
+/// Returns the mean square error of one fix, from stated covariances and scatter.
 double MeanEstimator::fix_rad2() const {
   return average_.covariance_rad2().trace() * average_.excess_scatter() *
          static_cast<double>(average_.count());
 }
 
-/// Short chords are not linear; without them the angles that are left may not fix an axis.
+/// Short chords are not linear; without them the remaining angles may leave the axis open.
 bool MeanEstimator::less_informative_than_one_fix() const {
   return mean_->equations.covariance_rad2().trace() > fix_rad2();
 }
@@ -202,7 +201,8 @@ double MeanEstimator::distance_from_average_rad() const {
   return angle_between_rad(mean_->equations.axis_icrf(), average_.axis_icrf());
 }
 
-/// Besides noise that averages out, the plain average is off by less than a fix's own.
+/// Tests the distance of least squares and plain average. Besides noise that averages out, the
+/// plain average may be off by the error of one fix.
 bool MeanEstimator::agrees_with_average() const {
   const double noise_rad2 =
       fix_rad2() / static_cast<double>(average_.count()) + least_squares_covariance_rad2().trace();
@@ -231,7 +231,7 @@ SpinEstimate MeanEstimator::estimate(const Revolution& revolution) const {
           .assessment = assess()};
 }
 
-/// Empty where nothing speaks against it but its residuals.
+/// Returns empty if nothing but the residuals may speak against the mean.
 std::optional<Reason> MeanEstimator::doubt() const {
   using enum ReasonCode;
   if (mean_->count < kFewestFixes) {

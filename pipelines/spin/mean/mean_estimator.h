@@ -1,25 +1,25 @@
 /// @file
-/// The estimator `mean`: the mean of the accepted fixes, and how far it is to be believed.
+/// The estimator `mean`: the mean of the accepted fixes and its quality.
 ///
 /// To first order in its measurements, a fix is a displacement from the mean so far, and the mean
-/// of all is the axis that fits their measurements best (angle_equations.h). So each counts by what
-/// its geometry is worth there. Rejected: the mean of the unit vectors, weighted by the covariances
-/// that the fixes state. Both depend on the noise of the fix, in the second order, and do not
-/// average out: where one beam is all there is, it lay up to nine of its sigmas to one side.
+/// of all is the axis that fits their measurements best (angle_equations.h), so that each fix
+/// counts by its geometry. Rejected: the mean of the unit vectors, weighted by the covariances that
+/// the fixes state. Both depend on the noise of the fix in second order, which does not average
+/// out: with only one beam, that mean was biased by up to nine of its sigmas.
 ///
-/// That mean of unit vectors, the plain average, lies among its fixes whatever they are. So it is
-/// where the least squares begin, and what they are held against: where they leave it, or the
-/// angles are not linear and leave the axis open, the plain average stands in for them.
+/// The mean of unit vectors, the plain average, always lies among its fixes. So the least squares
+/// start there and are checked against it; where they leave it, or the angles are not linear and
+/// leave the axis open, the plain average is used instead.
 ///
-/// Its covariance holds the noise of the fixes, what a grid of their times leaves open, what it may
-/// have moved it by that others were left out for their noise (fixes_by_case.h), and what the
-/// residuals show to be wrong with noise and model. Cases that it may move by more than they help
-/// are not in it. Its quality is
-///     OK         all is well, or the model is off within its allowance
-///     CONVERGING likewise, but of too few fixes (convergence.h)
+/// The covariance holds the noise of the fixes, the error of a time grid, the shift by fixes left
+/// out because of their noise (fixes_by_case.h), and the errors of noise and model that the
+/// residuals show. Cases that may shift the mean by more than they help are not in it. The
+/// qualities are
+///     OK         none of the following applies, or the model is off within its allowance
+///     CONVERGING as OK, but from too few fixes (convergence.h)
 ///     DOUBTFUL   the residuals scatter more than their noise, or the model is off by more; or most
-///                fixes like those that it rests on were left out; or it is a plain average, or
-///                of fixes that differ, or of so few that nothing checks them
+///                fixes of its kind were left out; or the mean is a plain average, or of fixes that
+///                differ or are too few to check each other
 ///     LOST       the axis has moved, or the mean was wrong, and no fix has come since
 
 #pragma once
@@ -48,27 +48,28 @@ class MeanEstimator {
   explicit MeanEstimator(SpinConfig config)
       : config_{std::move(config)}, fixes_{static_cast<std::size_t>(config_.screening.window)} {}
 
-  /// The measurements of a revolution, before its fix is taken: a fix may be settled as late as the
-  /// window of screening allows.
+  /// Keeps the measurements of a revolution, since its fix may be settled as late as the window of
+  /// screening allows.
   void keep(std::int64_t revolution, const RevolutionMeasurements& measured,
             const SunEarthDirections& sun_earth);
 
-  /// @return Whether it may be in the mean: it is accepted, does not graze, and is not of before
-  ///         the mean began.
+  /// @return True if the fix may be in the mean: it is accepted, not near-tangent, and not older
+  /// than the mean.
   bool take(const SpinFix& fix);
 
-  /// When the axis has moved, a mean of the whole pass would lie where it never was.
+  /// Restarts the mean when the axis has moved, since old and new fixes would average to neither
+  /// axis.
   void begin_anew(TaiTime t);
 
-  /// Of fixes in the mean; the following need one.
+  /// Number of fixes in the mean; axis and covariances need one.
   std::size_t count() const { return mean_ ? mean_->count : 0; }
   Eigen::Vector3d axis_icrf() const;
-  Eigen::Matrix2d covariance_rad2() const;  ///< In the tangent plane: east, north.
-  /// Likewise, against the question whether the axis has moved: a wrong model moves the mean and
-  /// lets residuals scatter as before; a move does not.
+  Eigen::Matrix2d covariance_rad2() const;  ///< Tangent plane: east, north.
+  /// Covariance for testing whether the axis has moved. Scatter beyond the stated noise, which a
+  /// move causes, does not enlarge it.
   Eigen::Matrix2d covariance_if_moved_rad2() const;
 
-  /// Of the mean, or of that which was given up; there must be one of them.
+  /// Estimate of the mean, or of the one given up; one of them must exist.
   SpinEstimate estimate(const Revolution& revolution) const;
 
  private:
@@ -78,7 +79,7 @@ class MeanEstimator {
     RevolutionMeasurements measured;
     SunEarthDirections sun_earth;
     Fate fate = Fate::Open;
-    int geometry_case = 0;  ///< Of its fix, unless open; likewise the following.
+    int geometry_case = 0;  ///< Geometry case of the fix, unless open.
     std::int64_t stretch = 0;
   };
 
@@ -98,14 +99,14 @@ class MeanEstimator {
   Assessment assess() const;
 
   SpinConfig config_;
-  PulseNoise noise_{config_.noise};  ///< Of the last measurements.
-  std::deque<Kept> kept_;            ///< The last revolutions.
+  PulseNoise noise_{config_.noise};  ///< Noise of the last measurements.
+  std::deque<Kept> kept_;            ///< Last revolutions.
   FixesByCase fixes_;
-  std::size_t settled_ = 0;          ///< So many are in these.
-  std::optional<MeanOfCases> mean_;  ///< The least squares.
-  MeanAxis average_;                 ///< Of the same fixes.
+  std::size_t settled_ = 0;          ///< Number of fixes in `fixes_`.
+  std::optional<MeanOfCases> mean_;  ///< Least-squares mean.
+  MeanAxis average_;                 ///< Plain average of the same fixes.
   ModelTest verdict_;
-  std::optional<TaiTime> began_;  ///< Empty: with the pass.
+  std::optional<TaiTime> began_;  ///< Empty if begun with the pass.
   std::optional<Eigen::Vector3d> abandoned_axis_icrf_;
 };
 

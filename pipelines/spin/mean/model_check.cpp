@@ -21,14 +21,14 @@ using SomeErrorsMatrix = Eigen::MatrixXd;
 using Right = Eigen::Matrix<double, AngleEquations::kUnknowns, 1>;
 using Normal = Eigen::Matrix<double, AngleEquations::kUnknowns, AngleEquations::kUnknowns>;
 
-/// That the errors are not greater than said.
+/// Confidence that the errors do not exceed their upper limit.
 constexpr double kCovered = 0.9;
-// A combination of errors that is known no better than this is not seen.
+// A combination of errors counts as unseen when its sigma exceeds this.
 constexpr double kUnseen_rad = 0.1;
-// The noise is judged by so many angles at most, lest a little more than stated be called wrong.
+// Caps the angles for the noise test, so that noise slightly above the stated is not called wrong.
 constexpr double kNoiseAngles = 300.0;
 
-/// Of chi-square, by the number of errors that are seen.
+/// Limits of the chi-square by the number of seen errors.
 using Limits = std::array<double, kModelErrors + 1>;
 Limits limits_beyond(double chance) {
   Limits limits{};
@@ -40,8 +40,8 @@ Limits limits_beyond(double chance) {
 const Limits kLeast = limits_beyond(kCovered);
 const Limits kSignificant = limits_beyond(kFalseAlarm);
 
-/// Some of the errors, the axis eliminated and the others zero, along the axes of their
-/// information.
+/// Holds some of the errors in the eigenvectors of their information, with the axis eliminated and
+/// the other errors zero.
 class Spectrum {
  public:
   Spectrum(const SomeErrorsMatrix& information, const SomeErrors& score, double noise)
@@ -51,7 +51,7 @@ class Spectrum {
 
   std::size_t freedom() const { return static_cast<std::size_t>(seen().count()); }
 
-  /// Where each error has this variance besides the noise.
+  /// Returns the chi-square if each error has this variance besides the noise.
   double chi_square(double error_rad2) const {
     const auto& informations = information_.values.array();
     return seen()
@@ -60,7 +60,7 @@ class Spectrum {
         .sum();
   }
 
-  /// The greatest variance of the errors that is not unlikely.
+  /// Returns the largest error variance that is not unlikely.
   double upper_end_rad2() const {
     const double least = kLeast.at(freedom());
     double low_rad = 0.0;
@@ -72,7 +72,7 @@ class Spectrum {
     return high_rad * high_rad;
   }
 
-  /// Mean products of errors that had this variance before they were seen.
+  /// Returns the mean products of the errors, given this variance as their prior.
   SomeErrorsMatrix mean_products_rad2(double error_rad2) const {
     const SomeErrors gain = gain_rad2(error_rad2);
     const SomeErrors seen_rad = gain.cwiseProduct(scores_);
@@ -81,7 +81,7 @@ class Spectrum {
            information_.vectors.transpose();
   }
 
-  /// How much less the chi-square of the pass is with such errors than with none.
+  /// Returns the reduction of the pass's chi-square by such errors.
   double explained(double error_rad2) const {
     const SomeErrors seen_rad = gain_rad2(error_rad2).cwiseProduct(scores_);
     return (2.0 * seen_rad.dot(scores_) -
@@ -104,8 +104,8 @@ class Spectrum {
   SomeErrors scores_;
 };
 
-/// What may be wrong together: one thing in the mission file, both mounting angles or the height of
-/// the horizon, the azimuth of the sun sensor; or everything.
+/// Sets of errors with one cause: one value in the mission file, both mounting angles or the
+/// horizon height, the azimuth of the sun sensor, or everything.
 const std::array<std::vector<int>, 8> kMistakes = {
     {{NorthLimb},
      {SouthLimb},
@@ -116,9 +116,9 @@ const std::array<std::vector<int>, 8> kMistakes = {
      {NorthAzimuth, SouthAzimuth},
      {NorthLimb, SouthLimb, SunAngleError, NorthAzimuth, SouthAzimuth}}};
 
-/// Mean products of the errors over all mistakes, each as likely as it explains the residuals. An
-/// error of which little is seen, as it moves the axis instead, is so found in its whole size where
-/// nothing else explains what is seen of it.
+/// Averages the error products over all mistakes, weighted by how well each explains the residuals.
+/// An error that is hardly seen because it moves the axis is found in full size if nothing else
+/// explains its seen part.
 void explain(const ErrorMatrix& information, const Errors& score, ModelTest& verdict) {
   struct Explanation {
     double log_weight;
@@ -131,7 +131,7 @@ void explain(const ErrorMatrix& information, const Errors& score, ModelTest& ver
       const double error_rad2 = spectrum.upper_end_rad2();
       ErrorMatrix errors_rad2 = ErrorMatrix::Zero();
       errors_rad2(mistake, mistake) = spectrum.mean_products_rad2(error_rad2);
-      // By Akaike: a parameter must explain more than its own noise does.
+      // Akaike's criterion: a parameter must explain more than its own noise does.
       explanations.push_back(
           {.log_weight = 0.5 * spectrum.explained(error_rad2) - static_cast<double>(mistake.size()),
            .errors_rad2 = errors_rad2});
@@ -152,7 +152,7 @@ void explain(const ErrorMatrix& information, const Errors& score, ModelTest& ver
 }
 
 double excess_noise(const AngleEquations& equations) {
-  // What no angle fixes stays where it is.
+  // The unit prior keeps undetermined directions in place.
   const auto normal = (equations.normal() + Normal::Identity()).eval();
   const double fitted = equations.right().dot(normal.ldlt().solve(equations.right()));
   const double freedom = equations.angles() - AngleEquations::kUnknowns;

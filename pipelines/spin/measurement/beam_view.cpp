@@ -10,7 +10,7 @@
 namespace spindrift {
 namespace {
 
-/// The Earth of the mission about one axis.
+/// Models the mission's Earth as seen about one axis.
 class Earth {
  public:
   Earth(const Horizon& horizon, const SunEarthDirections& sun_earth,
@@ -38,7 +38,7 @@ class Earth {
             .pole_spin = R_icrf_spin_.transpose() * sightlines_.earth_pole_icrf};
   }
 
-  /// Empty: it misses the Earth, or is near-tangent to its limb.
+  /// Returns empty when the beam misses the Earth, or is near-tangent to its limb.
   std::optional<BeamView> crossed_by(double mount_angle_rad, const EarthCrossing& crossing) const {
     const auto in = limb_crossing(axes_, at(crossing.t_in), mount_angle_rad, Crossing::In);
     const auto out = limb_crossing(axes_, at(crossing.t_out), mount_angle_rad, Crossing::Out);
@@ -51,7 +51,7 @@ class Earth {
     const double behind_rad = wrapped_rad(out->azimuth_rad - centre_rad);
     const Chord chord{.mount_angle_rad = mount_angle_rad, .chord_rad = before_rad + behind_rad};
     const double disc_rad = std::acos(cos_disc_seen(chord, earth_angle_rad()));
-    // Of the azimuths of chord's ends and Earth's centre, by rotations of the frame.
+    // Slopes by rotations of the frame: azimuths of the chord's ends and of the Earth's centre.
     const Eigen::Vector3d chord_slope = out->azimuth_per_rotation - in->azimuth_per_rotation;
     const Eigen::Vector3d middle_slope =
         0.5 * (in->azimuth_per_rotation + out->azimuth_per_rotation);
@@ -66,13 +66,14 @@ class Earth {
         .chord_rad = chord.chord_rad};
   }
 
-  /// A rotation about the first axis of the frame moves the third against the second, one about the
-  /// second moves it along the first.
+  /// Converts slopes by rotation: about the first axis of the frame a rotation moves the third
+  /// against the second; about the second it moves it along the first.
   Eigen::Vector3d by_step_icrf(const Eigen::Vector3d& by_rotation) const {
     return R_icrf_spin_.col(0) * by_rotation.y() - R_icrf_spin_.col(1) * by_rotation.x();
   }
 
-  /// Of the half-angle of the sphere that has the chord, where chord and earth angle change.
+  /// Returns the slope of the half-angle of the sphere that has the chord, from chord and earth
+  /// angle.
   Eigen::Vector3d disc_slope_icrf(const Chord& chord, double disc_rad,
                                   const Eigen::Vector3d& chord_slope_icrf) const {
     const double earth_rad = earth_angle_rad();
@@ -86,8 +87,9 @@ class Earth {
     return -(by_chord * chord_slope_icrf + by_earth * earth_slope_icrf) / std::sin(disc_rad);
   }
 
-  /// Of the beam that has the measured chord from here, between one that misses and the Earth's
-  /// centre: an axis that the beam itself is as deep from is found with its sphere.
+  /// Returns the view of the beam that has the measured chord from this axis, between one that
+  /// misses and the Earth's centre. Its sphere leads to an axis from which the actual beam is as
+  /// deep.
   BeamView beside(double mount_angle_rad, const EarthCrossing& crossing) const {
     constexpr int kHalvings = 40;
     const double chord_rad = crossing.chord ? crossing.chord->value_rad : 0.0;

@@ -9,7 +9,7 @@
 namespace spindrift {
 namespace {
 
-/// The measurements that an edge of a channel goes into.
+/// Returns whether the quantity rests on edges of the channel.
 bool uses(SpinQuantity quantity, PulseChannel channel) {
   using enum SpinQuantity;
   switch (channel) {
@@ -27,7 +27,7 @@ bool uses(SpinQuantity quantity, PulseChannel channel) {
   return false;
 }
 
-/// The other edge of the pair, and the measurement that the two make by themselves.
+/// Holds the partner of an edge and the measurement that both make together.
 struct Pair {
   PulseChannel partner;
   SpinQuantity quantity;
@@ -45,8 +45,8 @@ Pair pair_of(PulseChannel channel) {
   return kPairs.at(index_of(channel));
 }
 
-/// The pair is there and means nothing. Of the Sun's it is the second slit that is doubted: sun1
-/// passed the period test.
+/// Returns whether the pair exists but gives no measurement. Of the sun slits only slit 2 is
+/// doubted, because sun1 passed the period test.
 bool means_nothing(const Revolution& revolution, PulseChannel channel,
                    const std::vector<Verdict>& verdicts) {
   const Pair pair = pair_of(channel);
@@ -66,14 +66,14 @@ std::optional<Rejection> rejection(const SpinConfig& config, const Revolution& r
   if (means_nothing(revolution, channel, verdicts)) {
     return Rejection::Geometry;
   }
-  // Of an edge that no measurement is left of, others of its revolution tell.
+  // An edge without remaining measurement lacks an orbit if others of its revolution do.
   const auto of_no_orbit = [](const Verdict& v) { return v.rejected_by == Rejection::NoOrbit; };
   if (std::any_of(verdicts.begin(), verdicts.end(), of_no_orbit)) {
     return Rejection::NoOrbit;
   }
   std::optional<Rejection> first;
   for (const Verdict& verdict : verdicts) {
-    // A measurement that another edge has spoilt says nothing about this one.
+    // A measurement that another edge has spoilt does not test this one.
     if (!uses(verdict.quantity, channel) || verdict.rejected_by == Rejection::Phase ||
         verdict.rejected_by == Rejection::Interference) {
       continue;

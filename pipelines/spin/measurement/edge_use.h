@@ -1,5 +1,5 @@
 /// @file
-/// What became of every edge of a revolution.
+/// Decides which edges of a revolution are accepted.
 
 #pragma once
 
@@ -12,18 +12,18 @@
 
 namespace spindrift {
 
-/// What became of one measurement of the revolution.
+/// Holds the test result of one measurement of the revolution.
 struct Verdict {
   SpinQuantity quantity;
-  std::optional<Rejection> rejected_by;  ///< Empty: accepted.
+  std::optional<Rejection> rejected_by;  ///< Empty if accepted.
 };
 
-/// Whether the spacecraft has the sensor that the channel is of.
+/// Returns whether the spacecraft has the sensor of the channel.
 bool has_sensor(const SpinConfig& config, PulseChannel channel);
 
-/// An edge is accepted unless it lies off its channel's phase, the mission has no such sensor, no
-/// orbit covers it, or every measurement that it went into failed its own test. One whose partner
-/// is missing is accepted: the sequential estimator uses it.
+/// Accepts an edge unless it lies off its channel's phase, the mission has no such sensor, no orbit
+/// covers it, or every measurement that it went into failed its own test. An edge without a partner
+/// is accepted, because the sequential estimator uses it.
 std::vector<PulseUse> edge_uses(const SpinConfig& config, const Revolution& revolution,
                                 const std::vector<Verdict>& verdicts);
 

@@ -16,7 +16,7 @@ Measured measured_from(double value_rad, const EdgeNoise& noise_rad) {
   return {.value_rad = value_rad, .sigma_rad = noise_rad.norm(), .noise_rad = noise_rad};
 }
 
-/// The same value, its noise increased by what the period leaves uncertain of an angle turned.
+/// Adds the noise that the period's uncertainty causes in an angle turned.
 Measured with_period_noise(Measured measured, const SpinPeriod& period, double turned_rad) {
   const double period_rad = std::abs(turned_rad) * period.sigma_s / period.period_s;
   measured.noise_rad *= std::hypot(1.0, period_rad / measured.sigma_rad);
@@ -24,7 +24,7 @@ Measured with_period_noise(Measured measured, const SpinPeriod& period, double t
   return measured;
 }
 
-/// Why what rests on these edges is not to be used.
+/// Returns the first rejection among these edges.
 std::optional<Rejection> rejection_of(const Revolution& revolution,
                                       std::initializer_list<PulseChannel> edges) {
   for (const PulseChannel channel : edges) {
@@ -35,8 +35,8 @@ std::optional<Rejection> rejection_of(const Revolution& revolution,
   return std::nullopt;
 }
 
-/// Azimuth of a crossing's middle behind a sun slit's pulse, less that of the beam. The revolution
-/// has all three edges.
+/// Returns the azimuth of a crossing's middle behind a sun slit's pulse, less that of the beam. The
+/// revolution must have all three edges.
 Measured azimuth_behind(PulseChannel slit, Side side, const Revolution& revolution,
                         const SpinConfig& config) {
   const TaiTime t_slit = *revolution.edge(slit);
@@ -85,7 +85,7 @@ std::optional<EarthCrossing> crossing_of(const SpinConfig& config, const Revolut
   return crossing;
 }
 
-/// The sensors whose crossing may be used; where there is none, those that have one at all.
+/// Returns the sensors with a usable crossing, or if there is none, those with any crossing.
 std::vector<Side> sides_to_use(const RevolutionMeasurements& measured) {
   std::vector<Side> good;
   std::vector<Side> all;
@@ -117,7 +117,7 @@ std::optional<Measured> mixed_azimuth_of(const SpinConfig& config, const Revolut
   return mean;
 }
 
-/// Where a quantity is kept; null where it is not.
+/// Returns the member that holds a quantity; null if there is none.
 template <class Measurements>
 auto slot_of(Measurements& measured, SpinQuantity quantity) -> decltype(&measured.sun_angle) {
   if (quantity == SpinQuantity::SunAngle) {

@@ -12,8 +12,8 @@ namespace {
 constexpr int kSteps = 180;
 constexpr int kHalvings = 50;
 
-/// cos(theta_s)cos(theta_e) + sin(theta_s)sin(theta_e)cos(lambda) - cos(theta_se), which vanishes
-/// at the solution, and its partial derivatives.
+/// Holds cos(theta_s)cos(theta_e) + sin(theta_s)sin(theta_e)cos(lambda) - cos(theta_se), which
+/// vanishes at the solution, and its partial derivatives.
 struct Misfit {
   double value;
   double by_lag;
@@ -71,7 +71,7 @@ SlitLags slit_lags(const MixedAzimuth& mixed) {
   for (int step = 1; step <= kSteps; ++step) {
     const double now = misfit_at(mixed, lag_at(step)).value;
     const double slope = now - before;
-    if (slope * slope_before < 0.0) {  // It turns here, between two lags or short of a pair.
+    if (slope * slope_before < 0.0) {  // An extremum, between two lags or near a missing pair.
       found.nearest_miss = std::min(found.nearest_miss, std::abs(before));
     }
     if ((before < 0.0) != (now < 0.0)) {

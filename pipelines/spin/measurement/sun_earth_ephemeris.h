@@ -1,5 +1,5 @@
 /// @file
-/// Where Sun and Earth stand about the spacecraft, at the times that the pipeline asks for.
+/// Directions of Sun and Earth from the spacecraft, at the times that the pipeline asks for.
 
 #pragma once
 
@@ -18,12 +18,12 @@ class SunEarthEphemeris {
   SunEarthEphemeris(Orbit orbit, double co2_altitude_km)
       : orbit_{std::move(orbit)}, co2_altitude_km_{co2_altitude_km} {}
 
-  /// For the measurements of one revolution: the Sun at sun1, the Earth half way between the
+  /// Returns the directions for one revolution: the Sun at sun1, the Earth half way between the
   /// chords; without sun1 or chords, at `t`.
   /// @return NoCoverage where the orbit does not reach; Unobservable below the horizon's height.
   Expected<SunEarthDirections> sun_earth(const RevolutionMeasurements& measured, TaiTime t);
 
-  /// @return As `sightlines`.
+  /// @return NoCoverage where the orbit does not reach.
   Expected<Sky> sky(TaiTime t);
 
  private:

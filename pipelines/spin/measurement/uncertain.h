@@ -1,5 +1,5 @@
 /// @file
-/// An angle, or a function of angles, with its derivatives to the sources of its error.
+/// An angle, or a function of angles, with its derivatives by the error sources.
 
 #pragma once
 
@@ -14,14 +14,14 @@ namespace spindrift {
 
 inline constexpr int kEdges = static_cast<int>(kPulseChannels);
 
-/// Derivatives to each edge for one standard deviation of its time, then to each error of the model
-/// for a radian of it.
+/// Number with derivatives, first per standard deviation of each edge's time, then per radian of
+/// each model error.
 using Uncertain = Eigen::AutoDiffScalar<Eigen::Matrix<double, kEdges + kModelErrors, 1>>;
 
-/// One standard deviation of what the noise of the edges makes of it.
+/// Returns the standard deviation from the noise of the edges.
 inline double noise_of(const Uncertain& value) { return value.derivatives().head<kEdges>().norm(); }
 
-/// One standard deviation of what the errors of the model make of it.
+/// Returns the standard deviation from the model errors.
 inline double model_uncertainty_of(const Uncertain& value) {
   return value.derivatives().tail<kModelErrors>().norm() * kModelError_rad;
 }

@@ -17,29 +17,29 @@
 namespace spindrift {
 namespace {
 
-// In chi-square: a thousand times as likely.
+// Chi-square difference of a likelihood ratio of a thousand.
 constexpr double kMuchLikelier = 13.8;
 constexpr double kFewestTurns = 20.0;
-// The spectrum's memory goes by it: 2 GiB.
+// Limits the spectrum's memory to 2 GiB.
 constexpr double kMostTurns = 4e6;
-// A spectral line is a turn wide over the pass.
+// Convergence limit in spectral lines; a line is one cycle wide over the pass.
 constexpr double kConverged_lines = 1e-6;
 constexpr int kMostSteps = 8;
-// What is left of a pattern without its slow changes, at least.
+// Minimum share of a pattern that must remain without its slow changes.
 constexpr double kLeastShare = 1e-6;
 
-/// Twice the largest turn, ahead or behind the middle.
+/// Returns the span as twice the largest distance from the middle.
 double span_turns(const TiltSignal& signal) { return 2.0 * signal.turns().cwiseAbs().maxCoeff(); }
 
-/// A tilt g (1 + growth x / half a span) that goes round.
+/// Holds a rotating tilt g (1 + growth x / half a span).
 struct Fit {
   double per_turn;
-  Eigen::Vector4d tilt;  ///< g, then g times the growth: real, imaginary.
+  Eigen::Vector4d tilt;  ///< Real and imaginary part of g, then of g times the growth.
   Eigen::Matrix4d covariance;
   Eigen::VectorXd rest;
 
   std::complex<double> g() const { return {tilt[0], tilt[1]}; }
-  /// Imaginary: radians that the tilt goes ahead in half a span.
+  /// Relative growth over half a span; its imaginary part is the phase advance in radians.
   std::complex<double> growth() const { return std::complex{tilt[2], tilt[3]} / g(); }
 };
 
@@ -57,13 +57,13 @@ Fit fitted(const TiltSignal& signal, double per_turn) {
           .rest = signal.off() - columns * tilt};
 }
 
-/// To the top of the line that `per_turn` is on.
+/// Climbs to the top of the spectral line that contains `per_turn`.
 Fit climbed(const TiltSignal& signal, double per_turn) {
   Fit fit = fitted(signal, per_turn);
   const double line = 1.0 / span_turns(signal);
   for (int step = 0; step < kMostSteps; ++step) {
     const double lines = 2.0 * fit.growth().imag() / kTurn_rad;
-    // Written so that NaN, of no tilt at all, ends it.
+    // The negated comparison also ends the loop for NaN, which a zero tilt gives.
     if (!(std::abs(lines) > kConverged_lines)) {
       break;
     }
@@ -72,7 +72,7 @@ Fit climbed(const TiltSignal& signal, double per_turn) {
   return fit;
 }
 
-/// By how much a tilt that goes round so often explains the residuals.
+/// Returns the chi-square that a tilt with this frequency explains.
 double chi_square(const TiltSignal& signal, double per_turn) {
   Eigen::MatrixX2d columns = signal.pattern(per_turn);
   const double whole = columns.squaredNorm();
@@ -87,7 +87,7 @@ double chi_square(const TiltSignal& signal, double per_turn) {
                                                        : 0.0;
 }
 
-/// The same to a sensor that looks once a turn; a line apart, lest it be itself.
+/// Returns the aliases for a sensor that looks once a turn, at least a line away from `per_turn`.
 std::vector<double> aliases_of(double per_turn, double line) {
   std::vector<double> aliases;
   for (const double sense : {1.0, -1.0}) {
@@ -104,7 +104,7 @@ std::vector<double> aliases_of(double per_turn, double line) {
 struct Choice {
   double per_turn;
   double chi_square;
-  std::vector<double> others;  ///< That explain the residuals all but as well.
+  std::vector<double> others;  ///< Others that explain the residuals nearly as well.
 };
 
 Choice likeliest(const TiltSignal& signal, double per_turn) {
@@ -124,19 +124,19 @@ Choice likeliest(const TiltSignal& signal, double per_turn) {
   return best;
 }
 
-/// W.
+/// Returns W of the false-alarm formula.
 double width_of(const TiltSignal& signal) {
   const double variance = (signal.turns().array() - signal.turns().mean()).square().mean();
   return kFastestPerTurn * std::sqrt(4.0 * std::numbers::pi * variance);
 }
 
-/// The bound has a meaning from its greatest value on, at a half.
+/// The bound holds beyond its maximum, which is at z = 1/2.
 double false_alarm_of(double width, double chi_square) {
   const double z = std::max(0.5, 0.5 * chi_square);
   return std::min(1.0, width * std::sqrt(z) * std::exp(-z));
 }
 
-/// The z that noise exceeds in as many passes as kFalseAlarm says.
+/// Returns the z that noise exceeds with the probability kFalseAlarm.
 double threshold_of(double width) {
   constexpr int kSteps = 20;
   double z = 10.0;

@@ -14,12 +14,12 @@
 namespace spindrift {
 namespace {
 
-// Sun and Earth turn by a parabola in this time, even on low orbits.
+// Within this time Sun and Earth move like a parabola, even on low orbits.
 constexpr double kStretch_s = 600.0;
 constexpr int kSlowUnknowns = 4;
-// Fewer say little beside their own parabola.
+// Fewer edges carry little beside their own parabola.
 constexpr std::size_t kFewestEdges = 12;
-// Residuals without any noise are no reason to trust them without bound.
+// Residuals without noise still get a finite weight.
 constexpr double kLeastScatter = 1e-3;
 
 using Residuals = std::vector<const UniformSpinResidual*>;
@@ -37,7 +37,7 @@ Residuals by_channel_and_time(std::span<const UniformSpinResidual> residuals) {
 
 using Edges = std::span<const UniformSpinResidual* const>;
 
-/// Each of one channel and a part of its time.
+/// Returns the stretches, each with one channel and one part of its time.
 std::vector<Edges> stretches_of(const Residuals& sorted) {
   std::vector<Edges> stretches;
   for (auto first = sorted.begin(); first != sorted.end();) {
@@ -67,8 +67,8 @@ std::vector<Edges> stretches_of(const Residuals& sorted) {
   return stretches;
 }
 
-/// An orthonormal basis of whitened parabolas and of what errors of the model do; where the latter
-/// are like the former, of any direction besides.
+/// Returns an orthonormal basis of whitened parabolas and the effect of model errors. If that
+/// effect resembles a parabola, an arbitrary direction takes its place.
 Eigen::MatrixX4d parabolas(Edges stretch) {
   const double begin_s = stretch.front()->t_s;
   const double half_s = std::max(0.5 * (stretch.back()->t_s - begin_s), 1e-9);

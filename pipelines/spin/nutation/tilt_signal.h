@@ -1,23 +1,23 @@
 /// @file
-/// The edges of a pass as measurements of a small tilt that turns.
+/// Treats the edges of a pass as measurements of a small rotating tilt.
 ///
 /// The body, tipped in the frame `spin` by a small rotation (e_x, e_y), gives an edge at the
 /// azimuth
 ///
 ///     off = s_x e_x + s_y e_y,    s = PredictedEdge::phase_per_rotation
 ///
-/// Free nutation of an axisymmetric body is a rotation of constant size whose direction goes round
-/// evenly, e_x + i e_y = g exp(2 pi i n x), with x the turns of the body and n times in each of
-/// them. To first order it has no part about the spin axis, so that the phase is not modulated
-/// besides: that the period seems to vary is the work of the slopes s. So
+/// Free nutation of an axisymmetric body is a rotation of constant size whose direction turns
+/// uniformly, e_x + i e_y = g exp(2 pi i n x), with x the turns of the body and n cycles per turn.
+/// To first order it has no part about the spin axis and does not modulate the phase: the period
+/// seems to vary only through the slopes s. So
 ///
 ///     off = Re(conj(S) g exp(2 pi i n x)) = Re(g) Re(q) + Im(g) Im(q),
 ///     q = S exp(-2 pi i n x),    S = s_x + i s_y
 ///
-/// Whatever changes slowly in a channel (axis, phase, rate and its drift, misplaced sensors, the
-/// shape of the Earth) is a parabola of its own in each stretch of ten minutes, and a share of what
-/// an error of the model does (which grows without bound where a chord vanishes). It is taken out:
-/// of the residuals and of what is fitted to them.
+/// Slow changes in a channel (axis, phase, rate and its drift, misplaced sensors, the shape of the
+/// Earth) are modelled, per stretch of ten minutes, by a parabola and a share of the effect of a
+/// model error (which grows without bound where a chord vanishes). They are taken out of the
+/// residuals and of the functions fitted to them.
 
 #pragma once
 
@@ -29,33 +29,33 @@
 
 namespace spindrift {
 
-/// In units of standard deviations, by channel and time. Short stretches are left out.
+/// Holds the residuals in standard deviations, by channel and time, without short stretches.
 class TiltSignal {
  public:
-  /// @param residuals In any order; finite, sigma above 0.
+  /// @param residuals Residuals in any order; all finite, sigma above 0.
   explicit TiltSignal(std::span<const UniformSpinResidual> residuals);
 
   Eigen::Index edges() const { return turns_.size(); }
-  /// x, behind the middle of the pass.
+  /// Turns x counted from the middle of the pass.
   const Eigen::VectorXd& turns() const { return turns_; }
   double middle_s() const { return middle_s_; }
-  double spin_period_s() const { return spin_period_s_; }         ///< On average.
-  const Eigen::VectorXd& off() const { return off_; }             ///< Less its slow changes.
-  const Eigen::VectorXcd& per_tilt() const { return per_tilt_; }  ///< S.
-  /// Edges less the unknowns of their slow changes.
+  double spin_period_s() const { return spin_period_s_; }  ///< Mean spin period.
+  const Eigen::VectorXd& off() const { return off_; }      ///< Residuals without slow changes.
+  const Eigen::VectorXcd& per_tilt() const { return per_tilt_; }  ///< Slopes S.
+  /// Returns the number of edges less the unknowns of their slow changes.
   double freedom() const;
-  /// Of the longest stretch.
+  /// Turns in the longest stretch.
   double turns_in_stretch() const { return turns_in_stretch_; }
 
-  /// Columns Re(q) and Im(q), with their slow changes.
-  /// @param per_turn n.
+  /// Returns the columns Re(q) and Im(q), including their slow changes.
+  /// @param per_turn Cycles n of the tilt in a turn.
   Eigen::MatrixX2d pattern(double per_turn) const;
 
-  /// Takes the slow changes out of each column.
+  /// Removes the slow changes from each column.
   void take_out_slow_changes(Eigen::Ref<Eigen::MatrixXd> columns) const;
 
-  /// Weighs each channel by how far its edges really scatter.
-  /// @param rest What a fit leaves of `off()`.
+  /// Reweights each channel by its observed scatter.
+  /// @param rest Residuals of a fit to `off()`.
   void weigh_by(const Eigen::VectorXd& rest);
 
  private:
@@ -76,7 +76,7 @@ class TiltSignal {
   Eigen::VectorXd turns_;
   Eigen::VectorXd off_;
   Eigen::VectorXcd per_tilt_;
-  Eigen::MatrixX4d slow_;  ///< Of each stretch, orthonormal.
+  Eigen::MatrixX4d slow_;  ///< Orthonormal basis of each stretch.
   std::vector<Stretch> stretches_;
 };
 

@@ -10,9 +10,9 @@ namespace spindrift {
 namespace {
 
 constexpr double kPointsPerTurn = 8.0;
-// Points of the spectrum where the length of the pass resolves one; at least.
+// Points of the spectrum per resolved frequency, at least.
 constexpr double kFineness = 2.0;
-// What the parabolas leave of slow changes goes up and down so often in a stretch.
+// Residual oscillations per stretch that parabolas leave of slow changes.
 constexpr double kSlowest = 3.0;
 
 using Points = std::vector<std::complex<double>>;
@@ -25,7 +25,7 @@ std::size_t power_of_two_from(double size) {
   return power;
 }
 
-/// Each edge shared between the two points of the grid that it lies between.
+/// Divides each edge between the two grid points beside it.
 Points spread(const TiltSignal& signal) {
   const double first = signal.turns().minCoeff();
   const double span = signal.turns().maxCoeff() - first;
@@ -41,7 +41,7 @@ Points spread(const TiltSignal& signal) {
   return points;
 }
 
-/// Sharing between points has weakened fast oscillations by the square of sin(a)/a.
+/// Corrects for the division between points, which weakens fast oscillations by (sin(a)/a)^2.
 double strengthened(double power, double per_turn) {
   const double a = std::numbers::pi * per_turn / kPointsPerTurn;
   return power * std::pow(a / std::sin(a), 4);

@@ -8,15 +8,15 @@
 
 namespace spindrift {
 
-/// Of a good edge, in the frame `spin` (edge_prediction.h), the steady solution's axis its third.
+/// Residual of a good edge, in the frame `spin` (edge_prediction.h) about the uniform-spin axis.
 struct UniformSpinResidual {
   PulseChannel channel;
-  double t_s;  ///< From any epoch.
-  /// Azimuth of slit 1 at which the edge was expected, counted on from turn to turn: phase_rad / 2
-  /// pi. Not that at t_s, whose noise is the one in off_rad.
+  double t_s;  ///< Time from any epoch.
+  /// Expected azimuth of slit 1 at the edge, counted over turns: phase_rad / 2 pi. The phase at t_s
+  /// is not used, because its noise is that of off_rad.
   double turns;
-  double off_rad;    ///< The azimuth that slit 1 had, less the one at which the edge was expected.
-  double sigma_rad;  ///< Of `off_rad`: the noise of the edge's time by the rate.
+  double off_rad;    ///< Azimuth of slit 1 at the edge less the expected one.
+  double sigma_rad;  ///< Noise of `off_rad`: edge-time noise times spin rate.
   PredictedEdge expected;
 };
 

@@ -14,10 +14,10 @@
 namespace spindrift {
 namespace {
 
-// Of a pass of few turns a large share is left out before its spin period is found.
+// In short passes a large share of edges is left out before the spin period is found.
 constexpr std::int64_t kFewestToJudge = 100;
 
-/// It is the edges themselves, or what the mission says of them, that does not fit.
+/// Returns whether the edge, or its description in the mission file, is at fault.
 bool is_of_the_edge(Rejection rejection) {
   return rejection != Rejection::Late && rejection != Rejection::OutOfTime &&
          rejection != Rejection::Copy && rejection != Rejection::Interference &&
@@ -31,7 +31,7 @@ std::string text_of(PulseChannel channel) { return std::string{name_of(channel)}
 
 }  // namespace
 
-/// The first notice of its kind.
+/// Says only the first notice of its kind.
 void PassNotices::say_first(NoticeCode kind, Notice notice) {
   if (said_.insert(kind).second) {
     say(std::move(notice));
@@ -134,7 +134,7 @@ void PassNotices::silent_where_it_must_see(Side side) {
 
 void PassNotices::fix_contradicts_itself() { say_once({NoticeCode::FixContradictsItself}); }
 
-/// What the prior chose is not of the axis that the edges show.
+/// Notes that the axis chosen by the prior is not the one that the edges show.
 void PassNotices::prior_contradicted(TaiTime t) {
   prior_contradicted_ = true;
   say_first(NoticeCode::PriorContradicted, {NoticeCode::PriorContradicted, {at(t)}});
@@ -147,7 +147,7 @@ void PassNotices::prior_set(const SpinPrior& prior) {
   said_.erase(NoticeCode::PriorContradicted);
 }
 
-/// A prior that has nothing to choose may be wrong as well.
+/// Compares every estimate with the prior, which may be wrong even if it chooses nothing.
 void PassNotices::estimated(const SpinEstimate& estimate) {
   quality_ = estimate.assessment.quality;
   fixes_near_tangent_ = has(estimate.assessment, ReasonCode::FixesNearTangent);
@@ -242,7 +242,7 @@ void PassNotices::say_what_was_left_out() {
         {"most", std::string{name_of(most->first)}}}});
 }
 
-/// It takes fixes that are accepted and not near-tangent.
+/// Explains a missing mean, which needs accepted fixes that are not near-tangent.
 void PassNotices::say_why_no_mean() {
   if (mean_began_ || last_case_ == 0) {
     return;
@@ -285,7 +285,7 @@ void PassNotices::say_what_the_axis_lacks(const SequentialEstimator& sequential)
     say({NoticeCode::LittleLeverage,
          {{"error_deg", error_deg}, {"moved_deg", sequential.model_leverage() * error_deg}}});
   }
-  // One alone has been told of, unless it was cut short.
+  // A single revolution has its own notice, unless it was cut short.
   if (last_case_ == 0 && without_fix_ > (said_.contains(NoticeCode::NoFix) ? 1 : 0)) {
     say({NoticeCode::NoAxis, {{"revolutions", without_fix_}}, last_without_fix_});
   }

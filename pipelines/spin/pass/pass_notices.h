@@ -1,6 +1,6 @@
 /// @file
-/// What a person should know of a pass: as it happens, each thing once, and at the end
-/// what is known for certain only then.
+/// Collects the notices of a pass for its users: each once, when it arises, and at the end those
+/// that are certain only then.
 
 #pragma once
 
@@ -32,23 +32,23 @@ class PassNotices {
  public:
   explicit PassNotices(SpinConfig config) : config_{std::move(config)} {}
 
-  // As it happens.
   void edge_came(PulseChannel channel) { heard_.at(index_of(channel)) = true; }
-  /// What became of all edges among them.
+  /// Counts the edges used and left out among the products.
   void used(std::span<const SpinProduct> products);
   void edge_came_late();
   void edge_out_of_time();
   void associated(const Association& association);
   void counted_on(const Revolution& revolution);
   void times_on_grid(TaiTime t, double width_s);
-  /// @param code Of SunEarthEphemeris::sun_earth.
+  /// @param code Error code of SunEarthEphemeris::sun_earth.
   void outside_orbit(TaiTime t, ErrorCode code);
-  /// The end of the pass cuts the revolution, which may give no fix for that alone.
+  /// Marks the revolution that the end of the pass cuts, which may lack a fix for that reason
+  /// alone.
   void cut_short(std::int64_t revolution) { cut_short_ = revolution; }
   void orbit_steps(Notice notice) { say_once(std::move(notice)); }
   void without_fix(std::int64_t revolution, const WhyNoFix& why);
-  /// @param fix Of the revolution itself.
-  /// @param prior On its candidates, or on the last that it was asked about.
+  /// @param fix Fix of the present revolution, not one settled again.
+  /// @param prior Verdict of the prior on the fix's candidates, else its last one.
   void has_fix(const SpinFix& fix, std::optional<PriorVerdict> prior);
   void settled_by_dispersion(TaiTime t, const StationaryBranch& branch);
   void mean_began() { mean_began_ = true; }
@@ -56,17 +56,17 @@ class PassNotices {
   void silent_where_it_must_see(Side side);
   void fix_contradicts_itself();
   void prior_contradicted(TaiTime t);
-  /// By an operator: what was said of the one before is no word on it.
+  /// Resets all statements about the previous prior, as an operator has set a new one.
   void prior_set(const SpinPrior& prior);
   void axis_moved(TaiTime t, double apart_rad);
-  /// By `sequential`.
+  /// Takes an estimate of `sequential`.
   void estimated(const SpinEstimate& estimate);
 
-  /// @param interfering In the whole pass.
+  /// @param interfering Interfering channels of the whole pass.
   void pass_ended(std::span<const InterferingChannels> interfering,
                   const SequentialEstimator& sequential);
 
-  /// Those since the last call.
+  /// Returns the notices since the last call.
   std::vector<Notice> take() { return std::exchange(pending_, {}); }
 
  private:
@@ -76,7 +76,7 @@ class PassNotices {
     say_first(kind, std::move(notice));
   }
   void say_first(NoticeCode kind, Notice notice);
-  /// Those that brought edges or none, and that the mission describes or not.
+  /// Names the channels with or without edges (`heard`) that have or lack a sensor (`described`).
   std::vector<std::string> channels_where(bool heard, bool described) const;
   void say_what_was_copied();
   void say_what_was_left_out();
@@ -90,26 +90,26 @@ class PassNotices {
   std::array<bool, kSides.size()> silence_said_{};
   std::array<bool, kPulseChannels> heard_{};
   std::int64_t edges_ = 0;
-  std::map<Rejection, std::int64_t> left_out_;  ///< Of them.
+  std::map<Rejection, std::int64_t> left_out_;  ///< Numbers of rejected edges.
   std::set<PulseChannel> copied_channels_;
-  std::int64_t copies_ = 0;          ///< Of edges.
-  double copies_apart_s_ = 0.0;      ///< Their sum.
-  bool closed_any_ = false;          ///< Revolution.
-  bool left_over_any_ = false;       ///< Edge of none.
-  std::optional<Quality> quality_;   ///< Of `sequential`; empty: it never began.
-  bool fixes_near_tangent_ = false;  ///< That it rests on.
-  int last_case_ = 0;                ///< Of the last fix.
+  std::int64_t copies_ = 0;          ///< Number of copied edges.
+  double copies_apart_s_ = 0.0;      ///< Sum of distances to the originals.
+  bool closed_any_ = false;          ///< True after a closed revolution.
+  bool left_over_any_ = false;       ///< True after an edge without revolution.
+  std::optional<Quality> quality_;   ///< Quality of `sequential`; empty without estimate.
+  bool fixes_near_tangent_ = false;  ///< Whether `sequential` rests on near-tangent fixes.
+  int last_case_ = 0;                ///< Geometry case of the last fix.
   std::optional<PriorVerdict> prior_verdict_;
   bool prior_contradicted_ = false;
   bool mean_began_ = false;
-  std::int64_t near_tangent_ = 0;  ///< Fixes.
-  std::int64_t ambiguous_ = 0;     ///< Of the others; likewise the following.
+  std::int64_t near_tangent_ = 0;  ///< Number of near-tangent fixes.
+  std::int64_t ambiguous_ = 0;     ///< Number of other ambiguous fixes.
   std::int64_t otherwise_not_accepted_ = 0;
-  std::optional<std::int64_t> cut_short_;     ///< Revolution.
-  std::int64_t without_fix_ = 0;              ///< Revolutions.
-  std::optional<WhyNoFix> last_without_fix_;  ///< Why the last of them has none.
-  std::int64_t outside_orbit_ = 0;            ///< Revolutions.
-  TaiTime last_outside_orbit_{};              ///< Of them.
+  std::optional<std::int64_t> cut_short_;     ///< Number of the cut revolution.
+  std::int64_t without_fix_ = 0;              ///< Number of revolutions without a fix.
+  std::optional<WhyNoFix> last_without_fix_;  ///< Why the last revolution has no fix.
+  std::int64_t outside_orbit_ = 0;            ///< Number of revolutions outside the orbit.
+  TaiTime last_outside_orbit_{};              ///< Time of the last of these revolutions.
 };
 
 }  // namespace spindrift

@@ -1,5 +1,5 @@
 /// @file
-/// What a revolution gives besides an axis: itself, its measurements, what became of its edges.
+/// Products of a revolution other than an axis: itself, its measurements, the use of its edges.
 
 #pragma once
 
@@ -12,8 +12,8 @@
 
 namespace spindrift {
 
-/// In that order; the revolution only where its sun1 is good.
-/// @param measured After screening.
+/// Returns these products in that order; the revolution itself only if its sun1 is good.
+/// @param measured Measurements after screening.
 std::vector<SpinProduct> revolution_products(const SpinConfig& config, const Revolution& revolution,
                                              const RevolutionMeasurements& measured);
 

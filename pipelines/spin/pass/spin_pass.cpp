@@ -18,7 +18,7 @@
 namespace spindrift {
 namespace {
 
-// So many fixes must agree on an axis before it speaks for or against a candidate.
+// Number of fixes after which the mean axis counts for or against a candidate.
 constexpr std::size_t kEstablishedFixes = 10;
 
 constexpr std::string_view kFrameKind = "coded_frame";
@@ -69,7 +69,7 @@ SpinOutput SpinPass::push(const CodedFrame& frame) {
       take_due(frames_.release(), out);
       break;
     case FrameReorderWindow::Verdict::Late:
-      // As edges they are late as well, and are left out as such.
+      // Late frames are left out edge by edge.
       for (const Pulse& edge : edges_of(frame)) {
         take(edge, out);
       }
@@ -125,7 +125,7 @@ SpinOutput SpinPass::finish() {
   if (!started_) {
     settle_first(out);
   }
-  // Once more among the edges, stray frames would be a stream by themselves.
+  // Stray frames are not added to the edges again, where they would form a stream.
   for (const CodedFrame& frame : frames.out_of_time) {
     for (const Pulse& edge : edges_of(frame)) {
       leave_out_of_time(edge, out);
@@ -143,7 +143,7 @@ SpinOutput SpinPass::finish() {
   return out;
 }
 
-/// What has been computed stays as it is, whatever comes behind it.
+/// Reports a contradiction with a frame that has been computed, but does not recompute it.
 void SpinPass::compare(const CodedFrame& again, SpinOutput& out) {
   const auto known = frames_.find(again);
   if (!known.released) {
@@ -154,7 +154,7 @@ void SpinPass::compare(const CodedFrame& again, SpinOutput& out) {
   }
 }
 
-/// Of frames that contradict each other all edges are left out, unless one of them counts.
+/// Leaves out all edges of frames that contradict each other, unless one of the frames counts.
 void SpinPass::take_due(const std::vector<CodedFrame>& due, SpinOutput& out) {
   for (const CodedFrame& frame : due) {
     const std::vector<CodedFrame> said = contested_.take(frame);
@@ -213,7 +213,7 @@ void SpinPass::take(const Pulse& pulse, SpinOutput& out) {
       leave_out_of_time(pulse, out);
       break;
     case ReorderWindow::Verdict::Duplicate:
-      break;  // The same edge once more: what becomes of it is said once.
+      break;  // The use of an edge is reported only once.
   }
 }
 
@@ -251,13 +251,13 @@ void SpinPass::collect(Association association, SpinOutput& out) {
   }
 }
 
-/// A grid is in the noise from where it is known on, which is before an answer can be OK.
+/// Adds the time grid to the noise once it is known, which is before an answer can be OK.
 void SpinPass::hear(const Revolution& revolution) {
   const auto sun1 = revolution.good_edge(PulseChannel::Sun1);
   for (std::size_t i = 0; i < kPulseChannels; ++i) {
     const auto channel = static_cast<PulseChannel>(i);
     const auto t = revolution.good_edge(channel);
-    // The end of a chord that the next sun1 interrupts may have been counted from there.
+    // A chord end that the next sun1 interrupts may have been counted from that sun1.
     const bool of_next = sun1 && t && seconds_between(*sun1, *t) > revolution.period.period_s;
     if (t && !of_next) {
       grid_.note({.t = *t, .channel = channel});
@@ -302,7 +302,7 @@ void SpinPass::consider(const Revolution& revolution, SpinOutput& out) {
   predict_anew_where_better_known();
 }
 
-/// Of a beam that an operator has left out.
+/// Ignores the silence of a beam that an operator has excluded.
 void SpinPass::expect_no_silence(Candidate& candidate) const {
   for (const Side side : kSides) {
     const TaiTime t = candidate.revolution.t_start;
@@ -331,7 +331,7 @@ void SpinPass::settle_first(SpinOutput& out) {
       predict(candidate, axis_icrf);
     }
   }
-  // Beforehand, so that all of them judge the first.
+  // All revolutions are counted first, so that they all judge the first one.
   for (Candidate& candidate : first_) {
     screen(candidate);
     if (candidate.sun_earth) {
@@ -347,8 +347,8 @@ void SpinPass::settle_first(SpinOutput& out) {
   predict_anew_where_better_known();
 }
 
-/// Residuals are comparable when all are against one axis: whenever twice as many fixes know it
-/// better, all are predicted anew.
+/// Predicts all residuals anew when the mean has twice as many fixes, since they are comparable
+/// only against one axis.
 void SpinPass::predict_anew_where_better_known() {
   const auto axis_icrf = recent_axes_.axis_icrf();
   if (!axis_icrf || (predicted_from_ && mean_.count() < 2 * predicted_from_->fixes)) {
@@ -399,7 +399,7 @@ void SpinPass::settle(Candidate& candidate, SpinOutput& out) {
   }
 }
 
-/// With what became of an edge stands what it said to the filter.
+/// Adds the observation of the filter to the use of each edge.
 void SpinPass::note_observations(std::span<SpinProduct> products) const {
   for (SpinProduct& product : products) {
     auto* const use = std::get_if<PulseUse>(&product);
@@ -414,8 +414,8 @@ void SpinPass::note_observations(std::span<SpinProduct> products) const {
   }
 }
 
-/// With a wrong mission file or orbit most revolutions contradict themselves; the few that do not
-/// agree by accident, or have too few measurements to show it.
+/// Counts contradicting revolutions: with a wrong mission file or orbit most contradict themselves,
+/// and the rest agree by accident or have too few measurements.
 void SpinPass::count_consistency(const FoundCandidates& found, Candidate& candidate) {
   const bool contradicts = is_inconsistent(found);
   if (!std::exchange(candidate.is_counted, true) && (found || contradicts)) {
@@ -430,7 +430,7 @@ std::vector<SpinFix> SpinPass::find_fixes(Candidate& candidate) {
   const auto found = axis_candidates(config_, candidate.measured, *candidate.sun_earth);
   count_consistency(found, candidate);
   if (!found) {
-    // The measurements stand; this revolution alone gives no axis.
+    // The measurements stay valid; only the axis is missing.
     notices_.without_fix(revolution.number, found.error().why);
     return {};
   }
@@ -512,7 +512,7 @@ void SpinPass::announce_axis(Candidate& candidate, SpinOutput& out) {
   }
 }
 
-/// A fix that is given again takes the place of what it was.
+/// Notes the choice of a fix; a fix that is settled again replaces its earlier version.
 void SpinPass::note_choice(const SpinFix& fix) {
   if (fix.accepted && !fix.settled_before &&
       (!settling_fix_ || fix.revolution <= settling_fix_->revolution)) {
@@ -526,9 +526,8 @@ void SpinPass::note_choice(const SpinFix& fix) {
   }
 }
 
-/// The one that came nearest by the edges; where none competed by the last fix. Where no fix names
-/// another axis, it is the mirror image in the plane of Sun and Earth, which sees both at the same
-/// angles.
+/// Returns the rival of `sequential`, else the best alternate of the last fix. Without either it is
+/// the mirror image in the plane of Sun and Earth, which sees both at the same angles.
 std::optional<Eigen::Vector3d> SpinPass::other_axis_icrf(const Eigen::Vector3d& axis_icrf) const {
   if (const auto rival = sequential_.rival()) {
     return rival->axis_icrf;
@@ -575,8 +574,8 @@ void SpinPass::do_what_is_due(TaiTime t) {
 
 void SpinPass::apply(TaiTime /*t*/, const ChooseRoot& action) { root_to_choose_ = action; }
 
-/// A prior that only chooses: a third of the way to the next candidate is its sigma. Candidates
-/// that noise does not tell apart are no choice.
+/// Sets a prior at the chosen root, with a third of the distance to the next candidate as sigma.
+/// Candidates that noise does not separate are no choice.
 void SpinPass::choose_root(TaiTime t, const AxisCandidates& found) {
   if (!root_to_choose_ || found.told_apart || found.candidates.size() < 2) {
     return;
@@ -599,7 +598,7 @@ void SpinPass::choose_root(TaiTime t, const AxisCandidates& found) {
   }
 }
 
-/// What the pass has shown of the axis stands, unless it contradicts the prior.
+/// Sets the prior. Earlier results stand unless they contradict it.
 void SpinPass::apply(TaiTime t, const SetPrior& action) {
   const SpinPrior& prior = action.prior;
   const auto shown = established_axis();
@@ -617,7 +616,6 @@ void SpinPass::apply(TaiTime t, const SetPrior& action) {
   }
 }
 
-/// Before the first revolution there is nothing to forget.
 void SpinPass::apply(TaiTime t, const MarkManoeuvre& /*action*/) {
   if (t == first_axis_) {
     return;
@@ -645,7 +643,7 @@ void SpinPass::begin_anew(TaiTime t) {
   disambiguator_ = Disambiguator{config_};
 }
 
-/// They share what is wrong with the model, so that a difference is the axis's own.
+/// Compares the recent fixes with the mean; they share model errors, so a difference is the axis's.
 bool SpinPass::recent_fixes_left_the_mean_for(const Eigen::Vector3d& axis_icrf) const {
   const auto recent_icrf = recent_axes_.axis_icrf();
   if (!recent_icrf || mean_.count() == 0) {
@@ -655,8 +653,8 @@ bool SpinPass::recent_fixes_left_the_mean_for(const Eigen::Vector3d& axis_icrf) 
   return apart_rad > kModelLimit_rad && angle_between_rad(*recent_icrf, axis_icrf) < apart_rad;
 }
 
-/// A restart of `sequential`, or recent fixes that lie elsewhere, raise the question; it may take
-/// some revolutions until its axis is known so well that the answer is clear.
+/// Starts the mean again if `sequential` clearly has another axis. After a restart or deviating
+/// fixes this may take some revolutions, until its axis is known well.
 void SpinPass::start_again_where_moved(const SpinEstimate& sequential) {
   if (mean_.count() == 0) {
     return;
@@ -672,7 +670,7 @@ void SpinPass::start_again_where_moved(const SpinEstimate& sequential) {
   notices_.axis_moved(sequential.t, apart_rad);
 }
 
-/// By the mean, or by the edges where these know it better.
+/// Returns the axis of the mean, or the one that the edges settled if that is better known.
 std::optional<KnownAxis> SpinPass::established_axis() const {
   std::optional<KnownAxis> by_edges = sequential_.settled_by_edges();
   if (mean_.count() < kEstablishedFixes) {

@@ -1,6 +1,6 @@
 /// @file
-/// The pass of one spin-stabilised satellite: samples in, products out. The one composition of the
-/// spin pipeline, run alike live, offline and in replay.
+/// The pass of one spin-stabilised satellite: samples in, products out. Live, offline and replay
+/// runs all use this one composition of the spin pipeline.
 ///
 ///     frame -> order of time -> its edges -+
 ///     pulse -------------------------------+-> order of time -> interference -> revolution, period
@@ -8,12 +8,10 @@
 ///       -> measurements -> screening -> candidates for the axis -> fix -> mean
 ///                                    -> good edges -------------------> sequential
 ///
-/// The first revolutions are held back until there are enough of them to tell an outlier from a
-/// level (kFirstRevolutions); from then on each is settled as it closes. When the axis has moved,
-/// screening and mean begin anew.
+/// The first kFirstRevolutions revolutions are held back to tell outliers from the level; later
+/// ones are settled as they close. When the axis has moved, screening and mean begin anew.
 ///
-/// What an operator says of telemetry from an instant on applies to edges, and to revolutions that
-/// begin, from then on and that are not computed yet.
+/// An operator action applies from its instant on to edges and revolutions not yet computed.
 
 #pragma once
 
@@ -51,8 +49,8 @@
 namespace spindrift {
 
 struct SpinOutput {
-  std::vector<SpinProduct> products;  ///< In the order they arose.
-  std::vector<Notice> notices;        ///< What a person should know; each said once a pass.
+  std::vector<SpinProduct> products;  ///< Products in the order they arose.
+  std::vector<Notice> notices;        ///< Notices for users, each once a pass.
 };
 
 class SpinPass {
@@ -63,36 +61,35 @@ class SpinPass {
 
   SpinOutput push(const Pulse& pulse);
 
-  /// The same edges, timed on board.
+  /// Takes a frame of edges that were timed on board.
   SpinOutput push(const CodedFrame& frame);
 
-  /// An operator's word on telemetry from `t` on.
+  /// Applies an operator action to telemetry from `t` on.
   void act(TaiTime t, const SpinAction& action);
 
-  /// Nothing comes for now: what is held back for the order of time is computed, and what comes
-  /// from before that later is late. The open revolution stays open, and edges that the next ones
-  /// may spoil stay held.
+  /// Computes what the reordering holds back, when no telemetry comes for now; earlier telemetry is
+  /// late from then on. The open revolution and edges that later ones may spoil stay held.
   SpinOutput fall_silent();
 
-  /// The pass has ended: settles all that is still held.
+  /// Ends the pass and settles all that is still held.
   SpinOutput finish();
 
-  /// As the mission or an operator has told it, whatever the pass made of it: `batch` judges it
-  /// anew.
+  /// Returns the prior as told by the mission or an operator, even if the pass refuted it: `batch`
+  /// judges it anew.
   const std::optional<SpinPrior>& told_prior() const { return told_prior_; }
 
-  /// That of `sequential`, or where that has not begun of `mean`, so far; not compared with the
-  /// other one. Empty: there is no estimate.
+  /// Returns the present choice of `sequential`, or of `mean` before that has begun; empty without
+  /// an estimate. The likelihood of the other axis is not computed.
   std::optional<AxisChoice> axis_choice() const;
 
  private:
-  /// A revolution with all that is needed to settle it.
+  /// Holds a revolution with all that is needed to settle it.
   struct Candidate {
     Revolution revolution;
     RevolutionMeasurements measured;
-    std::optional<SunEarthDirections> sun_earth;  ///< Empty where the orbit does not reach.
+    std::optional<SunEarthDirections> sun_earth;  ///< Empty outside the orbit.
     std::vector<AngleResidual> residuals;
-    bool is_counted = false;  ///< In the share of those that contradict themselves.
+    bool is_counted = false;  ///< True if counted in inconsistent_share_.
   };
 
   void take(const Pulse& pulse, SpinOutput& out);
@@ -139,41 +136,41 @@ class SpinPass {
   std::optional<SpinPrior> told_prior_;
   PassNotices notices_;
   std::vector<OrbitStep> orbit_steps_;
-  std::optional<TaiTime> on_orbit_since_;  ///< The first revolution of the estimates.
+  std::optional<TaiTime> on_orbit_since_;  ///< First revolution of the estimates.
   SunEarthEphemeris sun_earth_;
   FrameReorderWindow frames_;
   Contested<CodedFrame> contested_;
-  std::vector<Pulse> of_next_frame_;  ///< Edges behind the sun1 of a frame that is still to come.
+  std::vector<Pulse> of_next_frame_;  ///< Edges that belong behind the next frame's sun1.
   ReorderWindow reorder_;
   InterferenceWindow interference_;
   Associator associator_;
   TimeGrid grid_;
-  std::vector<Candidate> first_;  ///< Held back; empty once settled.
+  std::vector<Candidate> first_;  ///< Held-back revolutions; empty once settled.
   bool started_ = false;
-  /// The mean attitude that measurements are compared with.
+  /// Holds the mean attitude that measurements are compared with.
   struct Prediction {
     Eigen::Vector3d axis_icrf;
-    std::size_t fixes;  ///< That it rested on.
+    std::size_t fixes;  ///< Number of fixes in the mean.
   };
 
   ScreeningWindow screening_;
   std::optional<Prediction> predicted_from_;
-  std::deque<Candidate> recent_;  ///< As many as the window of the screening has.
+  std::deque<Candidate> recent_;  ///< Last revolutions, one screening window.
   AxisWindow recent_axes_;
   Disambiguator disambiguator_;
   MeanEstimator mean_;
-  RecentMean inconsistent_share_;  ///< Of the last revolutions that could have a fix.
+  RecentMean inconsistent_share_;  ///< Share of contradicting revolutions lately.
   SequentialEstimator sequential_;
   int restarts_handled_ = 0;
-  std::optional<SpinEstimate> answer_;  ///< The last of `sequential`, or before it of `mean`.
-  /// The first accepted fix since the pass began, or began anew, that it did not choose itself.
+  std::optional<SpinEstimate> answer_;  ///< Last estimate of `sequential`, else of `mean`.
+  /// First accepted fix since the pass began or began anew that the pass's own axis did not settle.
   std::optional<SpinFix> settling_fix_;
-  std::optional<Eigen::Vector3d> alternate_icrf_;  ///< The best one of the last fix with any.
+  std::optional<Eigen::Vector3d> alternate_icrf_;  ///< Best alternate of the last fix that has any.
 
   Exclusions<PulseChannel> excluded_;
-  std::multimap<TaiTime, SpinAction> to_do_;  ///< With the revolutions from then on.
-  std::optional<ChooseRoot> root_to_choose_;  ///< When there are several.
-  std::optional<TaiTime> first_axis_;         ///< The revolution that was asked for one first.
+  std::multimap<TaiTime, SpinAction> to_do_;  ///< Actions to apply from a time on.
+  std::optional<ChooseRoot> root_to_choose_;  ///< Choice for the next ambiguous fix.
+  std::optional<TaiTime> first_axis_;         ///< First revolution that an axis was sought for.
 };
 
 }  // namespace spindrift

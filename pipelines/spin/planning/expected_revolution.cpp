@@ -16,7 +16,7 @@ double ahead_rad(double from_rad, double to_rad) {
   return ahead < 0.0 ? ahead + kTurn_rad : ahead;
 }
 
-/// Slit 1 at a phase at a time.
+/// Phase of slit 1 at a time.
 struct Mark {
   TaiTime t;
   double phase_rad;
@@ -28,8 +28,8 @@ struct Turning {
   const Eigen::Matrix3d& R_spin_icrf;
   double rate_rad_s;
 
-  /// The first edge of the channel behind a mark, and where it lies: the Earth moves on until then,
-  /// ten thousand times slower than the body turns.
+  /// Returns the channel's first edge behind a mark, and sets `t` to its time. It iterates since
+  /// the Earth moves on until then, ten thousand times slower than the body turns.
   std::optional<PredictedEdge> edge_behind(const Mark& mark, PulseChannel channel,
                                            TaiTime& t) const {
     constexpr int kApproaches = 3;
@@ -56,7 +56,7 @@ void add_edge(const Turning& turning, const Mark& mark, PulseChannel channel,
   }
 }
 
-/// The end of a chord belongs to its beginning, where that is there.
+/// Adds both edges of a chord. Its end is searched behind its beginning, where there is one.
 void add_chord(const Turning& turning, const Mark& start, PulseChannel in, PulseChannel out,
                ExpectedRevolution& expected) {
   add_edge(turning, start, in, expected);

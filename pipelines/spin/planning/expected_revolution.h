@@ -1,5 +1,5 @@
 /// @file
-/// One turn of the body as its sensors should see it, about an axis and at a rate that are known.
+/// One turn of the body as its sensors should see it, for a known axis and spin rate.
 
 #pragma once
 
@@ -23,16 +23,17 @@ struct ColocatedChannels {
 };
 
 struct ExpectedRevolution {
-  /// Without noise, to the nearest nanosecond; edges that meet are rejected as `Interference`.
+  /// Edges without noise, to the nearest nanosecond; those that meet are rejected as
+  /// `Interference`.
   Revolution revolution;
-  /// Of each edge that is there.
+  /// Prediction of each edge that exists.
   std::array<std::optional<PredictedEdge>, kPulseChannels> predicted;
   std::vector<ColocatedChannels> meeting;
 };
 
-/// The turn that begins with slit 1 at the Sun at the time of the sky; chords begin in it.
-/// @param R_spin_icrf To a frame `spin` (edge_prediction.h).
-/// @param sun_hidden The Earth stands before the Sun: there are no sun edges.
+/// Returns the turn that begins with slit 1 at the Sun at the time of the sky; chords begin in it.
+/// @param R_spin_icrf Rotation to a frame `spin` (edge_prediction.h).
+/// @param sun_hidden Whether the Earth hides the Sun, so that there are no sun edges.
 ExpectedRevolution expected_revolution(const SpinConfig& config, const Sky& sky,
                                        const Eigen::Matrix3d& R_spin_icrf, double rate_rad_s,
                                        bool sun_hidden);

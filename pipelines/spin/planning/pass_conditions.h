@@ -1,6 +1,6 @@
 /// @file
-/// What a person should know of an instant of a coming pass. Codes with values; the sentences are
-/// made of them in services/geometry.
+/// Conditions that a person should know at an instant of a coming pass, as codes with values;
+/// services/geometry makes the sentences of them.
 
 #pragma once
 
@@ -12,19 +12,20 @@
 
 namespace spindrift {
 
+/// Condition codes with the names of their values; those without a comment have none.
 enum class PassConditionCode {
-  OneAxis,          ///< geometry_case; likewise the following of fixes
-  SeveralAxes,      ///< -
-  NoFixInLine,      ///< -
-  NoFixNoise,       ///< -
-  NoFixBothChords,  ///< -
-  NoFixSunAngle,    ///< -
-  NoFixOneChord,    ///< -
-  NoFixNothing,     ///< -
-  SunHidden,        ///< -
-  SunNearAxis,      ///< -
-  SunOutsideSlit2,  ///< -
-  InLine,           ///< -
+  OneAxis,          ///< geometry_case
+  SeveralAxes,      ///< geometry_case
+  NoFixInLine,      ///< geometry_case
+  NoFixNoise,       ///< geometry_case
+  NoFixBothChords,  ///< geometry_case
+  NoFixSunAngle,    ///< geometry_case
+  NoFixOneChord,    ///< geometry_case
+  NoFixNothing,     ///< geometry_case
+  SunHidden,
+  SunNearAxis,
+  SunOutsideSlit2,
+  InLine,
   BeamMisses,       ///< beam
   BeamNearTangent,  ///< beam
   BeamCrosses,      ///< beam
@@ -37,8 +38,8 @@ inline constexpr int kPassConditionCodes = static_cast<int>(PassConditionCode::C
 
 using PassCondition = Coded<PassConditionCode>;
 
-/// One for each thing that holds; free of values that change from one instant to the next, so that
-/// a condition stays equal while it holds.
+/// Returns one condition for each fact that holds, without values that change from one instant to
+/// the next, so that a condition stays equal while it holds.
 std::vector<PassCondition> conditions_of(const SpinConfig& config, const PassGeometry& geometry);
 
 }  // namespace spindrift

@@ -10,7 +10,7 @@
 
 namespace spindrift {
 
-/// Something that holds for a while.
+/// A condition and the interval in which it holds.
 struct PassEvent {
   TaiTime from;
   TaiTime to;
@@ -19,10 +19,10 @@ struct PassEvent {
 
 class PassEvents {
  public:
-  /// What holds at a time that is later than the one before.
+  /// Adds the conditions that hold at a time later than the previous one.
   void add(TaiTime t, const std::vector<PassCondition>& conditions);
 
-  /// All of them, by beginning; what holds still ends with the last time.
+  /// Returns all events by beginning; conditions that still hold end with the last time.
   std::vector<PassEvent> finish();
 
  private:

@@ -11,7 +11,7 @@
 namespace spindrift {
 namespace {
 
-/// Where the beam's circle lies to the disc of a spherical Earth.
+/// Tells how a beam that gives no edges lies to the disc of a spherical Earth.
 BeamSight view_without_edges(double mount_angle_rad, double earth_angle_rad, double disc_rad) {
   if (predict_chord_rad(mount_angle_rad, earth_angle_rad, disc_rad)) {
     return BeamSight::NearTangent;
@@ -20,8 +20,8 @@ BeamSight view_without_edges(double mount_angle_rad, double earth_angle_rad, dou
                                                                 : BeamSight::Misses;
 }
 
-/// As `SunEarthEphemeris::sightlines`, but from the sky, which knows the end of the turn too where
-/// the orbit ends before it.
+/// Does the same as `SunEarthEphemeris::sightlines`, but from the sky, which also knows the end of
+/// the turn where the orbit ends before it.
 SunEarthDirections sightlines_of(const Sky& sky, const RevolutionMeasurements& measured,
                                  double disc_rad) {
   TaiTime first = sky.t;
@@ -92,8 +92,8 @@ BeamGeometry PassScene::beam(Side side, const PassGeometry& geometry) const {
   return found;
 }
 
-/// The turn on the sphere that fixes are solved on, of the edges that there are on the true
-/// horizon.
+/// Returns the turn on the sphere that fixes are solved on, with those edges only that exist on the
+/// true horizon.
 Revolution PassScene::turn_on_sphere(const Sky& sky, const PassGeometry& geometry) const {
   Revolution turn =
       expected_revolution(on_sphere_, sky, R_spin_icrf_, rate_rad_s_, geometry.sun_hidden)

@@ -20,10 +20,10 @@ namespace spindrift {
 
 enum class BeamSight {
   NoSensor,
-  Misses,       ///< The Earth.
+  Misses,       ///< The beam misses the Earth.
   NearTangent,  ///< Near-tangent to the limb: the edges say nothing of the axis.
-  Crosses,      ///< It: two edges a turn.
-  Inside,       ///< Its disc all the turn: no edge.
+  Crosses,      ///< The beam crosses the Earth: two edges a turn.
+  Inside,       ///< The beam stays within the disc all the turn: no edge.
 };
 
 /// How far one chord, without the other, determines the axis.
@@ -31,17 +31,17 @@ enum class DeltaClass { Usable, TwoRoots, Ambiguous };
 
 struct BeamGeometry {
   BeamSight view;
-  /// Phi, there when it crosses.
+  /// Phi, the chord; empty unless the beam crosses the Earth.
   std::optional<double> chord_rad;
-  /// Determinant of the fix by this chord alone, there when the sun slits see the Sun besides.
+  /// Determinant of the fix by this chord alone; empty unless both slits see the Sun too.
   std::optional<double> delta;
 };
 
 /// The fix that one turn gives.
 struct FixGeometry {
-  int geometry_case;  ///< Of pipelines/spin/fix/README.md; 0: nothing of an axis.
+  int geometry_case;  ///< Case in pipelines/spin/fix/README.md; 0: nothing of an axis.
   std::size_t axes;   ///< How many candidates one turn leaves; 0: there is no fix.
-  bool told_apart;    ///< The geometry alone shows which.
+  bool told_apart;    ///< Whether the geometry alone shows which is true.
   /// One standard deviation from the noise of the edges, both axes together. Empty: no fix.
   std::optional<double> sigma_rad;
 };
@@ -51,12 +51,12 @@ struct PassGeometry {
   double range_km;
   PredictedAngles angles;
   double sun_earth_rad;
-  double disc_rad;  ///< rho, of the spherical Earth.
-  bool sun_hidden;  ///< By the Earth.
-  bool in_line;     ///< Sun and Earth: they leave the axis free to turn about them.
-  std::array<BeamGeometry, 2> beams;  ///< By Side.
-  ExpectedRevolution expected;        ///< With the horizon that the mission asks for.
-  FixGeometry fix;                    ///< On the sphere, as all fixes are.
+  double disc_rad;  ///< rho, disc half-angle of the spherical Earth.
+  bool sun_hidden;  ///< Whether the Earth hides the Sun.
+  bool in_line;     ///< Sun and Earth in line: the axis is free to turn about them.
+  std::array<BeamGeometry, 2> beams;  ///< Indexed by Side.
+  ExpectedRevolution expected;        ///< Turn with the horizon of the mission file.
+  FixGeometry fix;                    ///< Fix on the sphere, as all fixes are.
 };
 
 DeltaClass class_of(const SpinGeometry& limits, double delta);
@@ -82,7 +82,7 @@ class PassScene {
   SpinConfig on_sphere_;
   SunEarthEphemeris around_;
   Eigen::Vector3d axis_icrf_;
-  Eigen::Matrix3d R_spin_icrf_;  ///< East, north, axis.
+  Eigen::Matrix3d R_spin_icrf_;  ///< Rows are east, north and axis.
   double rate_rad_s_;
 };
 

@@ -14,26 +14,25 @@
 namespace spindrift {
 namespace {
 
-// The information of many turns is an integral, by Gauss and Legendre over so short stretches.
+// The information of many turns is an integral, by Gauss and Legendre over stretches this long.
 constexpr double kStretch_s = 10.0;
-// And so often it is looked what holds: channels that meet may part within seconds, and no function
-// that a search could follow says beforehand when.
+// Conditions are looked for this often: channels that meet may part within seconds, and no function
+// to search tells when.
 constexpr double kLook_s = 1.0;
 
 struct Node {
-  double place;  ///< Share of the stretch.
+  double place;  ///< Position as a share of the stretch.
   double weight;
 };
 const std::array<Node, 3> kNodes = {{{0.5 - 0.5 * std::sqrt(0.6), 5.0 / 18.0},
                                      {0.5, 8.0 / 18.0},
                                      {0.5 + 0.5 * std::sqrt(0.6), 5.0 / 18.0}}};
 
-/// Goes through the pass.
 class Planner {
  public:
   Planner(PassScene scene, TaiTime start) : scene_{std::move(scene)}, start_{start}, t_{start} {}
 
-  /// On to a later time, or to the start itself.
+  /// Advances to a later time, or to the start itself.
   Expected<PassStep> step_to(TaiTime t) {
     const auto stretches =
         static_cast<std::int64_t>(std::ceil(seconds_between(t_, t) / kStretch_s));
@@ -79,7 +78,7 @@ class Planner {
     return geometry;
   }
 
-  /// So many turns alike.
+  /// Adds the information of `turns` equal turns.
   void add_turns(const ExpectedRevolution& turn, double turns) {
     for (std::size_t i = 0; i < kPulseChannels; ++i) {
       const auto channel = static_cast<PulseChannel>(i);
@@ -107,7 +106,8 @@ class Planner {
 Expected<PassPlan> plan_pass(const SpinConfig& config, const Orbit& orbit,
                              const PassRequest& request) {
   PassScene scene{config, orbit, request.axis_icrf, request.rate_rad_s};
-  // The error shall say how much of the pass the orbit does not reach.
+  // Both ends are tried first, so that the error says how much of the pass the orbit does not
+  // reach.
   for (const TaiTime end : {request.from, request.to}) {
     if (const auto geometry = scene.at(end); !geometry) {
       return Unexpected{geometry.error()};

@@ -34,15 +34,15 @@ struct PassStep {
 };
 
 struct PassPlan {
-  std::vector<PassStep> steps;    ///< At `from`, then every step, and at `to`.
-  std::vector<PassEvent> events;  ///< By beginning.
+  std::vector<PassStep> steps;    ///< Steps at `from`, at every step, and at `to`.
+  std::vector<PassEvent> events;  ///< Events by beginning.
 };
 
-/// Edges are as many and as noisy as the mission file says: none is lost. Where channels interfere
-/// their edges are left out. Events, which are looked for every second, and sigma do not depend on
-/// the step.
+/// Plans a pass. Edges are as noisy as the mission file says, and none is lost, but edges of
+/// interfering channels are left out. Events, which are looked for every second, and sigma do not
+/// depend on the step.
 /// @return NoCoverage where the orbit does not reach from `from` to `to`; Unobservable where it
-///         dips below the horizon's height.
+/// dips below the horizon's height.
 Expected<PassPlan> plan_pass(const SpinConfig& config, const Orbit& orbit,
                              const PassRequest& request);
 

@@ -8,7 +8,7 @@
 namespace spindrift {
 namespace {
 
-/// What the measured angles should be if the axis were this one.
+/// Predicts the measured angles for a given axis.
 class Prediction {
  public:
   Prediction(const SpinConfig& config, const RevolutionMeasurements& measured,
@@ -17,7 +17,7 @@ class Prediction {
         angles_{predict_angles(axis_icrf, sun_earth.sun_icrf, sun_earth.earth_icrf)},
         beams_{views_of_horizon(config, measured, sun_earth, axis_icrf)} {}
 
-  /// Empty for what is impossible.
+  /// Returns the predicted angle; empty when the axis makes it impossible.
   std::optional<double> of_rad(SpinQuantity quantity, const EdgeNoise& noise_rad) const {
     if (quantity == SpinQuantity::SunAngle) {
       return angles_.sun_angle_rad;

@@ -14,16 +14,16 @@
 
 namespace spindrift {
 
-/// Measured minus predicted, of one quantity of one revolution.
+/// Measured minus predicted value of one quantity of one revolution.
 struct AngleResidual {
   SpinQuantity quantity;
   double value_rad;
   double sigma_rad;
 };
 
-/// One residual per good measurement. One that the axis says is impossible (a chord of a beam that
-/// misses the Earth, a pulse of a slit that cannot see the Sun) has none: it is left to the other
-/// quantities to decide. Chords and dihedrals are those of the mission's horizon.
+/// Returns one residual per good measurement. A measurement that the axis makes impossible (a chord
+/// of a beam that misses the Earth, a pulse of a slit that cannot see the Sun) has none: the other
+/// quantities decide then. Chords and dihedrals are those of the mission's horizon.
 std::vector<AngleResidual> residuals(const SpinConfig& config,
                                      const RevolutionMeasurements& measured,
                                      const SunEarthDirections& sun_earth,
@@ -38,17 +38,17 @@ class ScreeningWindow {
   explicit ScreeningWindow(const SpinScreening& screening);
 
   void add(const AngleResidual& residual);
-  /// The window's, after the last residual of the quantity; empty: there was none.
+  /// Returns the mean after the quantity's last residual; empty when there was none.
   const std::optional<RobustMean>& mean_of(SpinQuantity quantity) const;
 
  private:
   struct Channel {
     SlidingRobustMean values_rad;
-    std::optional<RobustMean> mean = {};  ///< After the last value.
+    std::optional<RobustMean> mean = {};  ///< Mean after the last value.
   };
 
   double sigma_;
-  std::vector<Channel> channels_;  ///< By SpinQuantity.
+  std::vector<Channel> channels_;  ///< Indexed by SpinQuantity.
 };
 
 }  // namespace spindrift

@@ -11,8 +11,8 @@
 namespace spindrift {
 namespace {
 
-/// A direction of the body, and how its angle from the axis and its azimuth (counted as slit 1
-/// turns) change.
+/// Holds a direction of the body with the changes of its angle from the axis and of its azimuth,
+/// which is counted as slit 1 turns.
 struct Turned {
   Eigen::Vector3d direction;
   Eigen::RowVector2d polar_per_coning;
@@ -40,7 +40,7 @@ Turned turned(const Eigen::Vector3d& direction_sensors, const Eigen::Vector2d& c
 }  // namespace
 
 ConedSlit as_coned(const SunSensor& slit, const Eigen::Vector2d& coning_rad) {
-  // What is perpendicular to its plane.
+  // The slit is represented by the normal of its plane.
   const double in_equator = std::cos(slit.slit_cant_rad);
   const Turned normal =
       turned({in_equator * std::sin(slit.slit_separation_rad),
@@ -49,7 +49,7 @@ ConedSlit as_coned(const SunSensor& slit, const Eigen::Vector2d& coning_rad) {
   ConedSlit as_coned{.slit = slit,
                      .cant_per_coning = -normal.polar_per_coning,
                      .separation_per_coning = -normal.azimuth_per_coning};
-  // Exactly as it was where nothing cones.
+  // Zero coning leaves the slit exactly unchanged.
   if (!coning_rad.isZero(0.0)) {
     as_coned.slit = {.slit_cant_rad = kQuarter_rad - normal.polar_rad(),
                      .slit_separation_rad = wrapped_rad(kQuarter_rad - normal.azimuth_rad())};
@@ -80,7 +80,7 @@ ConingTest test_coning(const Eigen::Vector2d& coning_rad, const Eigen::Matrix2d&
   const Eigen::Vector2d along = spectrum.eigenvectors().transpose() * coning_rad;
   const double chi_square = along.cwiseAbs2().cwiseQuotient(spectrum.eigenvalues()).sum();
   return {.tilt_rad = coning_rad.norm(),
-          // It leans a quarter of a turn behind its hinge, and behind is counted to the right.
+          // The axis leans a quarter turn behind its rotation vector; "behind" is clockwise.
           .azimuth_rad = wrapped_rad(kQuarter_rad - hinge_rad),
           .detected = chi_square > kFalseAlarmSquares,
           .detectable_rad = (std::sqrt(kFalseAlarmSquares) + kDetectionSigmas) *

@@ -9,12 +9,13 @@
 namespace spindrift {
 namespace {
 
-// Of phase, rate and drift: below it edges have not told them apart, as while all are of one time.
+// Relative eigenvalue below which phase, rate and drift are not separated, as with edges of one
+// time.
 constexpr double kLeastShare = 1e-12;
 
 using Slope = Eigen::Matrix<double, 5, 1>;
 
-/// Columns and rows in units in which the diagonal is 1: dt^2 and a tilt differ by ten orders.
+/// Scales the matrix to a unit diagonal, since dt^2 and a tilt differ by ten orders.
 Eigen::Matrix3d pseudo_inverse(const Eigen::Matrix3d& normal) {
   Eigen::Vector3d unit = Eigen::Vector3d::Zero();
   for (Eigen::Index i = 0; i < 3; ++i) {

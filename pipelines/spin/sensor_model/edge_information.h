@@ -1,5 +1,5 @@
 /// @file
-/// What edges say of the spin axis, before any has come: Fisher's information, and the Cramer-Rao
+/// Predicts the information of edges on the spin axis: Fisher's information, and the Cramer-Rao
 /// bound, which no unbiased estimator can beat.
 ///
 /// Each edge is one equation (as in spin_filter.h)
@@ -7,7 +7,7 @@
 ///     phase + rate dt + drift dt^2/2 - predicted phase = 0 +/- sigma
 ///
 /// in the tilts of the axis about the first and second axis of the frame `spin`, and in phase, rate
-/// and drift, of which nothing is known beforehand.
+/// and drift, which have no prior.
 
 #pragma once
 
@@ -20,14 +20,14 @@ namespace spindrift {
 
 class EdgeInformation {
  public:
-  /// @param edge All in the same frame `spin`.
-  /// @param dt_s From an instant that is the same for all.
-  /// @param sigma_rad One standard deviation of its phase: spin rate times that of its time.
-  /// @param weight How many such edges.
+  /// @param edge Predicted edge; all edges need the same frame `spin`.
+  /// @param dt_s Time from an epoch common to all edges.
+  /// @param sigma_rad Standard deviation of the phase: spin rate times that of the edge time.
+  /// @param weight Number of such edges.
   void add(const PredictedEdge& edge, double dt_s, double sigma_rad, double weight = 1.0);
 
-  /// Of the axis, along the first and second axis of the frame. Empty: its standard deviation is
-  /// more than half a radian in some direction, where slopes mean nothing.
+  /// Returns the covariance of the axis along the first and second axis of the frame. Empty if its
+  /// standard deviation exceeds half a radian in some direction, where slopes mean nothing.
   std::optional<Eigen::Matrix2d> axis_covariance_rad2() const;
 
  private:

@@ -11,21 +11,21 @@
 namespace spindrift {
 namespace {
 
-// The Sun so near to the axis (0.6 deg) has no azimuth.
+// The Sun within this sine of the axis (0.6 deg) has no azimuth.
 constexpr double kNearestAxis = 0.01;
-// So near (6 deg) to the end of slit 2 an edge is no measure of the axis.
+// Within this cosine (6 deg) of the end of slit 2 an edge does not measure the axis.
 constexpr double kLeastSlope = 0.1;
 
-// Half a chord is taken for no narrower than so many times the noise of its edges.
+// Half a chord counts as at least this many times the noise of its edges.
 constexpr double kNarrowestSigmas = 2.0;
 
 using PerError = Eigen::Matrix<double, 1, kModelErrors>;
 using PerBias = Eigen::Matrix<double, 1, kSensorBiases>;
 
-/// Where the Sun stands: the azimuth of a slit in a meridian when it sees it.
+/// Holds the Sun's azimuth, which is that of a slit in a meridian when it sees the Sun.
 struct SunView {
   double azimuth_rad;
-  double angle_rad;  ///< theta_s, from the axis.
+  double angle_rad;  ///< Angle theta_s from the axis.
   Eigen::Vector3d azimuth_per_rotation;
   Eigen::Vector3d angle_per_rotation;
 };
@@ -43,7 +43,7 @@ std::optional<SunView> view_of_sun(const Eigen::Vector3d& sun_spin) {
                  .angle_per_rotation = {towards.y(), -towards.x(), 0.0}};
 }
 
-/// When a slit sees the Sun.
+/// Holds the phase at which a slit sees the Sun.
 struct SlitView {
   double phase_rad;
   Eigen::Vector3d phase_per_rotation;
@@ -61,7 +61,7 @@ std::optional<SlitView> view_of_slit(const SunSensor& slit, const Eigen::Vector3
   const double tan_cant = std::tan(slit.slit_cant_rad);
   const double sin_lag = tan_cant / std::tan(measured_rad);
   const double cos_lag = std::sqrt(1.0 - sin_lag * sin_lag);
-  // Also where the slit ends: sin_lag of more than 1 leaves no number.
+  // The negated comparison also rejects the NaN of sin_lag beyond 1, where the slit ends.
   if (!(cos_lag > kLeastSlope)) {
     return std::nullopt;
   }
@@ -115,7 +115,7 @@ struct Beam {
   Crossing crossing;
 };
 
-/// Of any channel but a slit's.
+/// Returns beam and crossing of a channel that is no slit.
 Beam beam_of(PulseChannel channel) {
   const bool north = channel == PulseChannel::NorthIn || channel == PulseChannel::NorthOut;
   const bool in = channel == PulseChannel::NorthIn || channel == PulseChannel::SouthIn;

@@ -1,16 +1,16 @@
 /// @file
-/// When in its turn the body gives an edge: the model that estimators fit to edge times.
+/// Predicts the phase of the body at an edge: the model that estimators fit to edge times.
 ///
-/// The frame `spin` stands still: third axis on the spin axis, the others anywhere across it. The
-/// body turns right-handed about the third; its phase is the azimuth of slit 1 in that frame.
-/// With s the Sun in it, and theta_s its angle from the axis:
+/// The frame `spin` is inertial, with the third axis on the spin axis and the others anywhere
+/// across it. The body turns right-handed about the third axis; its phase is the azimuth of slit 1
+/// in that frame. With s the Sun direction in it, and theta_s its angle from the axis:
 ///
 ///     sun1         phase = azimuth of s
 ///     sun2         phase = azimuth of s + psi0 + asin(tan I cot theta_s)
 ///     north, south phase = azimuth where the beam crosses the limb (horizon.h) + a
 ///
-/// with theta_s, psi0, the mounting angle, the limb's height, a and the ends of the chord as the
-/// biases of the sensors have them (sensor_biases.h).
+/// The biases of the sensors (sensor_biases.h) change theta_s, psi0, the mounting angle, the limb's
+/// height, a and the ends of the chord.
 
 #pragma once
 
@@ -30,45 +30,45 @@ namespace spindrift {
 
 struct PredictedEdge {
   double phase_rad;  ///< (-pi, pi]
-  /// Change of the phase, rad/rad, when the frame turns by a small vector about its own axes: the
-  /// first two are tilts of the spin axis, the third is -1.
+  /// Change of the phase per small rotation of the frame about its own axes, rad/rad: the first two
+  /// are tilts of the spin axis, the third is -1.
   Eigen::Vector3d phase_per_rotation;
-  /// Likewise, for a radian of each error of the model: the limb farther out, the sun angle
-  /// measured too large, the beam farther behind slit 1.
+  /// Change of the phase per model error, rad/rad: limb farther out, sun angle measured too large,
+  /// beam farther behind slit 1.
   Eigen::Matrix<double, 1, kModelErrors> phase_per_error;
-  /// Likewise, for each bias; rad/rad, or rad/km.
+  /// Change of the phase per bias, rad/rad or rad/km.
   Eigen::Matrix<double, 1, kSensorBiases> phase_per_bias;
 };
 
-/// Where coning has the sensors look from the body, and the horizon with its bias: the same for all
-/// edges of a state. The other biases are added at each edge.
+/// Holds the sensors' directions in the body with coning, and the horizon with its bias, shared by
+/// all edges of a state. The other biases are added at each edge.
 struct PlacedSensors {
   PlacedSensors(const SpinConfig& config, SensorBiases sensor_biases);
 
   SensorBiases biases;
   ConedSlit sun1;
   ConedSlit sun2;
-  std::array<std::optional<ConedBeam>, 2> beams;  ///< By Side.
+  std::array<std::optional<ConedBeam>, 2> beams;  ///< Beams by Side.
   HorizonAxes horizon;
 };
 
-/// @param edge Its time says where the Earth then stands.
-/// @return Empty when there is no such edge: the sensor does not exist, the slit cannot see so far
-///         from its equator, or the beam misses the Earth; or one of these nearly.
+/// @param edge Edge whose time gives the position of the Earth.
+/// @return Empty when there is no such edge, or nearly none: the sensor does not exist, the slit
+/// cannot see so far from its equator, or the beam misses the Earth.
 std::optional<PredictedEdge> predict_edge(const PlacedSensors& sensors, const Sky& sky,
                                           const Eigen::Matrix3d& R_spin_icrf, const Pulse& edge);
 
-/// Of one edge alone, by sensors without a bias.
+/// Predicts one edge with unbiased sensors.
 std::optional<PredictedEdge> predict_edge(const SpinConfig& config, const Sky& sky,
                                           const Eigen::Matrix3d& R_spin_icrf, const Pulse& edge);
 
-/// For an observed edge that the state (nearly) does not have: the beam's depth in the disc when it
-/// came, linearised. Less curved than the edge time, which near the limb goes as a square root; but
-/// as it has the noise of the edge's azimuth, only to find a state that has the edge.
-/// @param phase_rad Of slit 1 when it came, as the state has it.
-/// @param sigma_rad Of the edge's noise.
-/// @return The third of its `phase_per_rotation` is not -1. Nothing by errors or biases. Empty for
-///         a slit, and for a beam that points away from the Earth or does not exist.
+/// Linearises the beam's depth in the Earth's disc at an observed edge that the state (nearly) does
+/// not have. Depth is less curved than edge time, which varies as a square root near the limb. It
+/// has the noise of the edge's azimuth, so it only serves to find a state that has the edge.
+/// @param phase_rad Phase of slit 1 at the edge by the state.
+/// @param sigma_rad Noise of the edge.
+/// @return Prediction without slopes by errors or biases, whose third slope by rotation is not -1.
+/// Empty for a slit, and for a beam that points away from the Earth or does not exist.
 std::optional<PredictedEdge> linearise_by_depth(const SpinConfig& config, const Sky& sky,
                                                 const Eigen::Matrix3d& R_spin_icrf,
                                                 const Pulse& edge, double phase_rad,

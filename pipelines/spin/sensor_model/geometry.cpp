@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kAlike = 0.01;
 constexpr double kInLine_rad = 3.0 * kRadPerDeg;
-// Beyond it no infrared sensor sees a disc; what is said to be there is in metres.
+// Beyond this range no infrared sensor sees a disc; such a range was given in metres.
 constexpr double kFarthest_km = 1.0e6;
 
 }  // namespace

@@ -1,8 +1,8 @@
 /// @file
-/// The spherical geometry of spin axis, Sun and Earth (Wang 2015).
-/// Angles in radians, directions are unit vectors in ICRF.
+/// The spherical geometry of spin axis, Sun and Earth (Wang 2015). Angles are in radians,
+/// directions are unit vectors in ICRF.
 ///
-/// What a fix is solved with is written for any scalar, so that its derivatives come with it.
+/// Functions used by fixes are templates on the scalar, so that they also yield derivatives.
 
 #pragma once
 
@@ -18,27 +18,27 @@
 
 namespace spindrift {
 
-/// An axis whose standard deviation is larger is not determined: slopes mean nothing so far away.
+/// Standard deviation beyond which an axis is undetermined, as slopes mean nothing so far away.
 inline constexpr double kLeastDetermined_rad = 0.5;
 
-/// rho = asin((R_earth + h) / r), the spherical Earth with R_earth = 6378.137 km.
+/// Returns rho = asin((R_earth + h) / r) for the spherical Earth with R_earth = 6378.137 km.
 /// @return Unobservable when the spacecraft is not above that sphere, or beyond a million km.
 Expected<double> earth_disc_half_angle_rad(double range_km, double co2_altitude_km);
 
-/// A chord across the Earth's disc, and the mounting angle of its beam.
+/// Holds a chord across the Earth's disc and the mounting angle of its beam.
 template <class T>
 struct ChordOf {
-  double mount_angle_rad;  ///< gamma
-  T chord_rad;             ///< Phi
+  double mount_angle_rad;  ///< Mounting angle gamma.
+  T chord_rad;             ///< Chord Phi.
 };
 using Chord = ChordOf<double>;
 
-/// Cosines of the mounting angles differ by less than 0.01 (0.6 deg near the equator): both beams
-/// measure the same chord.
+/// Returns whether the cosines of the mounting angles differ by less than 0.01 (0.6 deg near the
+/// equator), so that both beams measure the same chord.
 bool mount_angles_coincide(double one_rad, double other_rad);
 
-/// theta_e in (0, pi) from both chords, which needs no rho. The mounting angles must differ (the
-/// caller tests it).
+/// Solves theta_e in (0, pi) from both chords, without rho. The mounting angles must differ; the
+/// caller tests this.
 template <class T>
 T earth_angle_from_two_chords(const ChordOf<T>& north, const ChordOf<T>& south) {
   using std::atan2, std::cos;
@@ -49,7 +49,7 @@ T earth_angle_from_two_chords(const ChordOf<T>& north, const ChordOf<T>& south) 
   return atan2(T{std::abs(sine)}, T{std::copysign(1.0, sine) * cosine});
 }
 
-/// cos(rho) as one chord shows it from a known theta_e: the check that two chords leave over.
+/// Returns cos(rho) from one chord and a known theta_e, as a check of a two-chord solution.
 template <class T>
 T cos_disc_seen(const ChordOf<T>& chord, const T& earth_angle_rad) {
   using std::cos, std::sin;
@@ -57,18 +57,18 @@ T cos_disc_seen(const ChordOf<T>& chord, const T& earth_angle_rad) {
          std::sin(chord.mount_angle_rad) * T{sin(earth_angle_rad)} * T{cos(0.5 * chord.chord_rad)};
 }
 
-/// The right-hand sides of the one-chord equations.
+/// Holds the input of the one-chord equations.
 template <class T>
 struct OneChordInput {
   ChordOf<T> chord;
   T sun_angle_rad;
   T dihedral_rad;
-  double sun_earth_rad;  ///< theta_se
-  T disc_rad;            ///< rho
+  double sun_earth_rad;  ///< Angle theta_se between Sun and Earth.
+  T disc_rad;            ///< Half-angle rho of the Earth's disc.
 };
 
-/// Delta = cos g sin(theta_s) cos(lambda) - cos(theta_s) sin g cos(Phi/2): the smaller, the less
-/// the two linear equations for theta_e differ.
+/// Returns Delta = cos g sin(theta_s) cos(lambda) - cos(theta_s) sin g cos(Phi/2): the smaller it
+/// is, the less the two linear equations for theta_e differ.
 template <class T>
 T determinant(const OneChordInput<T>& input) {
   using std::cos, std::sin;
@@ -78,7 +78,7 @@ T determinant(const OneChordInput<T>& input) {
          T{cos(input.sun_angle_rad)} * chord_sine;
 }
 
-/// theta_e of the linear solution; good where |Delta| is large.
+/// Returns theta_e of the linear solution, which is accurate where |Delta| is large.
 template <class T>
 T earth_angle_linear(const OneChordInput<T>& input) {
   using std::atan2, std::cos, std::sin;
@@ -94,16 +94,16 @@ T earth_angle_linear(const OneChordInput<T>& input) {
   return atan2(T{sign * sine}, T{sign * cosine});
 }
 
-/// The angles x with a cos x + b sin x = c.
+/// Holds the angles x with a cos x + b sin x = c.
 template <class T>
 struct ConeRootsOf {
-  std::vector<T> angles_rad;   ///< In (0, pi).
-  std::vector<T> outside_rad;  ///< In (-pi, 0] or [pi, 2 pi): no angles but for the noise.
-  T excess;                    ///< |c| / hypot(a, b) - 1: from zero on there is no root.
+  std::vector<T> angles_rad;   ///< Roots in (0, pi).
+  std::vector<T> outside_rad;  ///< Roots in (-pi, 0] or [pi, 2 pi), valid only through noise.
+  T excess;                    ///< |c| / hypot(a, b) - 1; from zero on there is no root.
 };
 
-/// Where one cone meets another: a chord the Earth's disc (x = theta_e), or a dihedral the angle
-/// between Sun and Earth (x = theta_s).
+/// Returns where two cones meet: a chord and the Earth's disc (x = theta_e), or a dihedral and the
+/// angle between Sun and Earth (x = theta_s).
 template <class T>
 ConeRootsOf<T> cone_roots(const T& a, const T& b, const T& c) {
   using std::acos, std::atan2, std::sqrt;
@@ -126,7 +126,7 @@ ConeRootsOf<T> cone_roots(const T& a, const T& b, const T& c) {
   return roots;
 }
 
-/// The axis that has the given angles to Sun and Earth, and the dihedral between them.
+/// Holds the angles of an axis to Sun and Earth, and the dihedral between them.
 template <class T>
 struct AxisInput {
   Eigen::Vector3d sun_icrf;
@@ -136,8 +136,8 @@ struct AxisInput {
   T dihedral_rad;
 };
 
-/// P from P.S, P.E and P.(S x E), not normalised: its length is 1 when the three agree.
-/// Sun and Earth must not be in line (the caller tests it).
+/// Returns P from P.S, P.E and P.(S x E), not normalised: its length is 1 when the three agree. Sun
+/// and Earth must not be in line; the caller tests this.
 template <class T>
 Eigen::Matrix<T, 3, 1> axis_icrf(const AxisInput<T>& input) {
   using std::cos, std::sin;
@@ -158,11 +158,11 @@ Eigen::Matrix<T, 3, 1> axis_icrf(const AxisInput<T>& input) {
   return axis;
 }
 
-/// Sun and Earth within 3 deg of one line: they leave the axis free to turn about it.
-/// @param sun_earth_rad theta_se
+/// Returns whether Sun and Earth are within 3 deg of one line, about which the axis is then free.
+/// @param sun_earth_rad Angle theta_se between Sun and Earth.
 bool in_line(double sun_earth_rad);
 
-/// What a revolution should measure if the axis were `axis_icrf`.
+/// Holds the angles that a revolution should measure with a given axis.
 struct PredictedAngles {
   double sun_angle_rad;
   double earth_angle_rad;
@@ -171,8 +171,8 @@ struct PredictedAngles {
 PredictedAngles predict_angles(const Eigen::Vector3d& axis_icrf, const Eigen::Vector3d& sun_icrf,
                                const Eigen::Vector3d& earth_icrf);
 
-/// Phi = 2 acos((cos rho - cos g cos theta_e) / (sin g sin theta_e)); empty when the beam misses
-/// the disc or never leaves it.
+/// Returns Phi = 2 acos((cos rho - cos g cos theta_e) / (sin g sin theta_e)); empty when the beam
+/// misses the disc or never leaves it.
 std::optional<double> predict_chord_rad(double mount_angle_rad, double earth_angle_rad,
                                         double disc_rad);
 

@@ -9,13 +9,13 @@
 namespace spindrift {
 namespace {
 
-// From the sphere's crossing, 0.2 deg away, Newton's steps square the error: three or four do.
+// From the sphere's crossing, 0.2 deg away, three or four quadratic Newton steps suffice.
 constexpr int kMostSteps = 12;
 constexpr double kConverged_rad = 1e-12;
-// A chord that changes by more than so many times what the axis moves is about to vanish.
+// A chord that changes by more than this factor times the axis motion is about to vanish.
 constexpr double kSteepest = 30.0;
 
-/// F as a quadratic form in the direction, lengths in units of the equatorial semi-axis.
+/// Represents F as a quadratic form in the direction, with the equatorial semi-axis as unit length.
 class TangentForm {
  public:
   TangentForm(const HorizonAxes& axes, const EarthView& earth)
@@ -25,11 +25,11 @@ class TangentForm {
         stretched_{stretched(earth.spacecraft_spin_km / axes.equatorial_km)},
         outside_{earth.spacecraft_spin_km.dot(stretched_) / axes.equatorial_km - 1.0} {}
 
-  /// Q d.
+  /// Returns Q d.
   Eigen::Vector3d times(const Eigen::Vector3d& direction) const {
     return stretched_ * stretched_.dot(direction) - outside_ * stretched(direction);
   }
-  /// Change of d.Q d with the height of the horizon, 1/km; per half of it as everything here.
+  /// Returns half the change of d.Q d per km of horizon height; all derivatives here are of F/2.
   double half_per_height(const Eigen::Vector3d& direction) const {
     const double along = stretched_.dot(direction);
     const double squeeze = direction.dot(stretched(direction));
@@ -55,12 +55,12 @@ class TangentForm {
 
   Eigen::Vector3d pole_;
   HorizonAxes axes_;
-  double flattening_;          ///< (a/b)^2 - 1.
-  Eigen::Vector3d stretched_;  ///< M r.
-  double outside_;             ///< r.M r - 1.
+  double flattening_;          ///< Flattening term (a/b)^2 - 1.
+  Eigen::Vector3d stretched_;  ///< The vector M r.
+  double outside_;             ///< The scalar r.M r - 1.
 };
 
-/// The azimuth where the beam crosses the sphere about the ellipsoid. Empty: it misses that sphere.
+/// Returns the azimuth where the beam crosses the sphere about the ellipsoid; empty if it misses.
 std::optional<double> first_guess_rad(double radius_km, const Eigen::Vector3d& spacecraft_spin_km,
                                       double mount_angle_rad, Crossing crossing) {
   const double range_km = spacecraft_spin_km.norm();
@@ -77,7 +77,7 @@ std::optional<double> first_guess_rad(double radius_km, const Eigen::Vector3d& s
          (crossing == Crossing::In ? -half_chord_rad : half_chord_rad);
 }
 
-/// cos(angle between beam and Earth) changes by z.(beam x Earth) with the azimuth.
+/// The cosine between beam and Earth changes by z.(beam x Earth) per azimuth.
 double per_limb(const EarthView& earth, const Eigen::Vector3d& beam) {
   const Eigen::Vector3d across = beam.cross(earth.spacecraft_spin_km);
   return across.norm() / across.z();

@@ -1,5 +1,5 @@
 /// @file
-/// Where a pencil beam crosses the Earth's infrared limb, spherical or ellipsoidal.
+/// Computes where a pencil beam crosses the Earth's infrared limb, spherical or ellipsoidal.
 ///
 /// The beam from the spacecraft at r along d touches the horizon where
 ///
@@ -9,7 +9,7 @@
 /// quadratic form, so that turning the beam by the small vector e changes F by 2 e.(d x Q d): one
 /// product gives the derivative by the beam's azimuth and by the tilts of the spin axis.
 ///
-/// Directions in the frame `spin`: any frame whose third axis is the spin axis.
+/// Directions are in the frame `spin`: any frame whose third axis is the spin axis.
 
 #pragma once
 
@@ -26,36 +26,35 @@ struct HorizonAxes {
   double polar_km;
 };
 
-/// The sphere of 6378.137 km, or the WGS-84 ellipsoid, raised by the altitude of the CO2.
+/// Returns the sphere of 6378.137 km, or the WGS-84 ellipsoid, raised by the CO2 altitude.
 HorizonAxes horizon_axes(const Horizon& horizon);
 
 enum class Crossing { In, Out };
 
 struct LimbCrossing {
-  double azimuth_rad;  ///< Of the beam, (-pi, pi].
-  /// Its change when the frame turns by a small vector about its own axes; the third is -1.
+  double azimuth_rad;  ///< Azimuth of the beam, (-pi, pi].
+  /// Change per small rotation of the frame about its own axes; the third is -1.
   Eigen::Vector3d azimuth_per_rotation;
-  double
-      azimuth_per_limb;  ///< Likewise, when the limb is a radian farther from the Earth's centre.
-  double azimuth_per_mount;      ///< Likewise, by the mounting angle.
-  double azimuth_per_height_km;  ///< Likewise, by the height of the horizon above the Earth.
+  double azimuth_per_limb;       ///< Change per radian of limb, outwards.
+  double azimuth_per_mount;      ///< Change per mounting angle.
+  double azimuth_per_height_km;  ///< Change per km of horizon height.
 };
 
-/// The Earth as the frame `spin` sees it.
+/// Holds the position of the spacecraft and the Earth's pole in the frame `spin`.
 struct EarthView {
-  Eigen::Vector3d spacecraft_spin_km;  ///< From the Earth's centre.
-  Eigen::Vector3d pole_spin;           ///< Unit.
+  Eigen::Vector3d spacecraft_spin_km;  ///< Position from the Earth's centre.
+  Eigen::Vector3d pole_spin;           ///< Unit vector.
 };
 
-/// @param mount_angle_rad gamma, of the beam from the spin axis.
+/// @param mount_angle_rad Angle gamma of the beam from the spin axis.
 /// @return Empty when the beam misses the Earth, never leaves it, or is near-tangent to the limb.
 std::optional<LimbCrossing> limb_crossing(const HorizonAxes& axes, const EarthView& earth,
                                           double mount_angle_rad, Crossing crossing);
 
-/// How far a beam is from the limb, wherever it points.
+/// Measures the distance of a beam from the limb, in any direction.
 struct LimbDistance {
-  double depth;                        ///< F/2: positive where the beam is on the Earth.
-  Eigen::Vector3d depth_per_rotation;  ///< When the frame turns; the third is also by azimuth.
+  double depth;                        ///< F/2, positive where the beam is on the Earth.
+  Eigen::Vector3d depth_per_rotation;  ///< Change per rotation; the third is by azimuth.
   double depth_bend;                   ///< Second derivative by azimuth.
 };
 

@@ -15,7 +15,7 @@ struct Weight {
   double sigmas;
 };
 constexpr Weight kWhereEdgesDoubt{.fixes = 10, .sigmas = kContradictionSigmas};
-// Where they do not, single fixes may all be off to one side.
+// Without doubt by the edges more is needed, as single fixes may all be off to one side.
 constexpr Weight kFixesAlone{.fixes = 30, .sigmas = 8.0};
 
 }  // namespace

@@ -1,7 +1,7 @@
 /// @file
-/// Whether the fixes contradict all axes that filters follow.
+/// Tests whether the fixes contradict all axes that filters follow.
 ///
-/// Single fixes deviate, and most do where the noise is more than stated. So a cumulative sum of
+/// Single fixes deviate, and most do where the noise is more than stated. So the cumulative sum of
 /// fixes against the axis, less those for it, must reach a limit, and the mean of all fixes since
 /// the sum was last 0 must differ from the axis by more than their observed scatter explains.
 
@@ -15,15 +15,15 @@ namespace spindrift {
 
 class Contradiction {
  public:
-  /// What so many fixes say.
+  /// Counts fixes for or against the followed axes.
   void note(const Hypotheses& followed, const StartingPoints::Known& said);
 
-  /// @param edges_doubt The edges speak against the axis as well: then less is needed.
+  /// @param edges_doubt True when the edges contradict the axis too; then fewer fixes suffice.
   bool stands(const Hypotheses& followed, bool edges_doubt) const;
 
  private:
-  int against_ = 0;  ///< Fixes, less those for it.
-  MeanAxis mean_;    ///< Of what all of them say, since that was last 0.
+  int against_ = 0;  ///< Fixes against the axes less those for them, never below 0.
+  MeanAxis mean_;    ///< Mean of all fixes since the count was last 0.
 };
 
 }  // namespace spindrift

@@ -10,14 +10,13 @@
 namespace spindrift {
 namespace {
 
-// Across a silence in which the phase became this uncertain, whole turns can no longer be counted:
-// phase and rate start anew.
+// After a gap that makes the phase this uncertain, turns can no longer be counted and phase and
+// rate start anew.
 constexpr double kPhaseLost_rad = 0.3;
 constexpr double kBeyondDoubt = 20.0;
-// The edges are e^5 times likelier under another candidate: were this one true, that would happen
-// in one pass of 150 at most (Ville's inequality).
+// A true candidate falls behind another by e^5 in one pass of 150 at most (Ville's inequality).
 constexpr double kUnlikely = 5.0;
-// A stray edge may make a fix, and may do so twice.
+// Stray edges may make a false fix, even twice.
 constexpr int kFewestFixes = 5;
 
 StartingPoint place_of(const Hypothesis& hypothesis) {
@@ -25,7 +24,7 @@ StartingPoint place_of(const Hypothesis& hypothesis) {
           .covariance_rad2 = hypothesis.filter.axis_covariance_rad2()};
 }
 
-/// Both filters have come to one axis.
+/// Returns whether both filters have converged to one axis.
 bool agree(const SpinFilter& a, const SpinFilter& b) {
   const double apart_rad = angle_between_rad(a.axis_icrf(), b.axis_icrf());
   return apart_rad < kModelLimit_rad &&
@@ -33,7 +32,7 @@ bool agree(const SpinFilter& a, const SpinFilter& b) {
              std::min(a.axis_covariance_rad2().trace(), b.axis_covariance_rad2().trace());
 }
 
-/// The sum of its squared innovations is a chi-square of one degree of freedom each.
+/// Tests the sum of squared innovations as a chi-square with one degree of freedom per edge.
 bool fits(const Hypothesis& hypothesis) {
   return hypothesis.edges >= kFewestEdgesToFit &&
          noise_is_as_stated(hypothesis.squared_innovations, hypothesis.edges);
@@ -61,8 +60,8 @@ bool Hypotheses::closed() const {
                      [](const Hypothesis& other) { return other.late; });
 }
 
-/// Nor where all fixes are near-tangent: filters that began to one side of the axis need not come
-/// to it.
+/// The prior does not stand when all fixes are near-tangent, as filters that began to one side of
+/// the axis need not converge to it.
 bool Hypotheses::prior_stands() const {
   return published().preferred_by_prior && !provisional_ &&
          std::all_of(all_.begin() + 1, all_.end(), [&](const Hypothesis& other) {
@@ -98,7 +97,7 @@ void Hypotheses::note(const StartingPoints::Known& said) {
   }
 }
 
-/// The nearest; the end where that is contradicted.
+/// Returns the nearest candidate; the end if `point` contradicts it.
 std::vector<Hypothesis>::iterator Hypotheses::at(const StartingPoint& point) {
   const auto nearest =
       std::max_element(all_.begin(), all_.end(), [&](const Hypothesis& a, const Hypothesis& b) {
@@ -145,8 +144,8 @@ bool Hypotheses::work_in(const SpinConfig& config, const Revolution& revolution,
     hypothesis.edges += static_cast<double>(said.edges().size());
     hypothesis.log_likelihood += said.log_likelihood;
     hypothesis.squared_innovations += said.squared_innovations();
-    // A filter knows little at first, and its edges are unlikely for that: one that came late is
-    // held against the others, which have this behind them, from here on.
+    // Early edges of a filter are unlikely because it knows little. A late candidate is compared
+    // with the others, which have this phase behind them, only from here on.
     if (hypothesis.late && was_new && hypothesis.edges >= kFewestEdgesToFit) {
       hypothesis.log_likelihood = std::max(hypothesis.log_likelihood, published().log_likelihood);
     }
@@ -177,7 +176,7 @@ bool Hypotheses::drop_eliminated() {
   const auto left = std::remove_if(all_.begin() + 1, all_.end(), beaten);
   best.eliminated_another = best.eliminated_another || (best_fits && left != all_.end());
   all_.erase(left, all_.end());
-  // Unbeaten, the prior's candidate stands before likelier ones.
+  // The prior's candidate stays before likelier ones until it is beaten.
   std::stable_partition(all_.begin(), all_.end(),
                         [](const Hypothesis& hypothesis) { return hypothesis.preferred_by_prior; });
   return prior_beaten;

@@ -21,71 +21,71 @@ namespace spindrift {
 
 struct Hypothesis {
   SpinFilter filter;
-  bool preferred_by_prior = false;  ///< By a prior.
+  bool preferred_by_prior = false;  ///< Prior favours this candidate.
   double edges = 0.0;
-  double log_likelihood = 0.0;       ///< Of them.
-  double squared_innovations = 0.0;  ///< Normalised, their sum: as many as edges when all is well.
-  RevolutionObservations said = {};  ///< By the edges of the last revolution.
-  int fixes = 0;                     ///< That have it among their candidates.
-  bool eliminated_another = false;   ///< Eliminated another, by the edges.
-  bool late = false;                 ///< Came when the one then published had beaten another.
+  double log_likelihood = 0.0;       ///< Log likelihood of all its edges.
+  double squared_innovations = 0.0;  ///< Sum of NIS values; expected to equal `edges`.
+  RevolutionObservations said = {};  ///< Observations of the last revolution.
+  int fixes = 0;                     ///< Number of fixes that name this candidate.
+  bool eliminated_another = false;   ///< True once the edges have eliminated a rival.
+  bool late = false;                 ///< True if it joined after the first elimination.
 };
 
-/// So many edges say whether a hypothesis fits them.
+/// Number of edges needed to judge whether a hypothesis fits them.
 inline constexpr double kFewestEdgesToFit = 60.0;
 
 class Hypotheses {
  public:
-  /// @param provisional The true axis may be missing: then the edges settle nothing.
+  /// @param provisional True when the true axis may be missing; then the edges settle nothing.
   explicit Hypotheses(bool provisional = false) : provisional_{provisional} {}
 
   bool empty() const { return all_.empty(); }
   std::size_t count() const { return all_.size(); }
   bool provisional() const { return provisional_; }
-  /// One is left, chosen by a fix or by the edges.
+  /// Returns whether one candidate is left, chosen by a fix or by the edges.
   bool settled() const { return (settled_ || closed()) && all_.size() == 1; }
-  /// Chosen by the edges among candidates that several fixes have named.
+  /// Returns whether the edges chose the last candidate, among candidates that several fixes named.
   bool settled_by_edges() const { return closed() && all_.size() == 1; }
 
-  /// The one published has eliminated all that joined before its first elimination: those left are
-  /// the last to be judged. Otherwise false candidates of later fixes would keep joining.
+  /// Returns whether the published candidate has eliminated all that joined before its first
+  /// elimination, so that no more may join; false candidates of later fixes would do so endlessly.
   bool closed() const;
 
-  /// The likeliest first, but before it the prior's, until the edges beat that; likewise
-  /// `published`, of which there must be one.
+  /// Returns the candidates, likeliest first, but with the prior's candidate in front until the
+  /// edges beat it. The first is the published one and must exist.
   const std::vector<Hypothesis>& all() const { return all_; }
   const Hypothesis& published() const { return all_.front(); }
 
-  /// The best other axis, and by how much the edges' log likelihood is less about it.
+  /// Describes the best other axis and how much lower its log likelihood is.
   struct Rival {
     Eigen::Vector3d axis_icrf;
     double less;
   };
-  /// That which competes; where none does, the last one that was eliminated; empty: none was.
+  /// Returns the best remaining rival, else the last one eliminated; empty if there never was one.
   std::optional<Rival> rival() const;
 
-  /// No filter may have this axis.
+  /// Returns whether `point` contradicts the axes of all filters.
   bool contradicted_by(const StartingPoint& point) const;
 
-  /// Nothing but a prior chose the one published, and the edges do not speak against it.
+  /// Returns whether only a prior chose the published candidate and the edges do not oppose it.
   bool prior_stands() const;
 
-  /// Adds a candidate that is taken to be as likely so far as the one published; where that was
-  /// settled, or the list closed, both begin equal.
-  /// @return False where none of the revolution's edges can tell its phase.
+  /// Adds a candidate with the log likelihood of the published one. If that one was settled or the
+  /// list closed, it loses its earlier elimination and both start equal.
+  /// @return False when none of the revolution's edges determines the phase.
   bool add(const StartingPoint& point, const SpinConfig& config, const Revolution& revolution,
            const Sky& sky);
 
-  /// Fixes have said this.
+  /// Counts the fixes that name each candidate.
   void note(const StartingPoints::Known& said);
 
-  /// A fix settles which of them is true, unless it contradicts them all.
+  /// Keeps only the candidate that a fix names, unless the fix contradicts all candidates.
   void settle_at(const StartingPoint& point);
-  /// Likewise a prior, but the others stay until the edges settle it.
+  /// Publishes the candidate that a prior names, but keeps the others until the edges decide.
   void prefer_at(const StartingPoint& point);
 
-  /// @param noise Of the filters' update.
-  /// @return Whether the edges have beaten the candidate that a prior had chosen.
+  /// @param noise Excess noise that widens the filters' gates.
+  /// @return True when the edges have beaten the candidate that a prior had chosen.
   bool work_in(const SpinConfig& config, const Revolution& revolution, const Sky& sky,
                const ChannelNoise& noise);
 

@@ -3,7 +3,7 @@
 namespace spindrift {
 namespace {
 
-// What was said before a restart weighs as much as so many edges.
+// Evidence from before a restart keeps the weight of this many edges.
 constexpr double kFadedEdges = 100.0;
 
 }  // namespace

@@ -1,8 +1,7 @@
 /// @file
-/// What the innovations of a filter say of errors of its model (a slit or a beam that is not where
-/// the mission file says, the limb). They should have the mean 0: the part of such an error that
-/// looks like another axis moves the axis unseen, the rest stays in the innovations. It is tested
-/// as that of the angles is (model_check.h).
+/// Accumulates evidence of model errors (misplaced slits or beams, limb altitude) from innovations.
+/// Innovations should have zero mean. The part of a model error that looks like another axis moves
+/// the axis unseen; the rest stays in the innovations and is tested as in model_check.h.
 
 #pragma once
 
@@ -13,13 +12,13 @@ namespace spindrift {
 
 class ModelEvidence {
  public:
-  /// @param edges So many were used.
+  /// @param edges Number of edges used.
   void add(const ErrorInformation& errors, double edges);
 
-  /// The filter begins anew: what was said before has little weight.
+  /// Reduces the weight of earlier evidence when the filter restarts.
   void fade();
 
-  /// @param excess_noise, offsets_s2 As test_model_errors().
+  /// @param excess_noise, offsets_s2 Arguments of test_model_errors().
   ModelTest test(double excess_noise, const OffsetPrior& offsets_s2) const {
     return test_model_errors(errors_, excess_noise, offsets_s2);
   }

@@ -16,24 +16,23 @@ namespace spindrift {
 namespace {
 
 constexpr std::size_t kMostHypotheses = 8;
-// So many fixes that graze, and none that does not: there will be no better ones.
+// After this many near-tangent fixes and no other, better ones are not expected.
 constexpr int kFewestNearTangent = 20;
-constexpr double kRecentFixes = 50.0;  // In the share of those that graze.
+constexpr double kRecentFixes = 50.0;  // Averaging length of the near-tangent share.
 constexpr double kNearlyAll = 0.8;
-// Of so many edges the mean squared innovation, 1 when all is well, says whether the noise is as
-// stated. From a fifth on those that are gated belong to the noise.
+// The mean squared innovation of `recent` edges, 1 if all is well, tests the stated noise. From a
+// gated share of a fifth on, gated edges count as noise.
 constexpr RecordRules kEdgeRules{
     .recent = 60.0, .fewest_freedoms = 15.0, .most_freedoms = 300.0, .noise_from_share = 0.2};
-// Of the edges, that are gated.
+// Share of gated edges beyond which the axis is lost.
 constexpr double kMost = 0.5;
-// Some of those that are used are likely wrong, too.
+// Share of gated edges beyond which some of the used ones are likely wrong, too.
 constexpr double kMany = 1.0 / 3.0;
-// Noise that is still significant for the fewest edges, and soon no more where the following ones
-// are good.
+// This start noise is still significant for the fewest edges, but soon not if later ones are good.
 constexpr double kMostOfStart = 4.0;
 
-/// The rate is that of the last seconds, as long as its own error takes to make that of the phase.
-/// Where the times are on a grid both ends of these are off by what the grid leaves open.
+/// The rate is an average over the last seconds, for as long as its error takes to build up the
+/// phase error. On a time grid the grid error adds at both ends.
 double rate_sigma_rad_s(const SpinFilter& filter, const PulseNoise& noise) {
   const double ends_rad = filter.rate_rad_s() * std::numbers::sqrt2 * grid_sigma_s(noise);
   return filter.rate_sigma_rad_s() * std::hypot(1.0, ends_rad / filter.phase_sigma_rad());
@@ -72,7 +71,7 @@ std::optional<SpinEstimate> SequentialEstimator::update(const Revolution& revolu
                       .assessment = assess()};
 }
 
-/// @return Whether filters began here.
+/// @return True when filters began here.
 bool SequentialEstimator::apply_fix(const SpinFix& fix, const Revolution& revolution,
                                     const Sky& sky) {
   note_near_tangent(fix);
@@ -86,7 +85,7 @@ bool SequentialEstimator::apply_fix(const SpinFix& fix, const Revolution& revolu
   if (!said) {
     return false;
   }
-  // Afresh: what fixes have in common to one side does not average out.
+  // Starts afresh, because a common error of several fixes does not average out.
   starts->forget();
   if (!hypotheses_.empty() && !counts_as_near_tangent(fix)) {
     contradiction_.note(hypotheses_, *said);
@@ -108,13 +107,13 @@ void SequentialEstimator::note_near_tangent(const SpinFix& fix) {
   near_tangent_share_.add(fix.near_tangent ? 1.0 : 0.0);
 }
 
-/// Where nearly all graze it is noise that keeps some from it, and their candidates are no better.
+/// If nearly all fixes are near-tangent, noise keeps some from it, and these are no better.
 bool SequentialEstimator::counts_as_near_tangent(const SpinFix& fix) const {
   return fix.near_tangent || (leaves_open(fix) && near_tangent_share_.mean() > kNearlyAll);
 }
 
-/// A branch that only alternates have made is not confirmed by a settled fix that comes near it.
-/// Where there are fixes that do not graze, the others say nothing.
+/// Keeps settled and open fixes apart: a settled fix near a branch made only of alternates does not
+/// confirm it. Near-tangent fixes are ignored once there are others.
 StartingPoints* SequentialEstimator::starting_points_for(const SpinFix& fix) {
   if (counts_as_near_tangent(fix)) {
     const bool no_others = hypotheses_.empty() || hypotheses_.provisional();
@@ -126,7 +125,7 @@ StartingPoints* SequentialEstimator::starting_points_for(const SpinFix& fix) {
   return fix.accepted ? &settled_starts_ : nullptr;
 }
 
-/// Only an accepted fix may start the filter again; of those that all graze, any.
+/// Only an accepted fix may restart the filter, or any fix while all fixes are near-tangent.
 bool SequentialEstimator::superseded_by(const SpinFix& fix) const {
   if (hypotheses_.empty()) {
     return true;
@@ -142,8 +141,7 @@ bool SequentialEstimator::fixes_contradict() const {
       hypotheses_, verdict_.excess_noise > 1.0 || ledger_.mostly_left_out().has_value());
 }
 
-/// At all points: without one of them the true one may be missing. What was counted since the last
-/// start is forgotten.
+/// Starts filters at all points, since without one of them the true axis may be missing.
 bool SequentialEstimator::begin(const SpinFix& fix, std::span<const StartingPoint> points,
                                 const Revolution& revolution, const Sky& sky) {
   Hypotheses started{counts_as_near_tangent(fix)};
@@ -184,8 +182,8 @@ void SequentialEstimator::select_hypothesis(const SpinFix& fix, const StartingPo
   }
 }
 
-/// Filters begin where all fixes together have their branches: false candidates move on, and are
-/// told from the true one by it. What is settled is asked again only where fixes contradict it.
+/// Adds filters where the fixes together have their branches, because false candidates move and are
+/// told from the true one by it. Settled axes are reopened only if fixes contradict them.
 void SequentialEstimator::join(std::span<const StartingPoint> points, const Revolution& revolution,
                                const Sky& sky) {
   if ((hypotheses_.settled() || hypotheses_.closed()) && !fixes_contradict()) {
@@ -224,7 +222,7 @@ void SequentialEstimator::work_in(const Revolution& revolution, const Sky& sky) 
                 static_cast<double>(std::count_if(
                     said.begin(), said.end(), [](const auto& edge) { return !edge.rejected_by; })));
   test_model_and_noise();
-  // The first edges pull the filter from its start to where they fit.
+  // The first edges pull the filter away from its start, so their innovations do not count.
   const auto edges = static_cast<double>(said.size());
   if (published.edges - edges < kFewestEdgesToFit && published.edges >= kFewestEdgesToFit) {
     ledger_.discard_transient(kMostOfStart);
@@ -236,7 +234,7 @@ void SequentialEstimator::test_model_and_noise() {
   verdict_ = evidence_.test(ledger_.all().excess_noise(), offset_prior_s2(config_.noise));
 }
 
-/// The axis is no longer, or never was, the true one.
+/// Returns whether most edges are gated, which shows that the axis is wrong.
 bool SequentialEstimator::most_left_out() const {
   return ledger_.all().recent_share_left_out() > kMost;
 }
@@ -264,7 +262,7 @@ std::optional<KnownAxis> SequentialEstimator::settled_by_edges() const {
                    .sigma_rad = std::hypot(std::sqrt(covariance_rad2().trace()), kModelLimit_rad)};
 }
 
-/// No sensor is misplaced so far: it is the axis that is wrong, however well the rest fits.
+/// No sensor is misplaced this far, so the axis is wrong, however well the rest fits.
 bool SequentialEstimator::model_contradicts() const {
   return verdict_.beyond_allowance || verdict_.error_rad > kModelLimit_rad;
 }
@@ -291,7 +289,7 @@ Assessment SequentialEstimator::assess_ambiguous() const {
   return assessment;
 }
 
-/// Empty where nothing speaks against it. An error of the model that its allowance covers is none.
+/// Returns empty without doubt; a model error within its allowance causes none.
 std::optional<Reason> SequentialEstimator::doubt() const {
   using enum ReasonCode;
   if (const auto channel = ledger_.mostly_left_out()) {
@@ -306,7 +304,7 @@ std::optional<Reason> SequentialEstimator::doubt() const {
   if (verdict_.error_rad > 0.0) {
     return model_contradicts() ? std::optional{model_off()} : std::nullopt;
   }
-  // Filters that began at several places and were beaten have searched more than one.
+  // If the edges beat rival filters, the search covered more than one starting point.
   if (start_confirmation_.unconfirmed() && !hypotheses_.settled_by_edges()) {
     return Reason{StartUnconfirmed};
   }
@@ -323,8 +321,8 @@ Assessment SequentialEstimator::assess() const {
   if (most_left_out()) {
     return {Quality::Lost, {gated, {AwaitingFix}}};
   }
-  // What passed before the filters began might have contradicted the prior: until they have seen as
-  // much, nothing is said.
+  // Edges before the start might have contradicted the prior, so it stands only after the filters
+  // have seen as many revolutions.
   if (!hypotheses_.settled() &&
       !(hypotheses_.prior_stands() && ledger_.turns() >= revolutions_before_start_)) {
     return assess_ambiguous();

@@ -1,34 +1,31 @@
 /// @file
-/// The estimator `sequential`: axis and rate after every revolution, from all its good edges.
+/// The estimator `sequential`: estimates axis and rate after every revolution, from its good edges.
 ///
-/// A fix starts it. Where the fix is AMBIGUOUS one filter starts at each of its candidates, and at
-/// those of later ones that are near none of them; all see the same edges, the likeliest is
-/// published, and the others are dropped when a later fix settles the matter or the edges
-/// themselves do (hypotheses.h). Likewise where only a PRIOR settled the fix: its candidate is
-/// published, and the others stay until the edges beat them; where they beat the prior's, the axis
-/// is theirs, and the assessment says so. Candidates known badly are averaged with those of the
-/// following fixes, until all are known well enough (starting_points.h); near-tangent ones start
-/// filters only where there are no others for long, and then nothing but an accepted fix settles
-/// it. A filter that finds most edges where it does not expect them, or whose fixes name another
-/// axis (contradiction.h), starts again at the next accepted fix, and says so; where the fixes name
-/// several, it is AMBIGUOUS again.
+/// A fix starts it. If the fix is AMBIGUOUS, one filter starts at each of its candidates and at
+/// those of later fixes that are near none of them. All filters see the same edges and the
+/// likeliest is published; a later fix or the edges (hypotheses.h) eliminate the others. If only a
+/// PRIOR settled the fix, its candidate is published until the edges beat it; the assessment then
+/// says so. Badly known candidates are averaged over fixes until all are known well enough
+/// (starting_points.h). Near-tangent candidates start filters only if there are no others for long,
+/// and then only an accepted fix settles the axis. A filter that gates most edges, or whose axis
+/// the fixes contradict (contradiction.h), restarts at the next accepted fix, and the assessment
+/// says so; if the fixes name several axes, it is AMBIGUOUS again.
 ///
-/// Its quality is
-///     OK         all is well
-///     CONVERGING likewise, but it has seen too few revolutions for its edges to have shown what is
-///                not (convergence.h)
-///     AMBIGUOUS  another axis, named, fits as well or nearly so, or nothing has settled it; the
-///                covariance is that of the candidate published, were it true. "or 2 more": so many
-///                others do, which the fixes list among their alternates. "or none:
-///                near-tangent", nearly all fixes are: where two branches touch, candidates are off
-///                by more than their covariances and many fixes lack the true one, so that no
-///                filter may follow it
-///     DOUBTFUL   the edges scatter more than their noise, or show errors of the model beyond its
-///                allowance, or of half a degree whatever they may be: the covariance is raised to
-///                cover it (below that likewise, and it is OK, "model off by"); or most
-///                edges of the channel named are not where this axis has them
-///     LOST       most edges are not: the axis is no longer, or never was, the true one; the
-///                covariance is that of an axis which may point anywhere
+/// The qualities are
+///     OK         none of the following applies
+///     CONVERGING as OK, but from too few revolutions to show an error (convergence.h)
+///     AMBIGUOUS  another axis, which is named, fits nearly as well, or nothing has settled it; the
+///                covariance assumes that the published candidate is true. "or 2 more" counts
+///                further candidates, listed as alternates of the fixes. "or none: near-tangent"
+///                means that nearly all fixes are: where two branches touch, candidates are off by
+///                more than their covariances and many fixes lack the true axis, so that perhaps no
+///                filter follows it
+///     DOUBTFUL   the edges scatter more than their noise, or show model errors beyond their
+///                allowance or half a degree, which the covariance then covers (smaller errors are
+///                covered, too, with quality OK and "model off by"); or most edges of the named
+///                channel are gated
+///     LOST       most edges are gated, so the axis is wrong; the covariance is that of an axis
+///                which may point anywhere
 
 #pragma once
 
@@ -57,42 +54,43 @@ class SequentialEstimator {
  public:
   explicit SequentialEstimator(SpinConfig config);
 
-  /// @param revolution Not earlier than the one before; only its good edges are used.
-  /// @param settled The fixes that were settled since the revolution before, in any order.
+  /// @param revolution Revolution not earlier than the one before; only its good edges are used.
+  /// @param settled Fixes that were settled since the revolution before, in any order.
   /// @return The estimate at the revolution's start; empty until the first fix.
   std::optional<SpinEstimate> update(const Revolution& revolution, const Sky& sky,
                                      std::span<const SpinFix> settled);
 
-  /// What is known of the noise of the edges to come, and of the grid of their times.
+  /// Sets the noise of the edges to come and the grid of their times.
   void hear(const PulseNoise& noise) { config_.noise = noise; }
 
-  /// How often it gave up its axis for another.
+  /// Number of times the estimator gave up its axis for another.
   int restarts() const { return restarts_; }
 
-  /// The edges have beaten the candidate that a prior had chosen.
+  /// Returns whether the edges have beaten the candidate that a prior had chosen.
   bool prior_refuted() const { return prior_refuted_; }
 
-  /// What errors of the model, one radian each, move the axis by, all ways together, rad: of the
-  /// geometry alone. Estimates include only what the edges show of such errors. There must be one.
+  /// Returns the axis motion for model errors of one radian each, all combined, rad. It depends on
+  /// the geometry alone; estimates include only the errors that the edges show. A filter must
+  /// exist.
   double model_leverage() const;
-  /// Beyond it the assessment says so. Where beams cross the Earth well apart, an axis moves by
-  /// three or four times the errors of the model; where both look across the same middle of it, by
-  /// ten.
+  /// Leverage beyond which the assessment warns. The axis moves by three or four times the model
+  /// errors where beams cross the Earth well apart, and by ten where both cross the same middle of
+  /// it.
   static constexpr double kPoorLeverage = 6.0;
 
-  /// What the edges of the last revolution said to the candidate published; empty where a filter
+  /// Returns the last revolution's observations of the published candidate; empty if its filter
   /// began there.
   std::span<const Observation> observations() const {
     return hypotheses_.empty() ? std::span<const Observation>{}
                                : hypotheses_.published().said.edges();
   }
 
-  /// Of the candidate published; there must be one.
+  /// Axis of the published candidate, which must exist.
   Eigen::Vector3d axis_icrf() const { return hypotheses_.published().filter.axis_icrf(); }
   bool has_begun() const { return !hypotheses_.empty(); }
   std::optional<Hypotheses::Rival> rival() const { return hypotheses_.rival(); }
 
-  /// The axis that the edges settled beyond doubt among several.
+  /// Returns the axis if the edges settled it among several.
   std::optional<KnownAxis> settled_by_edges() const;
 
  private:
@@ -118,27 +116,27 @@ class SequentialEstimator {
   Assessment assess() const;
 
   SpinConfig config_;
-  Hypotheses hypotheses_;  ///< None before the first fix.
+  Hypotheses hypotheses_;  ///< Empty before the first fix.
 
-  StartingPoints settled_starts_;  ///< Of fixes that are settled.
-  StartingPoints open_starts_;     ///< Of those that leave several candidates open.
+  StartingPoints settled_starts_;  ///< Candidates of settled fixes.
+  StartingPoints open_starts_;     ///< Candidates of fixes that leave several open.
   StartingPoints near_tangent_starts_;
-  RecentMean near_tangent_share_;  ///< Of the recent fixes.
-  StartingPoints untracked_;       ///< Candidates that no filter follows, since the start.
-  Contradiction contradiction_;    ///< By fixes, since the start.
+  RecentMean near_tangent_share_;  ///< Share of near-tangent fixes among the recent ones.
+  StartingPoints untracked_;       ///< Candidates without a filter since the last start.
+  Contradiction contradiction_;    ///< Contradiction by fixes since the last start.
   StartConfirmation start_confirmation_;
 
-  Ledger ledger_;           ///< Of the published candidate.
-  ModelEvidence evidence_;  ///< Over the restarts: the model stays what it is.
-  ModelTest verdict_;       ///< Of both.
-  /// The gate opens for noise that made the filter begin anew before: then it was not the axis.
+  Ledger ledger_;           ///< Innovations of the published candidate.
+  ModelEvidence evidence_;  ///< Kept over restarts, as the model stays the same.
+  ModelTest verdict_;       ///< Test of `ledger_` and `evidence_`.
+  /// Excess noise at the last restart. The gate opens no further: only noise that is still there
+  /// after a restart was not caused by a wrong axis.
   double noise_at_restart_ = 1.0;
 
-  std::int64_t revolutions_before_start_ =
-      0;  ///< Revolutions with fixes before the first that could start it.
+  std::int64_t revolutions_before_start_ = 0;  ///< Revolutions with fixes before the first start.
   int restarts_ = 0;
   bool prior_refuted_ = false;
-  std::optional<ReasonCode> restarted_;  ///< Why; empty: never.
+  std::optional<ReasonCode> restarted_;  ///< Reason of the last restart; empty if none.
 };
 
 }  // namespace spindrift

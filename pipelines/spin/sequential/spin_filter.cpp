@@ -16,21 +16,21 @@ namespace {
 
 enum Component : Eigen::Index { kTiltX, kTiltY, kPhase, kRate, kDrift };
 
-// Torques on a satellite turn its axis by up to a tenth of a degree a day; this random walk makes
-// 0.02 deg of it, and 3e-6 deg a second, which no pulse can tell from rest.
+// Torques turn a satellite's axis by up to 0.1 deg a day. This random walk makes 0.02 deg a day and
+// 3e-6 deg a second, which no pulse can tell from rest.
 constexpr double kAxisWander_rad_sqrt_s = 1e-6;
-// What is left beside an even drift. A rate that is constant is known better than the filter says;
-// the axis hardly depends on it.
+// Wander beside the uniform drift. A constant rate is known better than the filter's sigma says,
+// but the axis hardly depends on it.
 constexpr double kRateWander_rad_s_sqrt_s = 3e-6;
 constexpr double kFirstDrift_rad_s2 = kFirstDrift_rpm_h * (kTurn_rad / 60.0) / kHour_s;
-// A day makes 0.02 rpm/h of it.
+// In a day this makes 0.02 rpm/h.
 constexpr double kDriftWander_rad_s2_sqrt_s = 2e-9;
 // One edge in a thousand is spurious and anywhere on the circle.
 const double kLogSpurious = std::log(1e-3 / kTurn_rad);
-// The first phase comes from an edge that the axis may rest on too: known so badly, it is free.
+// The axis may rest on the edge that gives the first phase; this sigma leaves the phase free.
 constexpr double kFirstPhase_rad = 0.1;
-// The first rate comes from the period: ten of its sigmas leave the filter a hundredth of its
-// weight. Its own sigma says nothing of a drift.
+// The period gives the first rate; ten of its sigmas leave it a hundredth of its weight in the
+// filter. The share is added because the period's sigma ignores a drift.
 constexpr double kFirstRateSigmas = 10.0;
 constexpr double kFirstRateShare = 1e-4;
 
@@ -74,7 +74,7 @@ std::optional<SpinFilter> SpinFilter::about(const Eigen::Vector3d& axis_icrf,
       continue;
     }
     SpinFilter filter{edge.t, q_icrf_spin, predicted->phase_rad, rate_rad_s};
-    // Rotations and reflections: the inverse is the transpose.
+    // The matrix consists of rotations and reflections, so its inverse is its transpose.
     const Eigen::Matrix2d turned = tangent_from_tilts(q_icrf_spin);
     filter.covariance_.topLeftCorner<2, 2>() = turned.transpose() * covariance_rad2 * turned;
     filter.covariance_(kPhase, kPhase) = square(kFirstPhase_rad);
@@ -108,7 +108,7 @@ void SpinFilter::predict(TaiTime t) {
   const double drift_rad2_s4 = square(kDriftWander_rad_s2_sqrt_s) * dt_s;
   covariance_(kTiltX, kTiltX) += axis_rad2;
   covariance_(kTiltY, kTiltY) += axis_rad2;
-  // Integrated over the interval: of the drift, the rate it makes and the phase that this makes.
+  // Process noise of rate and drift, integrated over the interval into rate and phase.
   Eigen::Matrix3d wander;
   wander << square(dt_s) * (rate_rad2_s2 / 3.0 + drift_rad2_s4 * square(dt_s) / 20.0),
       dt_s * (rate_rad2_s2 / 2.0 + drift_rad2_s4 * square(dt_s) / 8.0),
@@ -127,13 +127,13 @@ RevolutionObservations SpinFilter::update(const SpinConfig& config, const Sky& s
                              .noise = noise,
                              .sensors = {config, SensorBiases::Zero()}};
   RevolutionObservations said;
-  // There may be no state near with all these edges: then those that are missing pull no more.
+  // There may be no state nearby with all these edges; then the missing edges are left out.
   for (const Missing missing : {Missing::Approached, Missing::LeftOut}) {
     *this = prior;
     for (int pass = 0; pass < kMostLinearisations; ++pass) {
       const Linearised here = update_linearised_here(prior, seen, missing, said);
-      // What two linearisations disagree on would count as knowledge of what no edge measures. The
-      // narrower a chord, the steeper its edges and, squared, the more curved.
+      // Repeats until linearisations agree: their difference would count as knowledge of directions
+      // that no edge measures. Edges of a narrow chord are steep and, squared, curved.
       if (!here.approached && here.moved_rad * square(here.steepest) < kFarFromLinear_rad) {
         return said;
       }
@@ -142,8 +142,8 @@ RevolutionObservations SpinFilter::update(const SpinConfig& config, const Sky& s
   return said;
 }
 
-/// All edges are linearised at the present state: then their order has no weight, and sun edges,
-/// the sharper, come first to the gate.
+/// Linearises all edges at the present state, so that their order has no weight. Sun edges, the
+/// more precise, come first to the gate.
 SpinFilter::Linearised SpinFilter::update_linearised_here(const SpinFilter& prior,
                                                           const RevolutionEdges& seen,
                                                           Missing missing,
@@ -199,7 +199,7 @@ SpinFilter::Linearised SpinFilter::update_linearised_here(const SpinFilter& prio
   return here;
 }
 
-/// Beyond the gate nothing is done.
+/// Leaves the state unchanged for an edge beyond the gate.
 Observation SpinFilter::work_in(const Measured& measured, double gate, Error& error,
                                 RevolutionObservations& said) {
   using Update = LinearUpdate<5, 1>;
@@ -239,7 +239,7 @@ Observation SpinFilter::work_in(const Measured& measured, double gate, Error& er
   return observation;
 }
 
-/// Of this state, were `truth` true.
+/// Returns the error of this state if `truth` is true.
 SpinFilter::Error SpinFilter::error_of(const SpinFilter& truth) const {
   const Eigen::AngleAxisd turn{q_icrf_spin_.conjugate() * truth.q_icrf_spin_};
   const Eigen::Vector3d turn_rad = turn.angle() * turn.axis();

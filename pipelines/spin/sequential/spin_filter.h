@@ -2,15 +2,14 @@
 /// Kalman filter on the sphere: spin axis, phase and rate from single edge times.
 ///
 /// The state is a frame `spin` (edge_prediction.h) whose third axis is the spin axis, the phase of
-/// the body in it at the reference time, the spin rate and its drift. Its error is small and has no
-/// singularity anywhere: tilts of the axis about the frame's first and second axes, phase, rate,
-/// drift. Each edge is one scalar measurement with its own noise,
+/// the body in it at the reference time, the spin rate and its drift. The error state has no
+/// singularity: tilts of the axis about the frame's first and second axes, phase, rate, drift. Each
+/// edge is one scalar measurement with its own noise,
 ///
-///     phase + rate dt + drift dt^2/2 - predicted phase = 0 +/- rate sigma_t        (round the
-///     circle)
+///     phase + rate dt + drift dt^2/2 - predicted phase = 0 +/- rate sigma_t    (modulo one turn)
 ///
-/// with dt = t - t_ref, so any subset of the channels will do. Assumes a body that turns about a
-/// fixed axis at a rate that drifts evenly, but for a slow random walk of all three.
+/// with dt = t - t_ref, so any subset of the channels will do. The body is assumed to turn about a
+/// fixed axis at a uniformly drifting rate, with a slow random walk of all three.
 
 #pragma once
 
@@ -33,26 +32,26 @@
 
 namespace spindrift {
 
-/// How many times the variance of a channel's edges is what their stated noise makes it.
+/// Ratio of the observed to the stated variance of the edges, per channel.
 using ChannelNoise = std::array<double, kPulseChannels>;
 inline constexpr ChannelNoise kStatedNoise = {1.0, 1.0, 1.0, 1.0, 1.0, 1.0};
 
-/// What the edges of one revolution said to a filter.
+/// Holds the observations of one filter from the edges of one revolution.
 class RevolutionObservations {
  public:
-  /// @param edge At most one of each channel.
+  /// @param edge Observation of an edge, at most one per channel.
   void add(const Observation& edge) { edges_[count_++] = edge; }
-  /// The residuals in seconds; an edge that is predicted not to be has none.
+  /// Observations with residuals in seconds; an edge that the state does not predict has no
+  /// residual.
   std::span<const Observation> edges() const { return {edges_.data(), count_}; }
 
-  /// Normalised, their sum; those that were left out as at the gate.
+  /// Sum of the NIS values, each bounded by its gate.
   double squared_innovations() const;
 
-  /// Natural logarithm of the edges' probability density, 1/rad each, gated ones as spurious.
+  /// Log probability density of the edges, per rad each; gated edges count as spurious.
   double log_likelihood = 0.0;
-  /// What the innovations of the edges that were used say of the model. The filter has eliminated
-  /// axis, phase and rate from them, and made them independent (Friedland's separate-bias
-  /// estimation).
+  /// Evidence of model errors from the innovations used, with axis, phase and rate eliminated and
+  /// the innovations decorrelated by the filter (Friedland's separate-bias estimation).
   ErrorInformation errors = {};
 
  private:
@@ -62,34 +61,34 @@ class RevolutionObservations {
 
 class SpinFilter {
  public:
-  /// Four in a hundred thousand good edges lie farther out.
+  /// Four in a hundred thousand good edges lie outside this gate.
   static constexpr double kGateSigmas = 4.1;
 
-  /// A filter about a known axis, its phase and rate from one revolution: so widely that the
-  /// revolution's edges, which the axis may rest on, do not count twice.
-  /// @param covariance_rad2 Of the axis, in the tangent plane: east, north.
-  /// @return Empty when none of the revolution's edges can tell the phase.
+  /// Starts a filter at a known axis with phase and rate of one revolution. Their initial sigmas
+  /// are wide, so that edges that the axis may rest on do not count twice.
+  /// @param covariance_rad2 Covariance of the axis in the tangent plane: east, north.
+  /// @return Empty when none of the revolution's edges determines the phase.
   static std::optional<SpinFilter> about(const Eigen::Vector3d& axis_icrf,
                                          const Eigen::Matrix2d& covariance_rad2,
                                          const SpinConfig& config, const Revolution& revolution,
                                          const Sky& sky);
 
-  /// Moves the reference time on; never back.
+  /// Propagates the state to `t`; times before the reference time are ignored.
   void predict(TaiTime t);
 
-  /// Works in the edges of about one revolution near the reference time.
-  /// @param noise The gate opens by so much, the weights stay.
+  /// Updates the state with the edges of about one revolution near the reference time.
+  /// @param noise Factors that widen the gate but do not change the weights.
   RevolutionObservations update(const SpinConfig& config, const Sky& sky,
                                 std::span<const Pulse> edges,
                                 const ChannelNoise& noise = kStatedNoise);
 
   TaiTime t() const { return t_; }
   Eigen::Vector3d axis_icrf() const { return q_icrf_spin_ * Eigen::Vector3d::UnitZ(); }
-  /// Tangent plane at the axis: east, north.
+  /// Covariance in the tangent plane at the axis: east, north.
   Eigen::Matrix2d axis_covariance_rad2() const;
-  /// What each error of the model has moved the axis by, rad/rad; likewise.
+  /// Axis motion per model error in the tangent plane: east, north; rad/rad.
   Eigen::Matrix<double, 2, kModelErrors> axis_of_errors() const;
-  /// What offsets of the channels' times add to the covariance of the axis; likewise.
+  /// Axis covariance that unknown time offsets of the channels add, in the tangent plane.
   Eigen::Matrix2d offsets_rad2(const OffsetPrior& offsets_s2) const;
   double rate_rad_s() const { return rate_rad_s_; }
   double rate_sigma_rad_s() const;
@@ -102,7 +101,7 @@ class SpinFilter {
         phase_rad_{phase_rad},
         rate_rad_s_{rate_rad_s} {}
 
-  /// Tilt about the frame's first and second axes, phase, rate, drift.
+  /// Tilts about the frame's first and second axes, phase, rate, drift.
   using Error = Eigen::Matrix<double, 5, 1>;
 
   struct RevolutionEdges {
@@ -112,21 +111,21 @@ class SpinFilter {
     const ChannelNoise& noise;
     PlacedSensors sensors;
   };
-  /// What is done with edges that the present state predicts not to exist.
+  /// Selects how to treat edges that the present state does not predict.
   enum class Missing { Approached, LeftOut };
   struct Linearised {
-    double moved_rad = 0.0;   ///< The axis, by the update.
-    double steepest = 1.0;    ///< Change of an edge's phase with the axis, rad/rad.
-    bool approached = false;  ///< The update used edges that the state does not have.
+    double moved_rad = 0.0;   ///< Axis motion by the update.
+    double steepest = 1.0;    ///< Steepest slope of an edge's phase with the axis, rad/rad.
+    bool approached = false;  ///< True if unpredicted edges were used.
   };
-  /// An edge as the present state predicts it.
+  /// Holds an edge as the present state predicts it.
   struct Measured {
     Pulse edge;
-    double residual_rad;  ///< Of the phase; by any number of turns more.
+    double residual_rad;  ///< Phase residual, modulo one turn.
     double sigma_rad;
     Error slope;
     Eigen::Matrix<double, 1, kModelErrors> per_error;
-    double per_offset_rad_s;  ///< Change of the phase for a second that the channel is late.
+    double per_offset_rad_s;  ///< Change of the phase per second that the channel is late.
   };
   Linearised update_linearised_here(const SpinFilter& prior, const RevolutionEdges& seen,
                                     Missing missing, RevolutionObservations& said);
@@ -137,19 +136,19 @@ class SpinFilter {
 
   TaiTime t_;
   Eigen::Quaterniond q_icrf_spin_;
-  double phase_rad_;  ///< Of slit 1 at `t_`.
+  double phase_rad_;  ///< Azimuth of slit 1 at `t_`.
   double rate_rad_s_;
   double drift_rad_s2_ = 0.0;
-  Eigen::Matrix<double, 5, 5> covariance_ = Eigen::Matrix<double, 5, 5>::Zero();  ///< Of the error.
-  /// The error that each error of the model has made, per rad of it.
+  Eigen::Matrix<double, 5, 5> covariance_ = Eigen::Matrix<double, 5, 5>::Zero();
+  /// Sensitivity of the error state to each model error, per rad.
   Eigen::Matrix<double, 5, kModelErrors> of_errors_ =
       Eigen::Matrix<double, 5, kModelErrors>::Zero();
-  /// Likewise the offset of each channel's times, per second.
+  /// Sensitivity of the error state to the time offset of each channel, per second.
   Eigen::Matrix<double, 5, kChannelOffsets> of_offsets_ =
       Eigen::Matrix<double, 5, kChannelOffsets>::Zero();
 };
 
-/// The good edges of a revolution; of channels without a sensor none are.
+/// Selects the good edges of a revolution from channels that have a sensor.
 class GoodEdges {
  public:
   GoodEdges(const SpinConfig& config, const Revolution& revolution);

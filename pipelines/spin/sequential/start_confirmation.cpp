@@ -8,10 +8,10 @@
 namespace spindrift {
 namespace {
 
-// Across less, edges are linear.
+// Within this angle edges are linear.
 constexpr double kPoor_rad = kRadPerDeg;
-// So near to a mean known to a degree; a better one is held to no more, as fixes of which the noise
-// leaves some out lie to one side.
+// Limit in sigmas of a mean known to a degree. A better mean is not tested more strictly, as fixes
+// lie to one side when noise suppresses some of them.
 constexpr double kSigmas = 1.5;
 
 }  // namespace

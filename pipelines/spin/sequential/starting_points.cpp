@@ -12,10 +12,10 @@
 namespace spindrift {
 namespace {
 
-// What is known worse is no place to linearise at: a filter would take what two linearisations
-// disagree on for knowledge of what no edge measures.
+// A worse known axis is no place to linearise: the filter would take the difference between two
+// linearisations for knowledge that no edge gives.
 constexpr double kPoorest_rad = 3.0 * kRadPerDeg;
-// So many branches are of fixes that agree on nothing.
+// With this many branches the fixes agree on nothing.
 constexpr std::size_t kMostBranches = 16;
 
 StartingPoint middle_of(const MeanAxis& branch) {
@@ -83,8 +83,8 @@ void StartingPoints::forget() {
   fixes_ = 0;
 }
 
-/// The nearest that no other candidate of the fix has taken and that may be the same; else a new
-/// one.
+/// Returns the nearest branch that agrees with the candidate and that no other candidate of the fix
+/// has taken; else a new one.
 std::size_t StartingPoints::branch_of(const StartingPoint& candidate,
                                       const std::vector<std::size_t>& taken) const {
   std::size_t nearest = branches_.size();

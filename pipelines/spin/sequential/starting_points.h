@@ -1,7 +1,7 @@
 /// @file
-/// Where filters may begin: the candidates of fixes, averaged branch by branch until each is known
-/// well enough. One fix is enough where edges are precise; with a fast body or noisy edges it takes
-/// several.
+/// Collects starting axes of filters: candidates of fixes, averaged branch by branch until each is
+/// known well enough. One fix is enough where edges are precise; with a fast body or noisy edges it
+/// takes several.
 
 #pragma once
 
@@ -17,36 +17,35 @@
 namespace spindrift {
 
 struct StartingPoint {
-  Eigen::Vector3d axis_icrf;        ///< Unit.
-  Eigen::Matrix2d covariance_rad2;  ///< Tangent plane at the axis: east, north.
+  Eigen::Vector3d axis_icrf;        ///< Unit vector.
+  Eigen::Matrix2d covariance_rad2;  ///< Covariance in the tangent plane at the axis: east, north.
 };
 
-/// It names a candidate, or none, and has not ruled out the others.
+/// Returns whether the fix has not ruled out its other candidates.
 bool leaves_open(const SpinFix& fix);
 
-/// The axis of the fix, and what it leaves open beside it.
+/// Returns the axis of the fix and the alternates that it leaves open.
 std::vector<StartingPoint> candidates_of(const SpinFix& fix);
 
-/// Near enough for edges to be linear about it.
+/// Returns whether the axis is known well enough to linearise edges about it.
 bool well_known(const Eigen::Matrix2d& covariance_rad2);
 
-/// Beyond the noise of both, and beyond what may be wrong with the model.
+/// Returns whether the points differ by more than their noise and the allowed model error.
 bool contradict(const StartingPoint& one, const StartingPoint& other);
 
 class StartingPoints {
  public:
-  /// What so many fixes say together: each point well known, the axis of the last fix first.
+  /// Holds the points from `fixes` fixes, each well known, with the axis of the last fix first.
   struct Known {
     std::vector<StartingPoint> points;
     int fixes = 0;
   };
 
-  /// @param fewest Fixes that speak together, however well they are known.
+  /// @param fewest Minimum number of fixes before points are known.
   explicit StartingPoints(int fewest = 1) : fewest_{fewest} {}
 
-  /// @param candidates Of one fix.
-  /// @return What is known of the branches that they belong to; empty until each of them is well
-  ///         known.
+  /// @param candidates Candidates of one fix.
+  /// @return The branches of these candidates; empty until each of them is well known.
   std::optional<Known> add(std::span<const StartingPoint> candidates);
 
   void forget();

@@ -18,7 +18,7 @@ std::vector<InterferenceWindow::Judged> InterferenceWindow::push(const Pulse& pu
   ++held_of_.at(index_of(pulse.channel));
   if (held_of_.at(index_of(pulse.channel)) <= held_.size()) {
     last.spoilt = true;
-    // Those that are not spoilt yet came last and are of one channel.
+    // Held edges that are not spoilt yet came last and are all of one channel.
     for (auto before = held_.rbegin();
          before != held_.rend() && !before->spoilt && before->pulse.channel != pulse.channel;
          ++before) {

@@ -24,10 +24,10 @@ class InterferenceWindow {
     bool spoilt;
     friend bool operator==(const Judged&, const Judged&) = default;
   };
-  /// @param pulse Not earlier than the one before.
-  /// @return Likewise in order of time.
+  /// @param pulse Not earlier than the previous pulse.
+  /// @return Judged edges, in order of time.
   std::vector<Judged> push(const Pulse& pulse);
-  /// The pass has ended.
+  /// Ends the pass and returns the held edges.
   std::vector<Judged> finish();
 
  private:
@@ -35,7 +35,7 @@ class InterferenceWindow {
 
   std::chrono::nanoseconds window_;
   std::deque<Judged> held_;
-  std::array<std::size_t, kPulseChannels> held_of_{};  ///< How many of each channel.
+  std::array<std::size_t, kPulseChannels> held_of_{};  ///< Number of held edges by channel.
 };
 
 }  // namespace spindrift

@@ -1,5 +1,5 @@
 /// @file
-/// The order of telemetry time of pulses and frames.
+/// Reordering of pulses and frames by telemetry time.
 
 #pragma once
 
@@ -12,13 +12,13 @@
 
 namespace spindrift {
 
-/// How much of telemetry time is waited for what precedes a sample: a second for a pulse, and two
-/// and a half turns for a frame, which is sent once a turn; of the slowest body where it does not
-/// say how long those are.
+/// Returns how long, in telemetry time, a sample waits for earlier ones: a second for a pulse, two
+/// and a half turns for a frame, which is sent once a turn. A frame without a period is taken to be
+/// of the slowest body.
 std::chrono::nanoseconds reorder_horizon(const Pulse& pulse);
 std::chrono::nanoseconds reorder_horizon(const CodedFrame& frame);
 
-/// One clock stamps all channels.
+/// All channels are of one kind, since one clock stamps them.
 constexpr std::size_t kind_in_order(const Pulse& /*pulse*/) { return 0; }
 constexpr std::size_t kind_in_order(const CodedFrame& /*frame*/) { return 0; }
 

@@ -12,7 +12,7 @@ namespace spindrift {
 namespace {
 
 constexpr int kRun = 20;
-// By chance a run has a multiple of the grid, one in 2^20 its double, which is no harm.
+// A single run may have a multiple of the grid by chance; one in 2^20 has its double, harmlessly.
 constexpr int kFewestRuns = 2;
 constexpr double kOfInterest = 1e-3;
 
@@ -41,8 +41,8 @@ void TimeGrid::add(std::int64_t difference_ns, Run& run) {
   }
 }
 
-/// Differences that are multiples of the smallest of them show no grid: turns of one length have
-/// such ones.
+/// Ends a run. Differences that are multiples of the smallest of them show no grid: turns of one
+/// length give such differences.
 void TimeGrid::end(const Run& run) {
   const bool is_of_turns = run.divisor_ns == run.smallest_ns;
   if (is_of_turns || static_cast<double>(run.divisor_ns) <= least_ns_) {

@@ -1,12 +1,12 @@
 /// @file
-/// Whether the times of edges lie on a grid, as those do that were cut or rounded to a millisecond:
-/// the greatest common divisor of how far the edges of a channel come behind sun1, and behind each
-/// other. The first is needed since coded frames may count their intervals in coarser steps than
-/// the time of sun1, the second where some channels are cut only.
+/// Detection of the grid that the times of edges lie on when they were cut or rounded, as to a
+/// millisecond: its width is the greatest common divisor of the delays of edges behind sun1, and of
+/// the intervals between the edges of a channel. The former are needed since coded frames may count
+/// intervals in coarser steps than the time of sun1, the latter where only some channels are cut.
 ///
-/// A divisor is that of twenty differences, one run after the other, so that single edges of
-/// another clock spoil one run only. That such a run of times without a grid has a divisor of k ns
-/// or more is less likely than k^-19.
+/// A divisor is taken over each run of twenty differences, so that single edges of another clock
+/// spoil one run only. A run without a grid has a divisor of k ns or more with a chance below
+/// k^-19.
 
 #pragma once
 
@@ -24,13 +24,13 @@ namespace spindrift {
 
 class TimeGrid {
  public:
-  /// @param noise Of the edges. What is narrower than a thousandth of it is no grid.
+  /// @param noise Noise of the edges; a grid narrower than a thousandth of it is ignored.
   explicit TimeGrid(const PulseNoise& noise);
 
-  /// @param edge In order of time.
+  /// @param edge Edges come in order of time.
   void note(const Pulse& edge);
 
-  /// The widest that several runs have had; 0: none.
+  /// Returns the widest grid that several runs have had; 0 when there is none.
   double width_s() const { return width_s_; }
 
  private:
@@ -46,7 +46,7 @@ class TimeGrid {
   std::array<std::optional<TaiTime>, kPulseChannels> last_ = {};
   Run behind_sun1_;
   std::array<Run, kPulseChannels> behind_each_other_ = {};
-  std::map<std::int64_t, int> runs_;  ///< That have had a grid, by its width.
+  std::map<std::int64_t, int> runs_;  ///< Number of runs with a grid, by its width, ns.
   double width_s_ = 0.0;
 };
 

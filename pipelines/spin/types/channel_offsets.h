@@ -1,6 +1,6 @@
 /// @file
-/// What the times of a channel are off by all over a pass: a consider parameter
-/// (statistics/considered.h), as no edge of the pass shows it.
+/// Offset of a channel's times that is constant over a pass: a consider parameter
+/// (statistics/considered.h), since no edge of the pass shows it.
 
 #pragma once
 
@@ -13,11 +13,11 @@ namespace spindrift {
 
 inline constexpr int kChannelOffsets = static_cast<int>(kPulseChannels);
 
-/// Covariance by channel, s^2.
+/// Covariance of the channels' offsets, s^2.
 using OffsetPrior = Eigen::Matrix<double, kChannelOffsets, kChannelOffsets>;
 
-/// Where the spin rate is commensurate with the grid of the times each channel
-/// has an offset of its own. Where it is not, the grid's error averages out, and this is too much.
+/// Where the spin rate is commensurate with the grid of the times, each channel has an offset of
+/// its own. Elsewhere the grid's error averages out, and this prior is too large.
 inline OffsetPrior offset_prior_s2(const PulseNoise& noise) {
   const double sigma_s = grid_sigma_s(noise);
   return sigma_s * sigma_s * OffsetPrior::Identity();

@@ -1,5 +1,5 @@
 /// @file
-/// How much an answer must have seen before its own data can have contradicted it.
+/// How many revolutions an estimate needs before its own data could have contradicted it.
 
 #pragma once
 
@@ -8,11 +8,11 @@
 namespace spindrift {
 
 /// The first twenty turns of a body that nutates by a degree look like those of another axis, and
-/// watches for misplaced sensors and false first fixes need some turns to see them.
+/// the tests for misplaced sensors and false first fixes need some turns.
 inline constexpr double kFewestRevolutionsToCheck = 30.0;
 
-/// Of an answer that nothing speaks against.
-/// @param revolutions That it has seen since it began, or began anew.
+/// Returns the quality of an estimate that nothing contradicts.
+/// @param revolutions Revolutions seen since the estimate began, or began anew.
 constexpr Quality unopposed_quality(double revolutions) {
   return revolutions < kFewestRevolutionsToCheck ? Quality::Converging : Quality::Ok;
 }

@@ -12,7 +12,7 @@ namespace spindrift {
 struct KnownAxis {
   Eigen::Vector3d axis_icrf;  ///< Unit.
   double sigma_rad;
-  /// What told it from others, and with it the candidates that it chooses. Edges do that as the
+  /// What told the axis from others; fixes chosen by the axis inherit it. Edges count as the
   /// dispersion does: over many turns one axis goes on fitting them.
   Resolution settled_by = Resolution::Dispersion;
 };

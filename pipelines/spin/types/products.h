@@ -1,5 +1,5 @@
 /// @file
-/// What the spin pipeline gives: values to be stored and published, in the order they arise.
+/// Products of the spin pipeline, to be stored and published in the order they arise.
 
 #pragma once
 
@@ -31,7 +31,7 @@ enum class SpinQuantity {
 inline constexpr std::size_t kSpinQuantities = 7;
 std::string_view name_of(SpinQuantity quantity);
 
-/// Of the test of a quantity.
+/// Returns the rejection that the test of a quantity gives.
 Rejection rejection_of(SpinQuantity quantity);
 
 /// What became of one edge.
@@ -39,7 +39,7 @@ struct PulseUse {
   Pulse pulse;
   std::optional<std::int64_t> revolution;
   std::optional<Rejection> rejected_by;  ///< Empty: accepted.
-  /// What it said to `sequential`, as that decided live; empty where no filter was asked.
+  /// What the edge told `sequential`, as decided live; empty where no filter was asked.
   std::optional<Observation> said = {};
 };
 
@@ -47,7 +47,7 @@ struct PulseUse {
 struct RevolutionProduct {
   std::int64_t revolution;
   TaiTime t_sun1;
-  double period_s;  ///< The clock's, at t_sun1: not this turn's own interval.
+  double period_s;  ///< Period of the clock at t_sun1, not this turn's own interval.
 };
 
 struct SpinMeasurement {
@@ -65,50 +65,50 @@ std::string_view name_of(Resolution resolution);
 /// Another axis that the same revolution leaves possible.
 struct SpinAlternate {
   Eigen::Vector3d axis_icrf;  ///< Unit.
-  /// Tangent plane at this axis: east, north. Zero where it was not kept.
+  /// Covariance in the tangent plane at this axis (east, north); zero where it was not kept.
   Eigen::Matrix2d covariance_rad2 = Eigen::Matrix2d::Zero();
-  double misfit = 0.0;  ///< Chi-square of the measurements about it, by the edges' noise.
+  double misfit = 0.0;  ///< Chi-square of the measurements about the axis, by the edges' noise.
 };
 
 /// Spin axis from one revolution alone.
 struct SpinFix {
   std::int64_t revolution;
-  TaiTime t;  ///< Its sun1 edge.
+  TaiTime t;  ///< Time of its sun1 edge.
   int geometry_case;
   Eigen::Vector3d axis_icrf;
   Eigen::Matrix2d covariance_rad2;        ///< Tangent plane at the axis: east, north.
   std::vector<SpinAlternate> alternates;  ///< The other candidates, best first.
   Resolution resolution;
   double norm;  ///< |P| before normalising: 1 for measurements that agree.
-  /// Neither AMBIGUOUS nor from measurements that contradict each other, in this revolution or in
-  /// most of the last ones.
+  /// Whether the fix is neither AMBIGUOUS nor from measurements that contradict each other, in this
+  /// revolution or in most of the last ones.
   bool accepted;
-  /// The candidates lie where they come together and vanish, within the noise: the covariance is
-  /// too small, and the true one may be missing.
+  /// Whether the candidates lie, within the noise, where they merge and vanish: the covariance is
+  /// then too small, and the true candidate may be missing.
   bool near_tangent = false;
-  double misfit = 0.0;  ///< As of an alternate.
-  /// PRIOR, but by the axis that the pass itself has established: what had settled that.
+  double misfit = 0.0;  ///< Chi-square as in SpinAlternate.
+  /// For a PRIOR fix by an axis that the pass has established: what had settled that axis.
   std::optional<Resolution> settled_before = {};
 };
-/// As it is said: what the pass itself has established is no prior that anybody gave.
+/// Returns the resolution to report: an axis that the pass has established is no given prior.
 Resolution said_resolution(const SpinFix& fix);
 
 enum class SpinEstimator { Mean, Sequential, Batch };
 std::string_view name_of(SpinEstimator estimator);
 
-/// What told the axis of a pass from others: its edges, or, in their order, a resolution of a fix.
+/// What told the axis of a pass from others: its edges, or a resolution in the order of Resolution.
 enum class SettledBy { Edges, Geometry, Constraint, Prior, Dispersion, Nothing };
 std::string_view name_of(SettledBy settled_by);
 SettledBy settled_by(Resolution resolution);
 
-/// Which axis a pass has taken, and what else there was.
+/// The axis that a pass has taken, and the best other one.
 struct AxisChoice {
-  TaiTime t;                ///< Of the estimate that has it.
-  SpinEstimator estimator;  ///< Likewise.
+  TaiTime t;  ///< Time of the estimate with this axis.
+  SpinEstimator estimator;
   Eigen::Vector3d axis_icrf;
   std::optional<Eigen::Vector3d> other_icrf;  ///< The best other axis; empty: there is none.
-  /// By so much the edges fit that worse, a state fitted to them near each: the difference of
-  /// PassInformation::misfit(). Empty: only `batch` compares them.
+  /// How much worse the edges fit the other axis, with a state fitted near each: the difference of
+  /// PassInformation::misfit(). Empty unless `batch`, which alone compares them.
   std::optional<double> delta_chi_square;
   SettledBy settled_by;
 };

@@ -31,13 +31,12 @@ constexpr std::string_view name_of(PulseChannel channel) {
 constexpr SampleSource source_of(PulseChannel channel) {
   return static_cast<SampleSource>(index_of(channel));
 }
-/// @param source Of an edge.
 constexpr PulseChannel channel_of(SampleSource source) {
   return static_cast<PulseChannel>(index_of(source));
 }
 std::optional<PulseChannel> pulse_channel_from(std::string_view name);
 
-/// Ordered by time, then channel: the order in which every mode processes them.
+/// A leading edge; edges are ordered by time, then channel, and processed so in every mode.
 struct Pulse {
   TaiTime t;
   PulseChannel channel;

@@ -18,19 +18,18 @@ namespace spindrift {
 struct Revolution {
   std::int64_t number;
   std::array<std::optional<TaiTime>, kPulseChannels> edges;
-  /// Why an edge that is there is not to be used: it lies where those of its channel do not.
+  /// Why a received edge is not used: it lies where those of its channel do not. Empty: it is good.
   std::array<std::optional<Rejection>, kPulseChannels> edge_rejections = {};
-  /// Another edge of the channel was left out as this one's copy.
+  /// Whether another edge of the channel came so near that one is a copy.
   std::array<bool, kPulseChannels> has_copy = {};
-  /// The interval that ends at its sun1, or what the spacecraft said of it; without sun1 at all,
-  /// the interval that ends at the edge that the clock is set by.
+  /// The interval that ends at its sun1, or the period that the spacecraft stated; in a pass
+  /// without sun1, the interval that ends at the edge of the channel that sets the clock.
   std::optional<PeriodCandidate> period_candidate;
-  SpinPeriod period;  ///< At t_start.
-  /// After a silence through which the turns could not be counted for certain: one standard
-  /// deviation of the number.
+  SpinPeriod period;  ///< Spin period at t_start.
+  /// One sigma of `number`, set after a silence too long to count the turns for certain.
   std::optional<double> count_sigma_turns = {};
-  /// Its sun1 edge if good, else where that is expected; of a pass without sun1 likewise the edge
-  /// that the clock is set by.
+  /// Its sun1 edge if good, else the expected time of that edge; in a pass without sun1, the same
+  /// for the channel that sets the clock.
   TaiTime t_start = {};
 
   const std::optional<TaiTime>& edge(PulseChannel channel) const {
@@ -40,9 +39,7 @@ struct Revolution {
   std::optional<TaiTime> good_edge(PulseChannel channel) const {
     return edge_rejections.at(index_of(channel)) ? std::nullopt : edge(channel);
   }
-  /// Spin rate at an instant.
   double rate_rad_s(TaiTime t) const;
-  /// How far the body turns from one instant to another.
   double turned_rad(TaiTime from, TaiTime to) const;
 };
 

@@ -7,7 +7,7 @@
 namespace spindrift {
 namespace {
 
-// Twice what alignments are good to (model_allowance.h): a bias that is asked for is suspected.
+// Twice the accuracy of alignments (model_allowance.h), since only a suspected bias is asked for.
 constexpr double kAngle_rad = 0.3 * kRadPerDeg;
 constexpr double kMostAngle_rad = 3.0 * kRadPerDeg;
 // Seasons and latitude move the 14 to 16 um horizon by a few km (WGS-84 surface + 40 km nominal).
@@ -23,7 +23,7 @@ constexpr BiasPrior angle(std::string_view name) {
   return {.name = name, .is_angle = true, .sigma = kAngle_rad, .bound = kMostAngle_rad};
 }
 
-// By SensorBias.
+// Indexed by SensorBias.
 constexpr std::array<BiasPrior, kSensorBiases> kPriors{
     angle("sun_angle"),
     angle("slit_separation"),

@@ -1,6 +1,6 @@
 /// @file
-/// What may be wrong with the sensors of a pass, and stays the same in every revolution: the
-/// unknowns that the estimator `batch` can determine beside axis and rate.
+/// Sensor errors that stay the same all over a pass: the unknowns that the estimator `batch` can
+/// determine beside axis and rate.
 
 #pragma once
 
@@ -10,7 +10,7 @@
 
 namespace spindrift {
 
-/// True value minus that of the mission file; of measured angles, measured minus true.
+/// Biases: true value minus that of the mission file; for measured angles, measured minus true.
 enum SensorBias {
   SunAngleBias,         ///< rad, of the measured sun angle.
   SlitSeparationBias,   ///< rad, psi0.
@@ -20,7 +20,7 @@ enum SensorBias {
   SouthMountAngleBias,  ///< rad, gamma_S.
   DihedralBias,         ///< rad, of the azimuth of both beams behind slit 1.
   Co2HeightBias,        ///< km, of the infrared horizon.
-  ConingX,              ///< rad, of coning.h; with ConingY one thing, known or unknown together.
+  ConingX,              ///< rad, see coning.h; known or unknown only together with ConingY.
   ConingY,              ///< rad
 };
 inline constexpr int kSensorBiases = 10;
@@ -28,15 +28,15 @@ using SensorBiases = Eigen::Matrix<double, kSensorBiases, 1>;
 
 using BiasSet = std::bitset<kSensorBiases>;
 
-/// The bias, or of coning both.
+/// Returns the bias itself, or both biases of coning for either of them.
 BiasSet unknowns_of(SensorBias bias);
 
 /// The prior of a bias: zero within sigma.
 struct BiasPrior {
-  std::string_view name;  ///< As in mission file and archive.
-  bool is_angle;          ///< rad; else km.
+  std::string_view name;  ///< Name in mission file and archive.
+  bool is_angle;          ///< Whether the unit is rad, else km.
   double sigma;           ///< One standard deviation about zero.
-  double bound;           ///< What no real sensor exceeds.
+  double bound;           ///< Bound that no real sensor exceeds.
 };
 const BiasPrior& prior_of(SensorBias bias);
 

@@ -25,7 +25,7 @@ inline constexpr std::array<PulseChannel, 2> kOutChannels = {PulseChannel::North
                                                              PulseChannel::SouthOut};
 constexpr std::size_t index_of(Side side) { return static_cast<std::size_t>(side); }
 
-/// Of a channel of a beam.
+/// @param channel Channel of an infrared beam.
 constexpr Side side_of(PulseChannel channel) {
   const bool is_north = channel == PulseChannel::NorthIn || channel == PulseChannel::NorthOut;
   return is_north ? Side::North : Side::South;

@@ -11,15 +11,15 @@
 
 namespace spindrift {
 
-/// Good for a minute about `t`: the Sun stands still (its 1 deg a day is 0.0007 deg a minute).
+/// Sky about `t`, valid for a minute: the Sun stands still (1 deg a day is 0.0007 deg a minute).
 struct Sky {
   TaiTime t;
-  OrbitState spacecraft;            ///< At `t`.
+  OrbitState spacecraft;            ///< Orbit state at `t`.
   Eigen::Vector3d sun_icrf;         ///< Unit, apparent.
   Eigen::Vector3d earth_pole_icrf;  ///< Unit.
 };
 
-/// Earth's centre -> spacecraft at a time near that of the sky: falling freely, to second order.
+/// Returns Earth's centre -> spacecraft at a time near that of the sky: free fall, second order.
 inline Eigen::Vector3d spacecraft_icrf_km(const Sky& sky, TaiTime t) {
   const double dt_s = seconds_between(sky.t, t);
   const Eigen::Vector3d& position_km = sky.spacecraft.position_icrf_km;

@@ -1,5 +1,5 @@
 /// @file
-/// What an operator may say of a spinner's telemetry from some instant on.
+/// Actions of an operator on the telemetry of a spinner from some instant on.
 
 #pragma once
 
@@ -12,20 +12,20 @@
 
 namespace spindrift {
 
-/// Of the axes that a revolution leaves possible the nearest is the true one.
+/// States that the true axis is the nearest to this of those that a revolution leaves possible.
 struct ChooseRoot {
   Eigen::Vector3d axis_icrf;  ///< Unit.
 };
 
-/// In the place of the mission's.
+/// Replaces the mission's prior.
 struct SetPrior {
   SpinPrior prior;
 };
 
-/// The axis is no longer where edges from before had it.
+/// Marks a manoeuvre: the axis is no longer where earlier edges had it.
 struct MarkManoeuvre {};
 
-/// Where the axis should be; no estimate depends on it.
+/// Sets where the axis should be; no estimate depends on it.
 struct SetTarget {
   Eigen::Vector3d axis_icrf;  ///< Unit.
 };

@@ -10,21 +10,20 @@
 
 namespace spindrift {
 
-/// One interval between edges `turns` revolutions apart, divided by them.
+/// One interval between two edges, divided by the number of revolutions between them.
 struct PeriodCandidate {
   double period_s;
-  double sigma_s;  ///< From the stated pulse noise.
-  /// By its test, or with the edge that it ends at; empty: accepted.
+  double sigma_s;  ///< One sigma from the stated pulse noise.
+  /// Rejection by its test, or with the edge that it ends at; empty: accepted.
   std::optional<Rejection> rejected_by;
-  /// What the test expected, and how far from that it may be; empty: it was rejected with its edge.
+  /// Expectation and limit of the test; empty: it was rejected with its edge.
   std::optional<Rational> test = {};
 };
 
-/// At an instant.
 struct SpinPeriod {
   double period_s;
   double sigma_s;
-  double drift_per_s2 = 0.0;  ///< Of the spin rate in turns a second.
+  double drift_per_s2 = 0.0;  ///< Drift of the spin rate in turns a second.
 };
 
 }  // namespace spindrift

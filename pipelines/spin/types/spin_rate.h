@@ -1,5 +1,5 @@
 /// @file
-/// How fast bodies turn that are stabilised by their spin, and how their rate drifts.
+/// Range of the spin rates of spin-stabilised satellites, and of their drift.
 
 #pragma once
 
@@ -7,23 +7,23 @@
 
 namespace spindrift {
 
-/// 1 / (60 s): turns a minute.
+/// Spin rates in rpm: turns a minute, 1 / (60 s).
 inline constexpr double kSlowestSpin_rpm = 5.0;
 inline constexpr double kFastestSpin_rpm = 200.0;
-/// A fifth beyond, where the period is looked for.
+/// Spin rates between which the period is searched, a fifth beyond either end.
 inline constexpr double kSlowestSearched_rpm = 0.8 * kSlowestSpin_rpm;
 inline constexpr double kFastestSearched_rpm = 1.2 * kFastestSpin_rpm;
-/// No interval that is measured on board is longer: far slower than what is stabilised by its spin.
+/// No interval measured on board is longer: that is far slower than any spin-stabilised body.
 inline constexpr double kLongestPeriod_s = 60.0;
-/// Nor is a period shorter.
+/// No period measured on board is shorter.
 inline constexpr double kShortestPeriod_s = 0.1;
 
-/// Of the spin rate in turns a second, in a second.
+/// Converts a drift of the spin rate from rpm an hour to turns/s^2.
 constexpr double drift_per_s2(double drift_rpm_h) { return drift_rpm_h / 60.0 / kHour_s; }
 
-/// One sigma of a drift of which nothing is known: eddy currents, warming and leaks do less.
+/// One sigma of an unknown drift: eddy currents, warming and leaks cause less.
 inline constexpr double kFirstDrift_rpm_h = 2.0;
-/// What is looked for in the edges, at most.
+/// Largest drift that is searched for in the edges.
 inline constexpr double kMostDrift_rpm_h = 3.0;
 
 }  // namespace spindrift

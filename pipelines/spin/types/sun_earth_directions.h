@@ -14,8 +14,8 @@ struct SunEarthDirections {
   Eigen::Vector3d earth_icrf;       ///< Unit, to the Earth's centre, at `t_earth`.
   double disc_rad;                  ///< rho, half-angle of the Earth's disc.
   Eigen::Vector3d earth_pole_icrf;  ///< Unit.
-  TaiTime t_earth = {};             ///< Half way between the chords.
-  /// How the Earth moves past, in ranges per second.
+  TaiTime t_earth = {};             ///< Time half way between the chords.
+  /// Apparent velocity of the Earth, in ranges per second.
   Eigen::Vector3d earth_motion_icrf_s = Eigen::Vector3d::Zero();
 };
 
