@@ -29,7 +29,7 @@ TEST(SunPointing, IsZeroWhereMinusZLooksAtTheSun) {
 }
 
 TEST(SunPointing, AgreesWithThePaperWhereItsEquationsHold) {
-  // Eq. 5 and 6 for sz > 0.
+  // Equations 5 and 6 of the paper hold for sz > 0.
   for (const double sy : {0.4, -0.4}) {
     for (const double sx : {0.3, -0.3}) {
       const double sz = 0.8;
@@ -38,7 +38,7 @@ TEST(SunPointing, AgreesWithThePaperWhereItsEquationsHold) {
       EXPECT_NEAR(pointing.theta_rad, (sx >= 0.0 ? kPi : -kPi) - std::atan(sx / sz), kRounding);
     }
   }
-  // From -z towards +y is negative, towards +x positive.
+  // From -z, phi is negative towards +y, and theta is positive towards +x.
   EXPECT_LT(sun_pointing_of({0.0, 0.1, -1.0}).phi_rad, 0.0);
   EXPECT_GT(sun_pointing_of({0.1, 0.0, -1.0}).theta_rad, 0.0);
 }
