@@ -1,4 +1,4 @@
-/// What a revolution of six edges costs from its first edge to its closing.
+/// Cost of associating a revolution of six edges, from its first edge to its closing.
 
 #include <benchmark/benchmark.h>
 

@@ -1,4 +1,4 @@
-/// What a sample costs in the three-axis pipeline, from its arrival to the attitude it gives.
+/// Cost of a sample in the three-axis pipeline, from its arrival to the resulting attitude.
 
 #include <benchmark/benchmark.h>
 
@@ -19,7 +19,7 @@ constexpr int kSeconds = 600;
 
 using Sample = std::variant<GyroSample, StarFix, SunDirection>;
 
-/// Gyro at 10 Hz; a star fix and a sun vector at 1 Hz.
+/// Returns a gyro at 10 Hz with, unless `gyro_alone`, a star fix and a sun vector at 1 Hz.
 std::vector<Sample> pass(bool gyro_alone) {
   std::mt19937_64 rng{1401};
   const ThreeAxisConfig config = testing::usual_three_axis();

@@ -1,5 +1,5 @@
 /// @file
-/// The peer of the archive's commit: one small row, one transaction, synchronous = FULL.
+/// Reference for the commit time of the archive: one small row a transaction, synchronous = FULL.
 ///
 ///     bare_commit NEW.db COUNT
 ///

@@ -1,10 +1,10 @@
 /// @file
-/// The peer of the archive's writer: the rows of one archive into another of the same schema, by
-/// one bare prepared statement for each table, in one transaction.
+/// Reference for the archive's writer: copies the rows of an archive into another of the same
+/// schema with one prepared statement for each table, in one transaction.
 ///
 ///     bare_insert FROM.db TO.db [TABLE...]
 ///
-/// Prints rows and seconds; reading is not in them.
+/// Prints the number of rows and the seconds without those of reading.
 
 #include <sqlite3.h>
 
@@ -19,7 +19,7 @@ namespace {
 
 using std::chrono::steady_clock;
 
-// Values held in memory at a time.
+// Number of values held in memory at a time.
 constexpr std::size_t kChunkValues = 1'000'000;
 
 void check(bool good, sqlite3* database) {
@@ -54,7 +54,7 @@ struct Copied {
   double seconds = 0.0;
 };
 
-/// Inserts `values`, `columns` to a row, and frees them.
+/// Inserts `values`, `columns` of them for each row, and frees them.
 double insert(sqlite3* to, sqlite3_stmt* statement, std::vector<sqlite3_value*>& values,
               int columns) {
   const auto start = steady_clock::now();

@@ -1,10 +1,10 @@
 /// @file
-/// How fast a running `spindrift serve` takes pulses from the bus into committed rows.
+/// Measures how fast a running `spindrift serve` commits pulses from the bus as rows.
 ///
 ///     bus_load PULSES.csv SPACECRAFT_ID ARCHIVE.db RATE [DOMAIN]
 ///
-/// RATE in edges/s; 0: as fast as they are taken. Prints edges, rows that are there in the end, and
-/// edges/s from the first write to the commit of the last row.
+/// RATE is in edges/s; 0 sends as fast as the service accepts. Prints the numbers of edges and of
+/// rows at the end, and the edges/s from the first write to the commit of the last row.
 
 #include <fmt/format.h>
 #include <sqlite3.h>
@@ -29,7 +29,7 @@ using std::chrono::steady_clock;
 constexpr std::chrono::milliseconds kPoll{5};
 constexpr std::chrono::minutes kPatience{5};
 
-/// A query of one number.
+/// Runs a query whose result is one number.
 class Query {
  public:
   Query(const std::string& archive, const std::string& sql) {

@@ -1,4 +1,4 @@
-/// What the main field costs to degree 13, beside GeographicLib used directly.
+/// Cost of the main field to degree 13, compared with using GeographicLib directly.
 
 #include <benchmark/benchmark.h>
 

@@ -1,7 +1,7 @@
 /// @file
-/// What a step of the ground model costs: the satellite of Zhang 2019, its body in steps of 25 ms
-/// with all disturbances, wheels and thrusters at 10 Hz, a star tracker and a gyro with noise at 10
-/// Hz; and what a step of a whole flight costs, along its orbit and with the telemetry it sends.
+/// Cost of a step of the ground model for the satellite of Zhang 2019 (body in steps of 25 ms with
+/// all disturbances; wheels, thrusters, star tracker and noisy gyro at 10 Hz), and cost of a step
+/// of a whole flight along its orbit with telemetry.
 
 #include <benchmark/benchmark.h>
 

@@ -1,5 +1,5 @@
 /// @file
-/// What the programs that put a running service under load share.
+/// Functions shared by the programs that put load on a running service.
 
 #pragma once
 
@@ -31,7 +31,8 @@ T or_exit(Expected<T> value) {
 
 using AnySample = TelemetryKinds::Of<std::variant, TelemetrySample>;
 
-/// Those of a file or folder in order of time; of several spacecraft those of the one of this name.
+/// Returns the samples of a file or folder in order of time, of the named spacecraft if there are
+/// several.
 inline std::vector<AnySample> read_samples(const std::string& path, const std::string& spacecraft) {
   const std::vector<std::filesystem::path> paths{path};
   const std::vector<TelemetryFile> files = or_exit(scan_telemetry(paths));
@@ -48,7 +49,7 @@ inline std::vector<AnySample> read_samples(const std::string& path, const std::s
   return samples;
 }
 
-/// The pulses of a file in order of time.
+/// Returns the pulses of a file in order of time.
 inline std::vector<Pulse> read_pulses(const std::string& path) {
   std::vector<Pulse> pulses;
   for (const AnySample& sample : read_samples(path, "LOAD")) {

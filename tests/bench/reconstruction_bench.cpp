@@ -1,7 +1,7 @@
 /// @file
-/// Reconstruction of 10 Hz of rates and 1 Hz of sun vectors: a quarter of an hour, an hour, four,
-/// ten. From one star fix at the end, and from one every quarter of an hour: over hours the former
-/// leaves the turn about the Sun open by half a turn, which takes more iterations.
+/// Cost of a reconstruction from rates at 10 Hz and sun vectors at 1 Hz over 0.25, 1, 4 and 10 h,
+/// with one star fix at the end or one every quarter of an hour. Over hours the former leaves the
+/// rotation about the Sun uncertain by half a turn, which takes more iterations.
 
 #include <benchmark/benchmark.h>
 
@@ -11,7 +11,7 @@
 namespace spindrift {
 namespace {
 
-/// T2 is at a minute.
+/// Time of T2.
 constexpr double kControlOn_s = 60.0;
 
 ReconstructionRequest one_fix_at_the_end(double length_s) {

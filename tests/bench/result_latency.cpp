@@ -1,14 +1,15 @@
 /// @file
-/// How long it takes from the write of the sample that brings a result out to the result, committed
-/// and published, at a running `spindrift serve`: a fix of a spinner, an attitude of a three-axis
-/// spacecraft, or with `alerts` an alert that is raised.
+/// Measures the latency of a running `spindrift serve` from the write of the sample that triggers a
+/// result to the committed and published result: a fix of a spinner, an attitude of a three-axis
+/// spacecraft, or with `alerts` a raised alert.
 ///
 ///     result_latency MISSION.toml TELEMETRY SPACECRAFT SPEED [DOMAIN [alerts]]
 ///
-/// The same pass goes out as SPACECRAFT spacecraft named LOAD-0, LOAD-1, ..., one after the other,
-/// SPEED times faster than it was. Which sample brings out which result, the pipeline itself tells
-/// beforehand. Prints results, those that were seen; median, 99th percentile and longest in
-/// microseconds; and the median over seconds of the 99th percentile in each, as ddsperf has it.
+/// The same pass is sent as SPACECRAFT spacecraft named LOAD-0, LOAD-1, ..., one after the other,
+/// SPEED times faster than real time. The pipeline determines beforehand which sample triggers
+/// which result. Prints the numbers of expected and of seen results; median, 99th percentile and
+/// maximum latency in microseconds; and, like ddsperf, the median of the 99th percentiles of single
+/// seconds.
 
 #include <fmt/format.h>
 #include <spindrift.h>
@@ -47,7 +48,7 @@ using std::chrono::steady_clock;
 using bench::AnySample;
 using bench::or_exit;
 
-/// What a result is known by among those of its spacecraft, in all passes that are sent.
+/// Identifies a result among those of its spacecraft over all passes that are sent.
 std::string identity(TaiTime t) { return std::to_string(tai_ns(t)); }
 std::string identity(TaiTime raised, const std::string& key, std::uint32_t revision) {
   return fmt::format("{} {} {}", tai_ns(raised), key, revision);
@@ -61,10 +62,10 @@ std::string identity_of(const spindrift_Alert& alert, std::chrono::nanoseconds d
   return identity(tai_from_ns(alert.raised_tai_ns) - delay, alert.dedupe_key, alert.revision);
 }
 
-/// A result, and the sample that brings it out.
+/// Maps each result to the index of the sample that triggers it.
 using Bringing = std::map<std::string, std::size_t>;
 
-/// @param note Called with a product and the sample that brings it out, in order.
+/// @param note Called in order with each product and the sample that triggers it.
 template <class Pass, class Note>
 void for_each_product(Pass pass, const std::vector<AnySample>& samples, const Note& note) {
   const auto push = [&](std::size_t i, const auto& value) {
@@ -90,7 +91,7 @@ Bringing bringing_out(const Pass& pass, const std::vector<AnySample>& samples) {
   return bringing;
 }
 
-/// Of the alerts that the products raise.
+/// Returns the samples that trigger the alerts of the products.
 template <class Pass, class Conditions>
 Bringing raising(const Pass& pass, const std::vector<AnySample>& samples, Conditions conditions) {
   Bringing bringing;
@@ -112,23 +113,23 @@ struct Seen {
   steady_clock::time_point at;
 };
 
-/// Of at least one value.
+/// Returns the quantile `share` of at least one value.
 double at_share(std::vector<double>& values, double share) {
   std::sort(values.begin(), values.end());
   const auto place = static_cast<std::size_t>(share * static_cast<double>(values.size()));
   return values[std::min(place, values.size() - 1)];
 }
 
-/// The passes begin one after the other, all within ten seconds, since each settles its first ten
-/// revolutions at once. At any time the load has all phases, and as in a pass what is sent together
-/// was measured together.
+/// Returns the delay of a pass. The passes begin one after the other within ten seconds, since each
+/// settles its first ten revolutions at once. The load then has all phases at any time, and samples
+/// sent together were measured together, as in a real pass.
 std::chrono::nanoseconds delay(std::size_t spacecraft) {
-  // No part of a turn.
+  // The interval is no fraction of a turn.
   constexpr std::chrono::nanoseconds kApart{100'700'000};
   return spacecraft * kApart;
 }
 
-/// Notes every result as it arrives, until stopped.
+/// Notes every result as it arrives until stopped.
 template <class Message>
 void listen(const bus::Reader<Message>& reader, const bus::WaitSet& waitset,
             std::vector<Seen>& seen) {
@@ -169,7 +170,7 @@ std::vector<Event> events(const std::vector<AnySample>& samples, std::size_t spa
   return all;
 }
 
-/// The publishers of all kinds.
+/// Holds the publishers of all kinds.
 template <class Value>
 using PublisherOf = std::optional<TelemetryPublisher<Value>>;
 using Publishers = ByKind<PublisherOf>;
@@ -191,7 +192,7 @@ Publishers publishers_for(const bus::Participant& participant,
   return publishers;
 }
 
-/// How often, and how fast, the pass is sent.
+/// How often and how fast the pass is sent.
 struct Load {
   std::size_t spacecraft;
   double speed;

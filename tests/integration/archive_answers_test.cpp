@@ -20,7 +20,7 @@ using ::testing::ElementsAre;
 using testing::estimate_at;
 using testing::start_of;
 
-/// What the views make of the products of a run: its answers, and the verdict to act on.
+/// Views of the archive on the products of a run: its answers and its verdict.
 class ArchiveAnswers : public testing::ArchiveFixture {};
 using Archive = spindrift::Archive;
 
@@ -61,7 +61,7 @@ TEST_F(ArchiveAnswers, VerdictHasTheEllipseAndHowFarTheTelemetryReaches) {
             "1 1 1 2017-01-01T00:00:00.000Z 2017-01-01T00:00:01.500Z 0.75");
 }
 
-/// What SQLite's machine does for the verdict of run-1.
+/// Returns the number of virtual-machine steps of SQLite for the verdict of run-1.
 int steps_to_verdict(const SQLite::Database& database) {
   sqlite3_stmt* query = nullptr;
   EXPECT_EQ(
@@ -82,7 +82,7 @@ TEST_F(ArchiveAnswers, VerdictOfADayIsFoundAsFastAsThatOfAMinute) {
   int t = 0;
   for (const int last : {10, 1000}) {
     for (; t < last; ++t) {
-      // The answers that are not there are looked for, too.
+      // The view also searches for answers that do not exist.
       batch.products.emplace_back(estimate_at(t, SpinEstimator::Mean, 20.0));
       batch.products.emplace_back(attitude_at(t, Quality::Ok));
     }

@@ -39,7 +39,7 @@ ArchiveBatch pulses_from(std::int64_t first_tai_ns) {
   return batch;
 }
 
-/// While it lives, the kernel refuses to let any file of this process grow beyond `bytes`.
+/// Limits the size of every file of this process to `bytes` during its lifetime.
 class FileSizeLimit {
  public:
   explicit FileSizeLimit(rlim_t bytes) {
@@ -58,7 +58,7 @@ class FileSizeLimit {
   rlimit before_{};
 };
 
-/// Fulfils `failed` with the first error there is.
+/// Returns a handler that fulfils `failed` with the first error only.
 std::function<void(const Error&)> first_into(std::promise<Error>& failed) {
   return [&failed, reported = false](const Error& error) mutable {
     if (!std::exchange(reported, true)) {
@@ -67,14 +67,14 @@ std::function<void(const Error&)> first_into(std::promise<Error>& failed) {
   };
 }
 
-/// Holds the writer after its first commit until `go_on`.
+/// Returns a callback that blocks the writer after its first commit until `go_on` is ready.
 std::function<void(std::span<const ArchiveBatch>)> held_until(std::shared_future<void> go_on) {
   return [go_on = std::move(go_on)](const auto& /*stored*/) { go_on.wait(); };
 }
 
-/// Numbers of committed batches, as the writer reports them, each the successor of the one before;
-/// kills it after `until_kill` of them and reads on to the end.
-/// @return the last number.
+/// Reads the consecutive batch numbers that the writer reports at each commit, kills it after
+/// `until_kill` of them and reads the rest.
+/// @return The last number.
 std::int64_t kill_after(int until_kill, pid_t writer, int reports, std::int64_t last_reported) {
   std::int64_t number = 0;
   while (read(reports, &number, sizeof number) == sizeof number) {
@@ -89,12 +89,13 @@ std::int64_t kill_after(int until_kill, pid_t writer, int reports, std::int64_t 
 
 class ArchiveFailure : public testing::ArchiveFixture {
  protected:
-  /// Room for a small commit behind what the write-ahead log already holds, not for many.
+  /// Returns a file size limit with room for one small commit after the write-ahead log, not for
+  /// many.
   rlim_t little_room() const {
     return std::filesystem::file_size(path().string() + "-wal") + 100'000;
   }
 
-  /// An archive that fulfils `failed` when writing fails.
+  /// Opens an archive that fulfils `failed` when writing fails.
   std::unique_ptr<Archive> open_watched(OnWriteFailure policy, std::promise<Error>& failed) const {
     ArchiveOptions options;
     options.on_write_failure = policy;
@@ -106,7 +107,8 @@ class ArchiveFailure : public testing::ArchiveFixture {
     return archive;
   }
 
-  /// Submits until refused. @return how many batches were accepted.
+  /// Submits batches until one is refused.
+  /// @return Number of accepted batches.
   static std::int64_t fill(Archive& archive) {
     std::int64_t accepted = 0;
     while (archive.submit(pulses_from(accepted * kPulsesPerBatch))) {
@@ -218,7 +220,7 @@ TEST_F(ArchiveFailure, StopRefusesWhenTheFileIsDeletedAndClosingWritesItAgain) {
   std::promise<Error> failed;
   const auto archive = open_watched(OnWriteFailure::Stop, failed);
   std::filesystem::remove(path());
-  const Error error = failed.get_future().get();  // Nothing needs to be stored for it.
+  const Error error = failed.get_future().get();  // The failure is reported even without a commit.
   EXPECT_THAT(error.message, HasSubstr("was deleted or moved away while it was written"));
   EXPECT_FALSE(archive->submit(pulses_from(0)));
   const auto closed = archive->close();
@@ -260,7 +262,7 @@ TEST_F(ArchiveFailure, ClosingFailsWhenTheFileWasTruncatedThoughNothingIsLeftToS
   EXPECT_EQ(std::filesystem::file_size(path()), 4096U);
 }
 
-/// Submits numbered batches for ever and writes the number of each committed one to `reports`.
+/// Submits numbered batches forever and writes the number of each committed one to `reports`.
 [[noreturn]] void write_until_killed(const std::filesystem::path& path, std::int64_t first,
                                      const std::string& run_id, int reports) {
   ArchiveOptions options;

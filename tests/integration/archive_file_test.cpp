@@ -178,7 +178,7 @@ TEST_F(ArchiveFile, NameThatSqliteTakesForSomethingElseIsRefused) {
   }
 }
 
-/// Nobody may make a file in the folder, not even root, who becomes somebody else.
+/// Makes a folder read-only; root switches to another user, since permissions do not bind root.
 class ReadOnlyFolder {
  public:
   explicit ReadOnlyFolder(std::filesystem::path folder) : folder_{std::move(folder)} {
@@ -283,7 +283,7 @@ TEST_F(ArchiveFile, ReaderSeesWhatIsCommittedAndCannotWrite) {
   EXPECT_THROW(database.exec("DELETE FROM run"), SQLite::Exception);
 }
 
-/// The lock that SQLite has on the file, if any, as another process sees it.
+/// Returns the type of the lock that SQLite holds on the file, as another process sees it.
 short lock_of_sqlite(const std::filesystem::path& path) {
   constexpr off_t kSqliteSharedFirst = 0x40000002;
   // NOLINTNEXTLINE(cppcoreguidelines-pro-type-vararg): POSIX has no other open
@@ -299,7 +299,7 @@ short lock_of_sqlite(const std::filesystem::path& path) {
   return wanted.l_type;
 }
 
-// A process that lost its lock would see another one's sqlite3 delete the log under its feet.
+// If a process lost its lock, the sqlite3 of another process could delete the log under it.
 TEST_F(ArchiveFile, LookingAtTheFileLeavesItsWriterTheLocks) {
   const auto archive = open();
   EXPECT_EQ(number("SELECT count(*) FROM run"), 0);

@@ -1,5 +1,5 @@
 /// @file
-/// An archive in a fresh directory, things to put into it, and questions to its file.
+/// An archive in a temporary folder with sample content and queries on its file.
 
 #pragma once
 
@@ -68,7 +68,7 @@ inline AttitudeEstimate attitude_at(std::int64_t t_tai_ns, Quality quality) {
       .assessment = {quality, {{ReasonCode::SensorGated, {{"sensor", std::string{"sun"}}}}}}};
 }
 
-/// The first column of every row.
+/// Returns the first column of every row.
 inline std::vector<std::string> column(SQLite::Database& database, const std::string& query) {
   std::vector<std::string> values;
   SQLite::Statement statement{database, query};
@@ -91,7 +91,7 @@ class ArchiveFixture : public ::testing::Test {
     return std::move(*archive);
   }
 
-  /// Commits the batch by an archive that is closed again.
+  /// Commits the batch through an archive that is opened for it and closed again.
   void store(const ArchiveBatch& batch) const {
     const auto archive = open();
     Expected<void> done = archive->submit(batch);

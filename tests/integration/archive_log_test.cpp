@@ -19,7 +19,7 @@ std::atomic<int> times_brought_to_the_disk = 0;
 
 }  // namespace
 
-// Stands before that of the system.
+// Replaces the C library's function so that calls are counted.
 extern "C" int sync_file_range(int file, off64_t offset, off64_t count, unsigned flags) {
   ++times_brought_to_the_disk;
   return static_cast<int>(syscall(SYS_sync_file_range, file, offset, count, flags));
@@ -34,12 +34,12 @@ using testing::start_of;
 constexpr std::uintmax_t kMiB = 1 << 20;
 constexpr int kPulsesPerBatch = 6000;
 
-/// What is long: more than the log may be before it is carried over.
+/// Number of batches whose log exceeds the size at which a checkpoint is made.
 constexpr int kBatchesOfALongLog = 48;
 
 class ArchiveLog : public testing::ArchiveFixture {
  protected:
-  /// Each pulse on a page of its own, for the most part, so that the log grows by a page for each.
+  /// Writes pulses mostly on pages of their own, so that each makes the log grow by a page.
   void write_long_log(Archive& archive) {
     for (int i = 0; i < kBatchesOfALongLog; ++i) {
       ArchiveBatch batch = batch_of("run");
@@ -55,7 +55,7 @@ class ArchiveLog : public testing::ArchiveFixture {
   std::int64_t pulses() const { return pulses_; }
   std::uintmax_t log_bytes() const { return std::filesystem::file_size(path().string() + "-wal"); }
 
-  /// Whether the file grows to `bytes` within a minute, while nobody closes it.
+  /// Returns whether the open file grows to `bytes` within a minute.
   bool file_reaches(std::uintmax_t bytes) const {
     const auto deadline = std::chrono::steady_clock::now() + std::chrono::minutes{1};
     while (std::filesystem::file_size(path()) < bytes) {
@@ -81,7 +81,8 @@ TEST_F(ArchiveLog, IsCarriedOverWhileTheArchiveIsOpenAndBeginsAnew) {
 
   write_long_log(*archive);
   write_long_log(*archive);
-  EXPECT_LT(log_bytes(), 600 * kMiB);  // Without a new beginning it grows on.
+  // Without a restart from its beginning the log would grow further.
+  EXPECT_LT(log_bytes(), 600 * kMiB);
   EXPECT_EQ(number("SELECT count(*) FROM pulse"), pulses());
   EXPECT_EQ(text("PRAGMA integrity_check"), "ok");
   ASSERT_TRUE(archive->close());
@@ -96,7 +97,7 @@ TEST_F(ArchiveLog, ItsPagesGoToTheDiskAFewAtATime) {
   ASSERT_TRUE(file_reaches(kMiB));
   ASSERT_TRUE(archive->close());
 
-  // Some thousand pages, a few dozen at a time.
+  // Some thousand pages are synced, a few dozen at a time.
   EXPECT_GT(times_brought_to_the_disk - before, 10);
 }
 

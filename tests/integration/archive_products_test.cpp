@@ -25,7 +25,7 @@ using testing::estimate_at;
 using testing::pulse_at;
 using testing::start_of;
 
-// The product of a few doubles near 1, and degrees of a circle: a few ulps of 360.
+// A few ulps of 360: a product of doubles near 1, converted to degrees.
 constexpr double kDegTolerance = 1e-12;
 
 class ArchiveProducts : public testing::ArchiveFixture {};
@@ -213,7 +213,7 @@ TEST_F(ArchiveProducts, UtcOfTheViewsIsThatOfFormatUtc) {
       times_ns.push_back(tai_ns(leap.start) + offset_ns);
     }
   }
-  times_ns.erase(times_ns.begin(), times_ns.begin() + 4);  // Before 1972 there is no UTC here.
+  times_ns.erase(times_ns.begin(), times_ns.begin() + 4);  // UTC before 1972 is not supported.
   std::mt19937_64 rng{1972};
   std::uniform_int_distribution<std::int64_t> until_2040_ns{times_ns.front(),
                                                             2'208'988'800 * kSecond_ns};
@@ -384,7 +384,7 @@ TEST_F(ArchiveProducts, TwoArchivesMergeByNaturalKey) {
   EXPECT_EQ(number("SELECT count(*) FROM spin_fix"), 2);
 }
 
-/// Of a pass that ends then.
+/// Returns a batch with the solution of a pass that ends at `t_tai_ns`.
 ArchiveBatch solution_with(std::int64_t t_tai_ns, std::vector<BiasEstimate> biases) {
   ArchiveBatch batch = testing::batch_of("run-1");
   batch.products.emplace_back(std::make_shared<const BatchSolution>(
@@ -457,7 +457,7 @@ TEST_F(ArchiveProducts, ResidualsOfBatchGoWithTheirSolutionAllTogether) {
   again.continuation = Continuation{.t = tai_from_ns(50)};
   EXPECT_EQ(after(again), 0);
   EXPECT_EQ(after(with_residuals(60)), 6);
-  // One on the way has none to store.
+  // A solution during the pass has no residuals to store.
   EXPECT_EQ(after(solution_with(120, {})), 0);
 }
 

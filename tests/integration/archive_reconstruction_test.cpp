@@ -1,5 +1,3 @@
-// Reconstructed separations in the archive, beside the attitude of the pass.
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -32,7 +30,8 @@ ReconstructedAttitude attitude_at(std::int64_t t_s) {
 
 using Events = std::vector<std::pair<SeparationEvent, std::int64_t>>;
 
-/// @param samples That it rests on. @param history_s In order.
+/// @param samples Number of samples used.
+/// @param history_s Times of the history, in order.
 ReconstructionProduct product(ReconstructionMethod method, std::int64_t samples,
                               const Events& events, const std::vector<std::int64_t>& history_s) {
   ReconstructedSeparation separation{.solution = {.method = method,

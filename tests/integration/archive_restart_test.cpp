@@ -1,4 +1,4 @@
-// What the archive gives back to a service that goes on with a pass.
+// What a service that resumes a pass reads back from the archive.
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -158,7 +158,7 @@ TEST_F(ArchiveRestart, WhatWasLeftOutMakesWayForASampleOfItsTime) {
       "SELECT group_concat(wx_rad_s || ' ' || source || ' ' || arrival) FROM gyro_sample";
   EXPECT_EQ(text(rows), "0.1 right 102");
 
-  // Nor does a later run that leaves out what comes again take it from the one that has it.
+  // A later run that leaves out a repeated sample does not take it from the run that has it.
   ASSERT_TRUE(archive->submit(begun("run-2", 200)));
   ArchiveBatch again = batch_of("run-2");
   again.samples.of<GyroSample>() = {gyro(0.1, -201, "right")};
@@ -307,7 +307,7 @@ TEST_F(ArchiveRestart, LastRevolutionIsTheOneThatNoTableIsBehind) {
   EXPECT_EQ(after({use_at(25), use_at(35)}), tai_from_ns(20));
   EXPECT_EQ(after({period_of(4)}), tai_from_ns(30));
   EXPECT_EQ(after({revolution_at(4), period_of(5)}), tai_from_ns(35));
-  // An edge whose time cannot be true does not say how far its table is.
+  // An edge with an impossible time does not show how far its table reaches.
   EXPECT_EQ(after({PulseUse{.pulse = pulse_at(1'000'000).value,
                             .revolution = {},
                             .rejected_by = Rejection::OutOfTime}}),
@@ -418,7 +418,7 @@ TEST_F(ArchiveRestart, ResultsThatWereGivenBeforeAreKnownButNotAFixThatIsDecided
   const StoredResults stored = find_stored_results(path(), "run-1").value();
   EXPECT_TRUE(stored.hold(accepted_fix(6)));
   EXPECT_FALSE(stored.hold(accepted_fix(8)));
-  // The seventh is AMBIGUOUS.
+  // The seventh fix is AMBIGUOUS.
   EXPECT_TRUE(stored.hold(fix_with_alternates(3)));
   EXPECT_FALSE(stored.hold(accepted_fix(7)));
   EXPECT_TRUE(stored.hold(estimate_at(70, Mean)));

@@ -28,7 +28,7 @@ using ::testing::UnorderedElementsAreArray;
 class ArchiveTest : public testing::ArchiveFixture {};
 using Archive = spindrift::Archive;
 
-/// How SQLite looks for the rows.
+/// Returns SQLite's query plan.
 std::string plan_of(SQLite::Database& database, const std::string& query) {
   SQLite::Statement plan{database, "EXPLAIN QUERY PLAN " + query};
   plan.executeStep();
@@ -148,10 +148,7 @@ TEST_F(ArchiveTest, EdgesOfARevolutionAreFoundByAnIndex) {
 
 TEST_F(ArchiveTest, TheVocabularyOfRejectionsIsThatOfThePipelines) {
   const auto archive = open();
-  std::set<std::string> names;  // Some are of both.
-  for (int i = 0; i <= static_cast<int>(Rejection::MixedAzimuth); ++i) {
-    names.emplace(name_of(static_cast<Rejection>(i)));
-  }
+  std::set<std::string> names;
   for (int i = 0; i <= static_cast<int>(Rejection::Innovation); ++i) {
     names.emplace(name_of(static_cast<Rejection>(i)));
   }
@@ -316,7 +313,7 @@ TEST_F(ArchiveTest, WhatIsQueuedDuringACommitGoesIntoTheNextOne) {
   };
   const auto archive = open(options);
   ASSERT_TRUE(archive->submit(start_of("run-1")));
-  // The first batch alone, so that the writer is held before the others come.
+  // Wait until the writer has taken the first batch alone and is held there.
   while (archive->statistics().queued_batches > 0) {
     std::this_thread::yield();
   }

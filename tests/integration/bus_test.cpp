@@ -25,7 +25,7 @@ using ::testing::ElementsAre;
 using ::testing::EndsWith;
 using ::testing::HasSubstr;
 
-/// CYCLONEDDS_URI for as long as it lives.
+/// Sets CYCLONEDDS_URI during its lifetime.
 class NetworkOverride {
  public:
   explicit NetworkOverride(const std::string& uri) {
@@ -270,7 +270,7 @@ TEST(Writer, OfAnotherProcessWaitsForASlowReaderAndLosesNothing) {
   const auto participant = Participant::create(config).value();
   const auto reader = pulse_reader(participant, bus::telemetry_reader_qos(500));
   ForeignWriter writer{config, "telemetry", kCount};
-  // The reader is full before the first sample is taken.
+  // The reader must be full before the first sample is taken.
   ASSERT_TRUE(eventually([&] { return reader.status().value().rejected > 0; }));
   EXPECT_EQ(seqs_of(take_samples(reader, kCount)), first_seqs(kCount));
   EXPECT_EQ(writer.exit_status(), 0);

@@ -1,4 +1,4 @@
-// What the archive makes of samples that come again, and what it gives back of them.
+// How the archive handles and returns samples that are received again with another value.
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -53,7 +53,7 @@ class ContradictionTest : public testing::ArchiveFixture {
     store(batch);
   }
 
-  /// As a restarted service has them: rate and number of the sender.
+  /// Returns rate and sender number of each sample as a restarted service reads them.
   std::vector<std::string> read_back() {
     SenderNames senders{preferred_};
     std::vector<std::string> rows;
@@ -147,7 +147,7 @@ TEST_F(ContradictionTest, AReconstructionUsesNoneUnlessOneIsPreferred) {
   EXPECT_THAT(reconstructed_from(""), ElementsAre("1 0.1", "3 0.2"));
   EXPECT_THAT(reconstructed_from("A"), ElementsAre("1 0.1", "2 0.1", "3 0.2"));
   EXPECT_THAT(reconstructed_from("B"), ElementsAre("1 0.1", "2 0.2", "3 0.2"));
-  // A later run has it from one source.
+  // A later run receives the sample from one source only.
   take("s", {gyro(2, 0.1, "A", 12)});
   EXPECT_THAT(reconstructed_from(""), ElementsAre("1 0.1", "2 0.1", "3 0.2"));
 }

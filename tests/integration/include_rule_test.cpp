@@ -1,5 +1,5 @@
-// What includes what in pipelines/ and services/. Link lines alone do not show it: every target
-// sees the whole source tree.
+// Include rules of pipelines/ and services/. Link lines alone do not enforce them, since every
+// target sees the whole source tree.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -28,7 +28,7 @@ struct Source {
   std::string folder;
   std::string name;
   std::string text;
-  std::vector<std::string> includes;  ///< As written between the quotes or brackets.
+  std::vector<std::string> includes;  ///< Paths as written between quotes or brackets.
 
   std::string path() const { return folder + "/" + name; }
 };
@@ -65,7 +65,7 @@ std::vector<Source> sources_of(const std::filesystem::path& root) {
   return sources;
 }
 
-/// Of each folder, those it includes, each with a line that says where.
+/// Maps each folder to the folders it includes, each with a line that says where.
 using Uses = std::map<std::string, std::map<std::string, std::string>>;
 
 Uses uses_of(const std::vector<Source>& sources) {
@@ -82,7 +82,8 @@ Uses uses_of(const std::vector<Source>& sources) {
   return uses;
 }
 
-/// The lines that lead from `path`'s last folder back to one of `path`; empty when none do.
+/// Returns the include lines that lead from `path`'s last folder back to one of `path`; empty if
+/// there are none.
 std::vector<std::string> cycle_from(const Uses& uses, std::vector<std::string>& path,
                                     std::set<std::string>& done) {
   const auto used = uses.find(path.back());
@@ -108,7 +109,8 @@ std::vector<std::string> cycle_from(const Uses& uses, std::vector<std::string>& 
   return {};
 }
 
-/// One circle of folders that include each other, a line for each step; empty when there is none.
+/// Returns one cycle of folders that include each other, a line for each step; empty if there is
+/// none.
 std::vector<std::string> first_cycle(const std::vector<Source>& sources) {
   const Uses uses = uses_of(sources);
   std::set<std::string> done;
@@ -135,7 +137,7 @@ bool touches_the_world(std::string_view include) {
          });
 }
 
-/// What of the world the pipelines include, and the clocks that they name.
+/// Returns the includes of operating-system headers and the uses of clocks in pipelines/.
 std::vector<std::string> world_in_pipelines(const std::vector<Source>& sources) {
   std::vector<std::string> found;
   for (const Source& source : sources) {
@@ -164,7 +166,7 @@ TEST(IncludeRule, PipelinesIncludeNothingOfTheWorld) {
   EXPECT_THAT(world_in_pipelines(sources_of(source_folder())), IsEmpty());
 }
 
-/// A source tree that keeps all rules, to break them.
+/// Holds a source tree that obeys all rules, so that each test can break one.
 class MadeUpTree : public ::testing::Test {
  protected:
   MadeUpTree() {

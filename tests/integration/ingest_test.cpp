@@ -19,7 +19,7 @@ using ::testing::HasSubstr;
 
 enum class Consumer { Works, IsHeld };
 
-/// A subscriber and somebody who empties its queue; when held, only after `release()`.
+/// Runs a subscriber and a consumer of its queue; a held consumer starts at `release()`.
 class Station {
  public:
   explicit Station(const bus::BusConfig& config, std::size_t capacity = 64,
@@ -32,8 +32,8 @@ class Station {
       release();
     }
   }
-  /// Releases the consumer and closes the queue first: whatever a test expected in vain, the
-  /// subscriber that waits for room in the queue ends.
+  /// Releases the consumer and closes the queue, so that a subscriber that waits for room in the
+  /// queue ends even after a failed test.
   ~Station() { finish(); }
   Station(const Station&) = delete;
   Station& operator=(const Station&) = delete;
@@ -54,7 +54,7 @@ class Station {
     return found == by_source.end() ? SequenceCounts{} : found->second;
   }
 
-  /// Everything that arrived, once the subscriber has stopped.
+  /// Returns everything that arrived after stopping the subscriber.
   SampleBatch finish() {
     release();
     subscriber_->stop();
@@ -120,7 +120,7 @@ TEST(TelemetrySubscriber, TakesCodedFramesBesidePulsesAndCountsBothOfASource) {
                                {.t = t, .period_s = 0.5, .delay_s = {std::nullopt, 0.25}}, never));
   }
   ASSERT_TRUE(eventually([&] { return station.counts_of("antenna").received == 2 * kCount; }));
-  // Both topics count from 0 in one session: neither gaps nor duplicates.
+  // Both topics count from 0 in one session, which is neither a gap nor a duplicate.
   EXPECT_EQ(station.counts_of("antenna"), (SequenceCounts{.received = 2 * kCount}));
   const SampleBatch arrived = station.finish();
   EXPECT_EQ(arrived.samples.of<Pulse>().size(), kCount);
@@ -195,7 +195,7 @@ TEST(TelemetrySubscriber, LosesNothingToASlowConsumer) {
   const auto config = bus_of_its_own();
   Station station{config, 2, Consumer::IsHeld};
   ForeignWriter writer{config, "telemetry", kCount};
-  // Queue and reader are full before the first pulse is consumed.
+  // Queue and reader must be full before the first pulse is consumed.
   ASSERT_TRUE(eventually([&] { return station.status().reader.rejected > 0; }));
   station.release();
   ASSERT_TRUE(eventually([&] { return station.counts_of("front-end").received == kCount; }));
@@ -254,7 +254,7 @@ TEST(TelemetrySubscriber, CountsGapsDuplicatesAndDisorderAndPassesAllOn) {
   EXPECT_EQ(station.finish().samples.of<Pulse>().size(), 4U);
 }
 
-/// A source that starts, sends `count` pulses and ends.
+/// Runs a source that starts, sends `count` pulses and ends.
 Expected<void> run_source(const Participant& participant, int count) {
   auto publisher = TelemetryPublisher<Pulse>::create(participant, "antenna").value();
   Expected<void> sent = publisher.wait_for_subscriber(30s);
@@ -314,7 +314,7 @@ TEST(TelemetrySubscriber, StopsWhilePulsesArriveAndKeepsWhatItTook) {
 }
 
 TEST(TelemetrySubscriber, HandsOverWhatIsAcknowledgedWhenStopped) {
-  // The queue is full at once, and the rest waits in the reader, acknowledged.
+  // The queue is full at once; the acknowledged rest waits in the reader.
   Station station{bus_of_its_own(), 1, Consumer::IsHeld};
   constexpr std::uint64_t kSent = 3000;
   const auto writer = pulse_writer(station.participant());
@@ -398,7 +398,7 @@ TEST(TelemetrySubscriber, KeepsFewOfManyImpossibleSamplesAndTheNumberOfTheRest) 
     samples += rejected.samples;
   }
   EXPECT_EQ(samples, kSent);
-  // Of two minutes at most, on the slowest of machines.
+  // On a slow machine the rejections span at most two minutes of the limit.
   EXPECT_LE(arrived.rejected.size(), 2 * (RejectionLimit::kKept + 1));
 }
 
@@ -412,7 +412,7 @@ TEST(TelemetrySubscriber, SaysSoWhenAnExceptionEndsItsTaking) {
   EXPECT_EQ(subscriber->status().value().failure, "taking samples: out of memory");
 }
 
-// Deleting a full reader waits for Cyclone's receive thread, which waits for room in it.
+// Deleting a full reader would block: Cyclone's receive thread waits for room in it.
 TEST(TelemetrySubscriber, StopsAndCountsWhatNobodyTookWhileItsReaderIsFull) {
   const auto config = bus_of_its_own();
   const auto participant = Participant::create(config).value();

@@ -26,13 +26,13 @@ namespace spindrift::processor_restart_test {
 using Batches = std::vector<ArchiveBatch>;
 
 constexpr std::size_t kEdgesOfAPass = 180;
-// The second pass is believed in the midst of one, with the edge that is 20 s behind its first.
+// The second pass is confirmed by its edge at 20 s, which is in the middle of a batch.
 constexpr std::size_t kEdgesABatch = 13;
 constexpr std::chrono::hours kSilence{2};
 
 const std::filesystem::path kPass = recorded_passes() / "nominal";
 
-/// Thirty revolutions, and the same again after the silence, for which there is no orbit.
+/// Returns thirty revolutions and, after the silence, the same again without orbit coverage.
 std::vector<TelemetrySample<Pulse>> two_passes() {
   const std::vector<TelemetryFile> files{{.path = kPass / "pulses.csv", .kind = Kind<Pulse>{}}};
   std::vector<TelemetrySample<Pulse>> all =
@@ -53,7 +53,7 @@ Processor new_processor(const std::filesystem::path& pass = kPass) {
       .value();
 }
 
-/// Twenty minutes: twice what is made again after a restart.
+/// Writes a pass of twenty minutes, twice what a restart recomputes.
 void write_long_pass(const std::filesystem::path& folder) {
   Scenario scenario = load_scenario(scenarios() / "gto-nominal.toml").value();
   scenario.duration_s = 1200.0;
@@ -71,13 +71,14 @@ std::vector<TelemetrySample<Pulse>> all_edges(const std::filesystem::path& pass)
   return all;
 }
 
-/// What goes to the archive, in the order in which it does. Samples pass products there.
+/// Holds what is submitted to the archive, in order. Samples may overtake products there.
 struct Submitted {
   Batches samples;
   Batches products;
-  std::vector<std::size_t> samples_before;  ///< Of each batch of products: it waits for those.
-  std::size_t solved = 0;                   ///< Batch solutions.
-  std::size_t left = 0;                     ///< Those that were due and were not solved.
+  /// For each batch of products, the number of sample batches that must be stored before it.
+  std::vector<std::size_t> samples_before;
+  std::size_t solved = 0;  ///< Number of batch solutions.
+  std::size_t left = 0;    ///< Number of due batch solutions that were not computed.
 
   void add_products(Batches batches) {
     for (ArchiveBatch& batch : batches) {
@@ -89,7 +90,7 @@ struct Submitted {
 
 constexpr std::size_t kAll = std::numeric_limits<std::size_t>::max();
 
-/// @param solved So many batch solutions there is time for.
+/// @param solved Number of batch solutions to compute before time is up.
 void work(Processor& processor, Routed routed, Submitted& out, std::size_t solved) {
   for (ArchiveBatch& batch : routed.samples) {
     out.samples.push_back(std::move(batch));
@@ -130,7 +131,7 @@ class ProcessorRestart : public testing::ArchiveFixture {
     ASSERT_TRUE(archive->close());
   }
 
-  /// Goes on with what `db` holds, and receives what of `sent` it does not.
+  /// Resumes from `db` and receives the samples of `sent` that it does not contain.
   static Submitted go_on(const std::filesystem::path& db,
                          const std::vector<TelemetrySample<Pulse>>& sent,
                          const std::filesystem::path& pass = kPass, std::size_t solved = kAll) {
@@ -152,7 +153,7 @@ class ProcessorRestart : public testing::ArchiveFixture {
     return out;
   }
 
-  /// Products run by run, and the runs themselves.
+  /// Returns all rows and, for the main tables, the number of rows and the times of each run.
   static std::vector<std::string> rows(const std::filesystem::path& db) {
     std::vector<std::string> all = all_rows(db);
     for (const std::string& table :
@@ -211,7 +212,7 @@ TEST_F(ProcessorRestart, KilledAtAnyPointBetweenTwoPassesGivesWhatNoRestartWould
       const auto killed = db(fmt::format("killed-{}-{}", samples, products));
       store(killed, first(all, samples, products));
       const Submitted again = go_on(killed, sent);
-      // Killed once more, with all samples and half of the products.
+      // The service is killed again with all samples and half of the products stored.
       store(killed, first(again, again.samples.size(), again.products.size() / 2));
       const Submitted rest = go_on(killed, sent);
       store(killed, first(rest, rest.samples.size(), rest.products.size()));
@@ -220,7 +221,7 @@ TEST_F(ProcessorRestart, KilledAtAnyPointBetweenTwoPassesGivesWhatNoRestartWould
   }
 }
 
-/// How many of the batch solutions of a pass are solved before the service ends, and how it does.
+/// Number of batch solutions computed before the service ends, and whether its end is orderly.
 struct Ended {
   std::size_t solved;
   bool orderly;
@@ -254,7 +255,7 @@ TEST_F(ProcessorRestart, MakesEveryBatchSolutionThatIsNotStored) {
     ASSERT_EQ(before.left, whole.solved - ended.solved);
     store(restarted, first(before, before.samples.size(), before.products.size()));
     const Submitted again = go_on(restarted, sent, pass, 2);
-    // Killed once more, before the end.
+    // The service is killed again before the end.
     store(restarted, first(again, again.samples.size(), again.products.size() - 1));
     const Submitted rest = go_on(restarted, sent, pass);
     EXPECT_EQ(rest.solved, whole.solved - ended.solved - 2);
@@ -265,7 +266,7 @@ TEST_F(ProcessorRestart, MakesEveryBatchSolutionThatIsNotStored) {
 
 TEST_F(ProcessorRestart, ANewRunComesAfterAllThatIsStoredWhateverTheClockSays) {
   const std::vector<TelemetrySample<Pulse>> sent = two_passes();
-  constexpr std::int64_t kFarAhead = 4'000'000'000'000'000'000;  // A clock in 2096.
+  constexpr std::int64_t kFarAhead = 4'000'000'000'000'000'000;  // Time of a wrong clock, in 2096.
   ArchiveBatch earlier = testing::start_of("earlier");
   earlier.start->first_arrival = kFarAhead;
   earlier.samples.of<Pulse>() = sent;

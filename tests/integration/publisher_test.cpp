@@ -22,7 +22,7 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
 constexpr double kRad_deg = std::numbers::pi / 180.0;
-// A few roundings of values up to 360.
+// Allows for a few roundings of values up to 360.
 constexpr double kRounding = 1e-12;
 
 template <class Sample>
@@ -84,7 +84,7 @@ TEST(ResultPublisher, PublishesAFixInDegrees) {
   EXPECT_EQ(taken[0].geometry_case, 3);
   EXPECT_NEAR(taken[0].ra_deg, 310.0, kRounding);
   EXPECT_NEAR(taken[0].dec_deg, -64.0, kRounding);
-  EXPECT_NEAR(taken[0].sigma_deg, 5.0, kRounding);  // sqrt(9 + 16)
+  EXPECT_NEAR(taken[0].sigma_deg, 5.0, kRounding);  // sqrt(9 + 16).
   EXPECT_NEAR(taken[0].alternate_ra_deg, 130.0, kRounding);
   EXPECT_NEAR(taken[0].alternate_dec_deg, 20.0, kRounding);
   EXPECT_EQ(taken[0].resolution, spindrift_GEOMETRY);
@@ -133,9 +133,10 @@ TEST(ResultPublisher, PublishesAnEstimateInDegreesAndRpm) {
   EXPECT_STREQ(taken[0].spacecraft, "SPINNER");
   EXPECT_STREQ(taken[0].estimator, "mean");
   EXPECT_EQ(taken[0].t_tai_ns, kTestTime_tai_ns);
-  EXPECT_NEAR(taken[0].ra_deg, 12.5, kRounding * 100.0);  // Two degrees from the pole.
+  // The pole is two degrees away, which amplifies rounding.
+  EXPECT_NEAR(taken[0].ra_deg, 12.5, kRounding * 100.0);
   EXPECT_NEAR(taken[0].dec_deg, 88.0, kRounding);
-  EXPECT_NEAR(taken[0].sigma_deg, 1.5, kRounding);  // sqrt(0.25 + 2)
+  EXPECT_NEAR(taken[0].sigma_deg, 1.5, kRounding);  // sqrt(0.25 + 2).
   EXPECT_NEAR(taken[0].covariance_deg2[0], 0.25, kRounding);
   EXPECT_NEAR(taken[0].covariance_deg2[1], -0.125, kRounding);
   EXPECT_NEAR(taken[0].covariance_deg2[2], 2.0, kRounding);
@@ -183,7 +184,7 @@ TEST(ResultPublisher, PublishesTheWholeMessageAndTheStateOfEverySpacecraft) {
   const auto reader = results_reader(participant, bus::kHealthTopic);
   ASSERT_TRUE(publisher.publish(health));
   std::size_t taken = 0;
-  // Strings and lists belong to the middleware, and only while it lends them.
+  // Strings and lists belong to the middleware and are valid only while it lends them.
   const auto check = [&](const spindrift_Health& sample) {
     ++taken;
     EXPECT_EQ(sample.status, std::string(61, 'x') + "...");
@@ -293,12 +294,12 @@ TEST(ToIdl, CutsLongWordsBetweenCharacters) {
   Health health = a_health();
   health.status = std::string(64, 'x');
   EXPECT_EQ(to_idl(kService, health).value().sample.status, health.status);
-  // Two bytes, of which the first alone would have a place.
+  // The character has two bytes, of which only the first would fit.
   health.status = std::string(60, 'x') + "\u00e9" + std::string(9, 'x');
   EXPECT_EQ(to_idl(kService, health).value().sample.status, std::string(60, 'x') + "...");
 }
 
-/// What a subscriber that comes afterwards has of `count` pulses of source "replay".
+/// Returns what a late subscriber receives of `count` pulses of source "replay".
 std::vector<spindrift_Pulse> published(const Pulse& pulse, std::size_t count) {
   const auto participant = Participant::create(bus_of_its_own()).value();
   auto publisher = TelemetryPublisher<Pulse>::create(participant, "replay").value();

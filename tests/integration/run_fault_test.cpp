@@ -1,5 +1,3 @@
-// A spacecraft whose computing fails beside one whose does not.
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -27,7 +25,7 @@ using ::testing::HasSubstr;
 
 const std::filesystem::path kPass = recorded_passes() / "nominal";
 constexpr std::size_t kEdges = 240;
-/// Of the one of these that computing fails at.
+/// Index of the edge at which the computation fails.
 constexpr std::size_t kBad = 203;
 
 std::vector<TelemetrySample<Pulse>> edges_of(const std::string& spacecraft) {
@@ -37,8 +35,8 @@ std::vector<TelemetrySample<Pulse>> edges_of(const std::string& spacecraft) {
   return edges;
 }
 
-/// Sound in the archive; computing gets it with a channel that there is none of, as from a fault of
-/// memory, and no table of channels has a place for it.
+/// Gives an edge an impossible channel, as after a memory fault. The archive has the right one, but
+/// the tables of the computation have no place for it.
 void spoil(PassInput& input, TaiTime bad) {
   for (Arrived<Pulse>& arrived : input.values.of<Pulse>()) {
     if (arrived.value.t == bad) {
@@ -65,7 +63,7 @@ struct RunFaults : testing::ArchiveFixture {
     }
   }
 
-  /// `at_once` edges of each spacecraft at a time, after what is stored.
+  /// Sends `at_once` edges of each spacecraft at a time, after those that are stored.
   static void serve(const std::filesystem::path& db, std::size_t at_once, bool stored) {
     const std::vector<TelemetrySample<Pulse>> fails = edges_of("FAILS");
     const std::vector<TelemetrySample<Pulse>> sound = edges_of("SOUND");
@@ -120,7 +118,7 @@ TEST_F(RunFaults, AreOfOneSpacecraftAndMakeItsAnswerDoubtful) {
   };
   EXPECT_GT(fixes("FAILS"), 20);
   EXPECT_GT(fixes("SOUND"), fixes("FAILS"));
-  // Whoever follows the answers alone sees it, too.
+  // The failure is also visible to clients that read the answers only.
   EXPECT_EQ(number_of(db("served"),
                       "SELECT count(*) FROM spin_estimate JOIN run USING (run_id) WHERE"
                       " spacecraft_id = 'FAILS' AND quality = 'DOUBTFUL'"

@@ -1,5 +1,3 @@
-// Whose time a pass goes by when its senders disagree.
-
 #include "services/processor/source_watch.h"
 
 #include <gtest/gtest.h>
@@ -28,7 +26,8 @@ class SourceWatchTest : public ::testing::Test {
         moment_);
   }
 
-  /// `count` samples, a second apart. @return What is said of the last.
+  /// Passes `count` samples, one a second.
+  /// @return Verdict on the last one.
   Verdict see_some(const std::string& source, TaiTime first, std::size_t count = kEnough) {
     Verdict last = Verdict::InTime;
     for (std::size_t i = 0; i < count; ++i) {
@@ -203,7 +202,7 @@ TEST_F(SourceWatchTest, HoldsNoMoreThanItMay) {
   EXPECT_EQ(count_of(watch_.follow({.name = "wrong", .session = 1})), kEnough);
 }
 
-/// Live: time goes as on the wall.
+/// Uses the pace of a live pass, where time advances with the wall clock.
 class LiveSourceWatchTest : public SourceWatchTest {
  protected:
   LiveSourceWatchTest() : SourceWatchTest{kLivePace} {}
@@ -211,7 +210,7 @@ class LiveSourceWatchTest : public SourceWatchTest {
   TaiTime now() const { return kStart + moment_.now.time_since_epoch(); }
   void pass_by(std::chrono::nanoseconds time) { moment_.now += time; }
 
-  /// Both send each second, the other `off` the right time.
+  /// Sends a sample of both sources each second, the other one's `off` from the right time.
   Verdict see_both(std::chrono::nanoseconds off, int seconds, const std::string& right = "right",
                    const std::string& other = "other") {
     Verdict of_other = Verdict::InTime;

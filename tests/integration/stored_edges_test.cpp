@@ -1,5 +1,3 @@
-// What the archive gives to those who solve a stored run again.
-
 #include "services/archive/stored_edges.h"
 
 #include <gmock/gmock.h>
@@ -20,7 +18,7 @@ using testing::start_of;
 
 class ArchiveEdges : public testing::ArchiveFixture {
  protected:
-  /// Of five edges of sun slit 2.
+  /// Stores a run with five edges of sun slit 2.
   void store_run(const std::string& run_id, std::optional<std::int64_t> revolution) const {
     ArchiveBatch batch = start_of(run_id);
     for (std::int64_t t_tai_ns = 0; t_tai_ns < 50; t_tai_ns += 10) {
@@ -41,8 +39,8 @@ TEST_F(ArchiveEdges, OfARunWithoutSun1AreThere) {
   EXPECT_EQ(std::move(stored->pass).edges().size(), 5U);
 }
 
-/// The second fix is the first that has several roots, 12 deg apart; what settled the pass before
-/// chose the other one there.
+/// The second fix is the first with several roots, 12 deg apart; the pass was settled on the other
+/// root.
 TEST_F(ArchiveEdges, HaveThePriorThatOperatorsToldInThePlaceOfTheMissions) {
   store_run("run-1", 3);
   const auto told_by = [&](std::int64_t t_tai_ns, const SpinAction& does, const char* action,

@@ -60,7 +60,7 @@ struct StreamSilence : testing::ArchiveFixture {
     }
   }
 
-  /// Edges, a silence, one from just before it, and more edges.
+  /// Receives edges, a silence, an edge from just before it, and more edges.
   void receive() const {
     const Samples all = edges(kAll);
     const auto middle = all.begin() + kBefore;
@@ -100,7 +100,7 @@ TEST_F(StreamSilence, IsStoredAndRepeatedByARestart) {
   EXPECT_EQ(product_rows(path()), rows);
 }
 
-/// Times of the batch solutions that become due with it.
+/// Returns the times of the batch solutions that become due.
 std::vector<TaiTime> solved(Processor& processor, const Routed& routed) {
   std::vector<TaiTime> times;
   for (const PassInput& input : routed.work) {
@@ -128,7 +128,7 @@ TEST_F(StreamSilence, HasTheBatchSolutionOfAllThatCameAndNoneTwice) {
     EXPECT_EQ(meanwhile.size(), 1U);
     const auto in_silence = solved(processor, processor.fall_silent({"SPINNER"}));
     ASSERT_EQ(in_silence.size(), 1U);
-    EXPECT_GT(in_silence.front(), all.back().value.t - 2s);  // The last revolution is open.
+    EXPECT_GT(in_silence.front(), all.back().value.t - 2s);  // The last revolution is still open.
     EXPECT_TRUE(solved(processor, processor.fall_silent({"SPINNER"})).empty());
   }
 }

@@ -1,5 +1,3 @@
-// Every kind of telemetry over the bus, and into the archive and back.
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -55,7 +53,7 @@ struct Example<TimedOrbitState> {
   }
 };
 
-/// Its time, and its members as text.
+/// Returns the time and the members as text.
 template <class Value>
 std::vector<std::string> members_of(const Value& value) {
   std::vector<std::string> members{std::to_string(tai_ns(value.t))};

@@ -1,4 +1,4 @@
-// A service of a three-axis spacecraft that is killed in the midst of a pass.
+// A service of a three-axis spacecraft that is killed during a pass.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -25,16 +25,16 @@
 
 namespace spindrift::three_axis_restart_test {
 
-/// More than twice what is made again after a restart.
+/// The pass is more than twice as long as what a restart recomputes.
 constexpr testing::ThreeAxisScene kLongPass{
     .duration_s = 1300.0, .gyro_s = 1.0, .star_s = 10.0, .sun_s = 5.0, .separation = true};
 constexpr std::size_t kSamplesABatch = 13;
-constexpr std::size_t kSilence = 90;  ///< Before that batch.
+constexpr std::size_t kSilence = 90;  ///< Index of the batch before which the stream falls silent.
 
 using AnySample = TelemetryKinds::Of<std::variant, TelemetrySample>;
 
-/// Of one front-end, in the order of their time, but that every 31st comes nine later: late, or
-/// within the window.
+/// Returns the samples of one source in order of time, except that every 31st arrives nine samples
+/// later, either late or within the reorder window.
 std::vector<AnySample> disordered_samples(const std::filesystem::path& pass) {
   const std::vector<std::filesystem::path> paths{pass};
   auto stream = TelemetryStream::open(scan_telemetry(paths).value(), "SAT").value();
@@ -59,8 +59,8 @@ void spoil(Value& value) {
 void spoil(CodedFrame& /*frame*/) {}
 void spoil(StarFix& fix) { fix.q_icrf_sensor *= Eigen::Quaterniond{0.8, 0.6, 0.0, 0.0}; }
 
-/// Of a second front-end, besides: of every fifth sample something else, at once or, of one in
-/// three, long after it was computed; of every seventh the same, so that it stands for it, too.
+/// Returns the samples with those of a second source: for every fifth sample a different value, at
+/// once or (one in three) long after the first was processed; for every seventh an equal copy.
 std::vector<AnySample> contradicted(const std::vector<AnySample>& samples) {
   std::vector<AnySample> all;
   std::multimap<std::size_t, AnySample> later;
@@ -107,11 +107,11 @@ std::vector<SampleBatch> in_batches(const std::vector<AnySample>& samples) {
 
 using Batches = std::vector<ArchiveBatch>;
 
-/// What goes to the archive: of samples, and of what was made of them.
+/// Holds what is submitted to the archive: samples and products.
 struct Submitted {
   Batches samples;
   Batches products;
-  std::size_t solved = 0;  ///< Solutions of the separation among them.
+  std::size_t solved = 0;  ///< Number of solutions of the separation among the products.
 };
 
 class ThreeAxisRestart : public testing::ArchiveFixture {
@@ -152,7 +152,7 @@ class ThreeAxisRestart : public testing::ArchiveFixture {
     }
   }
 
-  /// What is sent from a batch on, up to another.
+  /// Receives the batches `from` to `to` of the pass.
   void receive(Processor& processor, std::size_t from, std::size_t to, Submitted& out) const {
     for (std::size_t i = from; i < to; ++i) {
       if (i == kSilence) {
@@ -177,7 +177,7 @@ class ThreeAxisRestart : public testing::ArchiveFixture {
     ASSERT_TRUE(archive->close());
   }
 
-  /// The whole of what is left.
+  /// Resumes from `db` and receives the rest of the pass.
   void go_on(const std::filesystem::path& db, std::size_t from) const {
     Processor processor = new_processor();
     Submitted rest;
@@ -188,7 +188,7 @@ class ThreeAxisRestart : public testing::ArchiveFixture {
     store(db, rest.samples, rest.products);
   }
 
-  /// What a service makes that nobody stops.
+  /// Stores the results of a service that is not interrupted.
   void receive_unstopped(const std::filesystem::path& db) const {
     Processor unstopped = new_processor();
     Submitted whole;
@@ -199,7 +199,7 @@ class ThreeAxisRestart : public testing::ArchiveFixture {
     store(db, whole.samples, whole.products);
   }
 
-  /// @param behind So many of the last products are not stored.
+  /// @param behind Number of last products that are lost in the kill.
   void receive_killed(const std::filesystem::path& db, std::size_t killed,
                       std::size_t behind) const {
     Processor processor = new_processor();
@@ -211,7 +211,7 @@ class ThreeAxisRestart : public testing::ArchiveFixture {
     go_on(db, killed);
   }
 
-  /// @param after So many batches, each.
+  /// @param after Numbers of batches after which the service is killed, one case each.
   void expect_the_same_killed(const std::vector<std::size_t>& after,
                               const std::filesystem::path& whole_db) const {
     const std::vector<std::string> rows = all_rows(whole_db);
@@ -228,8 +228,9 @@ class ThreeAxisRestart : public testing::ArchiveFixture {
   std::filesystem::path pass_;
   std::vector<AnySample> samples_;
   std::vector<SampleBatch> sent_;
-  OperatorAction said_;                 ///< Of a segment of what the reconstruction rests on.
-  std::optional<std::size_t> says_at_;  ///< Before that batch, long behind the segment.
+  OperatorAction said_;  ///< Excludes a segment of the samples that the reconstruction uses.
+  /// Index of the batch before which the action is taken, long after the segment.
+  std::optional<std::size_t> says_at_;
   std::int64_t first_ns_ = 0;
 };
 
@@ -243,7 +244,7 @@ TEST_F(ThreeAxisRestart, KilledAtAnyPointGivesWhatNoRestartWouldHave) {
   ASSERT_EQ(rows_of(whole_db, "SELECT DISTINCT rejected_by FROM rejected_sample ORDER BY 1"),
             (std::vector<std::string>{"innovation|", "late|", "saturated|"}));
 
-  // Two minutes behind the first star fix are used.
+  // The solution uses samples up to two minutes after the first star fix.
   EXPECT_EQ(
       number_of(whole_db, "SELECT sun_vectors FROM reconstruction WHERE method = 'batch'"),
       number_of(whole_db, fmt::format("SELECT count(*) FROM sun_sample WHERE t_tai_ns - {0} <= "
@@ -268,11 +269,12 @@ TEST_F(ThreeAxisRestart, ContradictionsAreDecidedAsWithoutOne) {
     receive_unstopped(whole_db);
     const std::vector<std::string> rows = all_rows(whole_db);
     ASSERT_GT(number_of(whole_db, "SELECT count(*) FROM attitude WHERE source = 'mekf'"), 500);
-    // What was late is only recorded, and of two that came in time none counts, or the second.
+    // Late samples are only recorded; of two conflicting samples in time, none counts, or only the
+    // second.
     const std::int64_t contested = number_of(
         whole_db, "SELECT count(*) FROM contradiction WHERE source = 'second' AND seq % 3 > 0");
     ASSERT_GT(contested, 100);
-    // Where both were late the first of them keeps its mark.
+    // If both were late, the first of them keeps its mark.
     ASSERT_EQ(number_of(whole_db,
                         "SELECT count(*) FROM contradiction WHERE used = 1 AND source ="
                         " 'front-end' AND t_tai_ns NOT IN (SELECT t_tai_ns FROM"
@@ -289,8 +291,8 @@ TEST_F(ThreeAxisRestart, ContradictionsAreDecidedAsWithoutOne) {
   }
 }
 
-/// Twenty in a row, half an hour ahead, and as many among the others, beyond the hour that ends a
-/// pass.
+/// Twenty consecutive stamps are half an hour ahead, and as many single ones are beyond the hour
+/// that ends a pass.
 TEST_F(ThreeAxisRestart, StrayStampsAreLeftOutHoweverItIsKilled) {
   std::vector<AnySample> samples = disordered_samples(pass_);
   std::size_t seen = 0;
@@ -313,7 +315,7 @@ TEST_F(ThreeAxisRestart, StrayStampsAreLeftOutHoweverItIsKilled) {
   ASSERT_EQ(
       number_of(whole_db, "SELECT count(*) FROM rejected_sample WHERE rejected_by = 'out_of_time'"),
       40);
-  // Killed among both, and behind them.
+  // The service is killed among both groups and after them.
   expect_the_same_killed({std::size_t{31}, std::size_t{60}, sent_.size() - 5}, whole_db);
 }
 

@@ -1,4 +1,4 @@
-// Spacecraft whose missions make numbers that are none.
+// Spacecraft whose configuration leads to values that are not finite.
 
 #include <gtest/gtest.h>
 
@@ -25,7 +25,7 @@ constexpr std::int64_t kEdges = 240;
 
 SpinConfig nominal() { return *load_mission(kPass / "mission.toml").value().spin(); }
 
-/// Of values that no mission file may have.
+/// Returns configurations with values that a mission file cannot contain.
 std::vector<SpinConfig> configs_of_no_instrument() {
   std::vector<SpinConfig> configs(4, nominal());
   configs[0].north->mount_angle_rad = 1e-308 * kRadPerDeg;
@@ -43,7 +43,7 @@ std::vector<TelemetrySample<Pulse>> edges_of(const std::string& spacecraft) {
 }
 
 struct WithheldProducts : testing::ArchiveFixture {
-  /// Two spacecraft of a service.
+  /// Returns a processor for two spacecraft, one with the configuration `odd`.
   static Processor processor_of(const SpinConfig& odd) {
     std::vector<Mission> missions(2, load_mission(kPass / "mission.toml").value());
     missions[0].spacecraft_id = "ODD";
@@ -53,7 +53,7 @@ struct WithheldProducts : testing::ArchiveFixture {
         .value();
   }
 
-  /// Stores the edges of both and what is made of them; then once more, of what is stored.
+  /// Stores the edges of both spacecraft with their products, and then again from the stored edges.
   void serve_twice(const SpinConfig& odd) const {
     const auto archive = open();
     const auto store = [&](std::vector<ArchiveBatch> batches) {

@@ -1,5 +1,3 @@
-/// What must not change the attitude, and what must turn with it.
-
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
@@ -26,7 +24,8 @@ using testing::usual_three_axis;
 
 using Sample = std::variant<GyroSample, StarFix, SunDirection>;
 
-/// Two minutes at 4 Hz: gyro, star fixes of which every tenth is wrong, the Sun.
+/// Returns two minutes of samples: gyro at 4 Hz, star fixes (every tenth of them wrong), and
+/// optionally the Sun.
 std::vector<Sample> samples_of_a_pass(std::mt19937_64& rng, bool with_sun) {
   const TurningBody body = TurningBody::smooth(rng, 120.0, 0.6 * kRadPerDeg);
   const ThreeAxisConfig config = usual_three_axis();
@@ -115,7 +114,7 @@ TEST(Attitude, DoesNotDependOnTheSignOfAStarFix) {
 
 TEST(Attitude, MovesWithTheTime) {
   std::mt19937_64 rng{1303};
-  // The Sun, which moves, is left out.
+  // The Sun is left out because its direction changes with time.
   std::vector<Sample> samples = samples_of_a_pass(rng, false);
   const auto before = estimates_of(samples);
   const std::chrono::nanoseconds later{123'456'789'012'345'678};
@@ -163,7 +162,7 @@ TEST(Attitude, TurnsWithTheStars) {
   }
 }
 
-/// Rates that spacecraft have flown, forwards from the attitude that their truth states at T1.
+/// Names a flown rate profile that is propagated from the true attitude at T1.
 struct Flight {
   std::string name;
   double within_deg;

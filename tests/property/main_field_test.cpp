@@ -1,4 +1,5 @@
-/// The main field at random places and dates: beside another library, and by Maxwell's equations.
+/// The main field at random places and dates agrees with another library and with Maxwell's
+/// equations.
 
 #include <gtest/gtest.h>
 
@@ -15,7 +16,7 @@ namespace spindrift::main_field_test {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-/// Anywhere from the core's rim to ten radii, more often near.
+/// Returns a position between the core boundary and ten Earth radii, more often near.
 Vector3d any_position_km(std::mt19937_64& rng) {
   std::normal_distribution<double> normal;
   std::uniform_real_distribution<double> ratio{0.1, 1.8};
@@ -40,7 +41,7 @@ TEST(MainFieldProperty, IsGeographicLibs) {
   }
 }
 
-/// dB_i/dx_j, by differences of fourth order.
+/// Returns the gradient dB_i/dx_j by fourth-order differences.
 Matrix3d slope_nt_km(const MainField& field, const Vector3d& position_km) {
   constexpr double kStep_km = 10.0;
   Matrix3d slope;
@@ -64,14 +65,14 @@ TEST(MainFieldProperty, HasNeitherSourcesNorCurrentsOutside) {
     Vector3d position_km = any_position_km(rng);
     position_km *= std::max(1.0, 6300.0 / position_km.norm());
     const Matrix3d slope = slope_nt_km(field, position_km);
-    // What the differences leave out, of the fifth derivative, is 1e-8 of the slope here.
+    // The truncation error (fifth derivative) is 1e-8 of the gradient here.
     EXPECT_NEAR(slope.trace() / slope.norm(), 0.0, 1e-6);
     EXPECT_NEAR((slope - slope.transpose()).norm() / slope.norm(), 0.0, 1e-6);
   }
 }
 
 TEST(MainFieldProperty, TurnsWithTheEarth) {
-  // Coefficients turned by an angle about the axis are the field turned by it.
+  // Rotating the coefficients about the Earth's axis must rotate the field by the same angle.
   std::mt19937_64 rng{1703};
   std::uniform_real_distribution<double> angle{-3.0, 3.0};
   const GaussCoefficients coefficients = igrf().value().coefficients(2021.7).value();

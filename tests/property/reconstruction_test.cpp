@@ -37,7 +37,8 @@ TEST(ReconstructionProperty, RotatesWithItsReference) {
   }
 }
 
-/// The Sun moves by 1e-8 rad meanwhile, the attitude farthest from star fixes ten times as much.
+/// The tolerance allows for the Sun's motion of 1e-8 rad in that time, which moves the attitude
+/// farthest from star fixes ten times as much.
 TEST(ReconstructionProperty, ShiftsInTime) {
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
     SeparationFlight flight = separation_flight({}, seed);
@@ -68,7 +69,7 @@ TEST(ReconstructionProperty, ShiftsInTime) {
   }
 }
 
-/// Spoils what a link, a sensor or a person can spoil.
+/// Corrupts a request as a link, a sensor or an operator can.
 class Spoiler {
  public:
   explicit Spoiler(std::uint64_t seed) : random_{seed} {}
@@ -182,7 +183,7 @@ TEST(ReconstructionProperty, IsTheSameBitForBit) {
   }
 }
 
-/// With every sun vector that it does not take at its full weight left out.
+/// Returns the observations without the sun vectors that the solution down-weights.
 Observations without_outliers(const SeparationFlight& flight) {
   Observations all = observations_of(flight.request()).value();
   const SolvedChain solved = solution_of(flight.request(), all).value().solved;
@@ -194,8 +195,8 @@ Observations without_outliers(const SeparationFlight& flight) {
   return all;
 }
 
-/// Where noise and bias are so small that squares of errors are nothing, everything is linear and
-/// normal, and the smoother is the best there is.
+/// With negligible noise and bias the problem is linear and Gaussian, where the smoother is
+/// optimal.
 TEST(ReconstructionProperty, EqualsTheSmootherWhereThingsAreLinear) {
   const FlightPlan plan{.first_star_fix_s = 60.0,
                         .star_fix_step_s = 80.0,

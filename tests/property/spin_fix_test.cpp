@@ -1,5 +1,3 @@
-/// Properties of a fix over random geometries, revolutions as the oracle sees them.
-
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -21,8 +19,8 @@ using enum SpinQuantity;
 constexpr double kPi = std::numbers::pi;
 constexpr int kTrials = 600;
 
-/// A body anywhere on the sky that turns once in six seconds, so that the nanosecond to which its
-/// edges are told is 1e-9 rad; Sun and Earth where its sensors see them.
+/// Holds a body with any axis and one turn in six seconds, so that an edge resolution of 1 ns is
+/// 1e-9 rad; Sun and Earth are where its sensors see them.
 struct Scene {
   testing::SpinningBody body;
   Eigen::Vector3d sun_icrf;
@@ -80,7 +78,7 @@ class Scenes {
   std::uniform_real_distribution<double> uniform_;
 };
 
-/// Sun and Earth within 10 deg of one line multiply every error by six and more.
+/// Within 10 deg of one line, Sun and Earth amplify every error at least sixfold.
 bool nearly_in_line(const Scene& scene) {
   return scene.sun_icrf.cross(scene.earth_icrf).norm() < std::sin(10.0 * kRadPerDeg);
 }
@@ -141,10 +139,10 @@ TEST(SpinFixProperty, TurnsWithSunAndEarth) {
     if (!fix_here || nearly_in_line(scene)) {
       continue;
     }
-    // Rounding of a number of order 1, amplified a hundredfold at most.
+    // Rounding of a number of order 1, amplified at most a hundredfold.
     constexpr double kRounding = 1e-12;
     ASSERT_LT((fix_there->axis_icrf - turn * fix_here->axis_icrf).norm(), kRounding);
-    // The covariance too, as a tensor in space: its components along east and north change.
+    // The covariance is compared as a tensor in space because its east and north axes change.
     const auto in_space = [](const SpinFix& fix) -> Eigen::Matrix3d {
       const Eigen::Matrix<double, 3, 2> basis = tangent_basis(fix.axis_icrf);
       return basis * fix.covariance_rad2 * basis.transpose();

@@ -1,5 +1,3 @@
-/// The order in which pulses arrive, within the reorder window, changes no product.
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -19,7 +17,7 @@ using testing::RecordedPass;
 using testing::run;
 using testing::texts_of;
 
-/// Every pulse delayed at random, by less than the window.
+/// Returns the pulses in the order of arrival after random delays below the window.
 std::vector<Pulse> shuffled(const std::vector<Pulse>& pulses, std::mt19937_64& rng) {
   std::uniform_int_distribution<std::int64_t> delay_ns{0, reorder_horizon(Pulse{}).count() - 1};
   std::vector<std::pair<std::int64_t, Pulse>> arrivals(pulses.size());
@@ -33,7 +31,7 @@ std::vector<Pulse> shuffled(const std::vector<Pulse>& pulses, std::mt19937_64& r
   return in_order_of_arrival;
 }
 
-/// Edges lost, and spurious ones on any channel.
+/// Removes some edges and adds spurious ones on any channel.
 std::vector<Pulse> spoilt(const std::vector<Pulse>& pulses, std::mt19937_64& rng) {
   std::bernoulli_distribution lost{0.1};
   std::bernoulli_distribution spurious{0.05};
@@ -68,7 +66,7 @@ TEST(SpinOrder, OfArrivalWithinTheWindowChangesNoProduct) {
   }
 }
 
-/// Silent after one in `every` samples.
+/// Runs a pass and reports a silence after one in `every` samples.
 template <class Sample>
 SpinOutput run_with_silences(SpinPass pass, const std::vector<Sample>& samples, int every,
                              std::mt19937_64& rng) {

@@ -1,5 +1,5 @@
-/// Bodies that nutate: `sequential` follows the axis that stays, says that its edges swing, and its
-/// covariance holds. (`batch` finds the nutation and takes it out.)
+/// For a nutating body `sequential` follows the mean axis, reports oscillating residuals and has a
+/// consistent covariance. (`batch` removes the nutation.)
 
 #include <gtest/gtest.h>
 
@@ -26,7 +26,7 @@ std::vector<Pulse> pulses_of(const std::vector<PassEdge>& edges) {
 
 constexpr double kSigmas = 5.0;
 
-/// The first turns of a nutating body look like those of another axis: they are CONVERGING.
+/// The first turns of a nutating body look like those of another axis, so they must be CONVERGING.
 void expect_no_wrong_row_is_ok(const SpinOutput& output, const SpinMotion& motion) {
   for (const SpinEstimate& row : testing::all_of<SpinEstimate>(output)) {
     if (row.estimator == SpinEstimator::Sequential && row.assessment.quality == Quality::Ok) {
@@ -55,8 +55,8 @@ TEST(SpinSequentialNutation, DoesNotMoveTheAxis) {
     expect_no_wrong_row_is_ok(output, truth.motion);
   }
   RecordProperty("squares", std::to_string(squares));
-  // Swings average out faster than the noise that they are taken for: 99 % of chi-square, 80
-  // degrees of freedom, is no more than the upper limit.
+  // Nutation averages out faster than the noise it is taken for, so only the upper 99 % limit of
+  // chi-square with 80 degrees of freedom applies.
   EXPECT_LT(squares, 112.3);
 }
 

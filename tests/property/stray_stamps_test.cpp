@@ -1,5 +1,5 @@
-/// Samples with a wrong time, however many and wherever they stand among the others, change nothing
-/// of what is made of the others: as they arrive, and from files.
+/// Samples with a wrong time, however many and wherever they are, do not change the products of the
+/// others, live or from files.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -31,11 +31,11 @@ using testing::run;
 using testing::texts_of;
 using testing::TurningBody;
 
-/// How so many samples of a stream are wrong.
+/// Describes wrong times in a stream of samples.
 struct Strays {
   std::size_t count;
   bool in_a_row;
-  std::chrono::seconds off;  ///< 0: each by another time.
+  std::chrono::seconds off;  ///< Time error; 0 for a random one each.
 };
 
 std::string text_of(const Strays& strays) {
@@ -55,7 +55,7 @@ std::vector<Strays> all_strays() {
   return all;
 }
 
-/// Which of `samples`: from a third of the stream on, or all over it.
+/// Returns the indices of the strays: consecutive from a third of the stream on, or spread over it.
 std::set<std::size_t> places_of(const Strays& strays, std::size_t samples) {
   std::set<std::size_t> places;
   for (std::size_t i = 0; i < strays.count; ++i) {
@@ -64,7 +64,7 @@ std::set<std::size_t> places_of(const Strays& strays, std::size_t samples) {
   return places;
 }
 
-/// From two minutes to a day, to either side.
+/// Returns a time error of two minutes to a day, either way.
 std::chrono::nanoseconds error_of(const Strays& strays, std::mt19937_64& rng) {
   if (strays.off != 0s) {
     return strays.off;
@@ -76,8 +76,8 @@ std::chrono::nanoseconds error_of(const Strays& strays, std::mt19937_64& rng) {
 
 template <class Sample>
 struct Stream {
-  std::vector<Sample> all;   ///< In order of arrival.
-  std::vector<Sample> good;  ///< Without the strays.
+  std::vector<Sample> all;   ///< Samples in order of arrival.
+  std::vector<Sample> good;  ///< Samples without the strays.
 };
 
 template <class Sample>
@@ -96,7 +96,7 @@ Stream<Sample> with_strays(const std::vector<Sample>& samples, const Strays& str
   return stream;
 }
 
-/// What is left out since its time is wrong does not count.
+/// Returns the products as text without the edges rejected for their time, which are counted.
 std::vector<std::string> in_time(const SpinOutput& output, std::size_t& left_out) {
   std::vector<std::string> texts;
   for (const SpinProduct& product : output.products) {
@@ -120,7 +120,8 @@ void write(const TemporaryFolder& folder, const std::vector<Value>& values) {
   folder.write(std::string{Telemetry<Value>::kName} + ".csv", text);
 }
 
-/// As `process` reads it. @param see Each sample, in order.
+/// Reads the files like `process`.
+/// @param see Receives each sample in order.
 template <class See>
 void read(const TemporaryFolder& folder, See see) {
   const std::vector<std::filesystem::path> paths{folder.path()};
@@ -168,7 +169,7 @@ TEST(StrayStamps, OfCodedFramesMoveNothing) {
     for (const auto& arrivals : {stream.all, from_file(stream.all)}) {
       std::size_t left_out = 0;
       ASSERT_EQ(in_time(run(SpinPass{pass.config, pass.orbit}, arrivals), left_out), expected);
-      ASSERT_GT(left_out, strays.count);  // Edges.
+      ASSERT_GT(left_out, strays.count);  // A frame contains several edges.
     }
   }
 }
@@ -178,7 +179,7 @@ struct ThreeAxisSamples {
   std::vector<StarFix> star;
 };
 
-/// Ten minutes of a gyro at 4 Hz: 2,400 samples.
+/// Holds ten minutes of a gyro at 4 Hz, 2,400 samples.
 struct ThreeAxisScene {
   ThreeAxisSamples samples;
   ThreeAxisConfig config = testing::usual_three_axis();
@@ -236,7 +237,7 @@ class ThreeAxisTexts {
   ThreeAxisPass pass_;
 };
 
-/// Where each would arrive by its true time.
+/// Runs the samples live; each gyro sample arrives at its true time.
 std::vector<std::string> live(const ThreeAxisScene& scene, const std::vector<GyroSample>& gyro,
                               const std::vector<TaiTime>& true_times, std::size_t& left_out) {
   ThreeAxisTexts texts{scene.config};
@@ -286,7 +287,8 @@ TEST(StrayStamps, OfAGyroMoveNothingHoweverManyThereAre) {
 
 TEST(StrayStamps, OfOneKindMoveNothingBehindTheOthersEither) {
   const ThreeAxisScene scene;
-  for (const auto between : {250ms, 12'000ms}) {  // As the gyro's samples, or all over the pass.
+  // Spaced like the gyro's samples, or over the whole pass.
+  for (const auto between : {250ms, 12'000ms}) {
     std::vector<GyroSample> gyro = scene.samples.gyro;
     for (std::size_t i = 0; i < 20; ++i) {
       GyroSample stray = gyro[i];

@@ -1,5 +1,6 @@
 /// @file
-/// What an archive holds, as text that is equal exactly when the bits are.
+/// Reads the rows of an archive as text that is equal exactly when the stored values are bitwise
+/// equal.
 
 #pragma once
 
@@ -16,7 +17,7 @@
 
 namespace spindrift {
 
-/// While a program opens or closes an archive, it is locked for a moment.
+/// An archive is locked for a moment while another program opens or closes it.
 inline constexpr int kBusy_ms = 30'000;
 
 inline std::vector<std::string> rows_of(const std::filesystem::path& db, const std::string& query) {
@@ -45,7 +46,7 @@ inline double real_of(const std::filesystem::path& db, const std::string& query)
   return database.execAndGet(query).getDouble();
 }
 
-/// All products of all runs but the name of the run.
+/// Returns all products of all runs, without the names of the runs.
 inline std::vector<std::string> product_rows(const std::filesystem::path& db) {
   std::vector<std::string> rows;
   for (const std::string& query : std::vector<std::string>{
@@ -69,9 +70,9 @@ inline std::vector<std::string> product_rows(const std::filesystem::path& db) {
   return rows;
 }
 
-/// All that an archive holds, of every table, but what two services that take the same telemetry
-/// cannot have in common: names of runs and sessions, their source, times of the wall clock,
-/// how often a sample was sent, and alerts, of which some are of the service.
+/// Returns the rows of every table, without the columns in which two services that take the same
+/// telemetry differ: names of runs and sessions, their source, wall-clock times, how often a sample
+/// was sent, and alerts (some of which concern the service itself).
 inline std::vector<std::string> all_rows(const std::filesystem::path& db) {
   const SQLite::Database database{db.string(), SQLite::OPEN_READONLY, kBusy_ms};
   SQLite::Statement tables{
@@ -94,7 +95,8 @@ inline std::vector<std::string> all_rows(const std::filesystem::path& db) {
   return rows;
 }
 
-/// What `batch` made of a run in the end. A service solves it every minute besides.
+/// Returns the last `batch` solution of a run. Earlier ones are left out because a service solves
+/// once a minute besides.
 inline std::vector<std::string> last_batch_rows(const std::filesystem::path& db) {
   std::vector<std::string> rows;
   for (const std::string& query : std::vector<std::string>{
@@ -116,7 +118,7 @@ inline std::vector<std::string> last_batch_rows(const std::filesystem::path& db)
   return rows;
 }
 
-/// In order of time.
+/// Returns all pulses in order of time.
 inline std::vector<Pulse> pulses_in(const std::filesystem::path& archive) {
   const SQLite::Database database{archive.string(), SQLite::OPEN_READONLY, kBusy_ms};
   SQLite::Statement rows{database, "SELECT t_tai_ns, channel FROM pulse ORDER BY t_tai_ns"};

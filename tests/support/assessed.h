@@ -1,5 +1,5 @@
 /// @file
-/// What tests ask of an assessment.
+/// Queries on the reasons and notices of an assessment.
 
 #pragma once
 
@@ -11,13 +11,14 @@
 
 namespace spindrift::testing {
 
-/// The estimator `sequential` gave up an earlier axis.
+/// Returns whether the estimator `sequential` gave up an earlier axis.
 inline bool restarted(const Assessment& assessment) {
   return has(assessment, ReasonCode::RestartedGated) ||
          has(assessment, ReasonCode::RestartedByFixes);
 }
 
-/// Of the first such reason or notice; -1 where there is none, or it has no such number.
+/// Returns the value called `name` of the first reason or notice with this code; -1 if there is
+/// none, or if it has no such number.
 template <class Said, class Code>
 double number_of(const std::vector<Said>& said, Code code, std::string_view name) {
   for (const Said& one : said) {

@@ -30,7 +30,7 @@ Vector3d vector_of(const Quaterniond& q) {
   return turn.angle() * turn.axis();
 }
 
-/// From one attitude and bias to another.
+/// Returns the rotation vector in body axes and the bias change from one estimate to another.
 Vector6d difference(const SmoothedAttitude& from, const SmoothedAttitude& to) {
   Vector6d off;
   off << vector_of(from.q_icrf_body.conjugate() * to.q_icrf_body), to.bias_rad_s - from.bias_rad_s;
@@ -42,7 +42,9 @@ void move(SmoothedAttitude& at, const Vector6d& by) {
   at.bias_rad_s += by.tail<3>();
 }
 
-/// @param off Measured less predicted, of three components each with that noise.
+/// Applies a Kalman update with a measurement of three components.
+/// @param off Measured minus predicted value.
+/// @param noise Standard deviation of each component.
 void update(SmoothedAttitude& at, const Vector3d& off, const Matrix3d& slopes, double noise) {
   Eigen::Matrix<double, 3, 6> H = Eigen::Matrix<double, 3, 6>::Zero();
   H.leftCols<3>() = slopes;

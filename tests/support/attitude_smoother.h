@@ -1,6 +1,6 @@
 /// @file
-/// A multiplicative extended Kalman filter with gyro bias, and the smoother of Rauch, Tung and
-/// Striebel over it: a peer of the batch solution.
+/// A multiplicative extended Kalman filter with gyro bias and a Rauch-Tung-Striebel smoother over
+/// it: an independent method to compare the batch solution with.
 
 #pragma once
 
@@ -16,7 +16,8 @@ struct SmoothedAttitude {
   double t_s;
   Eigen::Quaterniond q_icrf_body;
   Eigen::Vector3d bias_rad_s;
-  Eigen::Matrix<double, 6, 6> covariance;  ///< Rotation about body axes, bias.
+  /// Covariance of the rotation about body axes, then of the bias.
+  Eigen::Matrix<double, 6, 6> covariance;
 };
 
 struct SmootherNoise {
@@ -25,7 +26,7 @@ struct SmootherNoise {
   double bias_rad_s;
 };
 
-/// @param all The first star fix at T2: there it begins.
+/// @param all Observations; the filter starts at the first star fix (event T2).
 std::vector<SmoothedAttitude> smoothed(const Observations& all, const SmootherNoise& noise);
 
 }  // namespace spindrift::testing

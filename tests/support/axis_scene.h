@@ -1,5 +1,6 @@
 /// @file
-/// A revolution of a body at rest among Sun and Earth, for the tests of what it allows.
+/// A scene with one revolution of a spinning body, with Sun and Earth at rest, for tests of what
+/// the revolution says about the axis.
 
 #pragma once
 
@@ -16,8 +17,8 @@
 
 namespace spindrift::testing {
 
-/// A body about `axis_icrf` between Sun and Earth, one turn in six seconds: a nanosecond is 1e-9
-/// rad of spin phase.
+/// Holds a body that spins about `axis_icrf` with one turn in six seconds, so that a nanosecond is
+/// 1e-9 rad of spin phase.
 struct AxisScene {
   Eigen::Vector3d sun_icrf = Eigen::Vector3d{1.0, 0.2, 0.1}.normalized();
   Eigen::Vector3d earth_icrf = Eigen::Vector3d{0.3, 1.0, -0.02}.normalized();
@@ -25,7 +26,8 @@ struct AxisScene {
   double rate_rad_s = 2.0 * std::numbers::pi / 6.0;
   SpinConfig config = usual_config();
   TaiTime start = tai_from_ns(1'795'143'637'000'000'000);
-  HorizonModel earth = HorizonModel::Sphere;  ///< What it is; `config` says what it is taken for.
+  /// True horizon of the Earth; `config` holds the one assumed.
+  HorizonModel earth = HorizonModel::Sphere;
 
   static constexpr double kRange_km = 16000.0;
 
@@ -47,7 +49,7 @@ struct AxisScene {
         {.axis_icrf = axis_icrf, .rate_rad_s = rate_rad_s, .first_turn_rad = 0.1, .config = config},
         around, start);
   }
-  /// The Earth moves from `start` on, across the line of sight.
+  /// Returns the revolution as seen while the Earth moves across the line of sight from `start` on.
   Revolution seen_while_earth_moves(const Eigen::Vector3d& motion_icrf_s) const {
     SunEarthEphemeris moving = around();
     moving.earth_icrf_km = [=, this](double t_s) -> Eigen::Vector3d {
@@ -66,11 +68,11 @@ struct AxisScene {
   }
 };
 
-// A nanosecond of an edge, amplified by the geometry at hand (5.7 for the earth angle of two beams
-// 10 deg apart, 33 for one beam with |Delta| = 0.03).
+// Tolerance for exact edges: 1 ns of an edge, amplified by the geometry (by 5.7 for the earth angle
+// of two beams 10 deg apart, by 33 for one beam with |Delta| = 0.03).
 inline constexpr double kExact_rad = 1e-7;
 
-/// The revolution with noise on every edge.
+/// Returns the revolution with Gaussian noise added to every edge.
 inline Revolution noisy(const AxisScene& scene, Revolution revolution, std::mt19937_64& rng) {
   std::normal_distribution<double> normal;
   for (std::size_t channel = 0; channel < kPulseChannels; ++channel) {

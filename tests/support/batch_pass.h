@@ -1,5 +1,6 @@
 /// @file
-/// Edges of the oracle's body with their turns counted: what the estimator `batch` is fed.
+/// Edges of the oracle's spinning body with their revolutions counted, as input of the estimator
+/// `batch`.
 
 #pragma once
 
@@ -17,7 +18,8 @@
 
 namespace spindrift::testing {
 
-/// Of so many turns from `kTransferStart` on, with the noise that the mission states.
+/// Returns the noisy edges of this many revolutions from `kTransferStart` on; the noise is the
+/// mission's.
 inline std::vector<Edge> edges_of_turns(const SpinningBody& body, const SunEarthEphemeris& around,
                                         double turns) {
   return edges_between(body, around, 0.0, turns * 2.0 * std::numbers::pi / body.rate_rad_s);
@@ -38,7 +40,7 @@ inline std::vector<PassEdge> noisy_pass(const SpinningBody& body, const std::vec
   return counted(body, pulses_from(edges, kTransferStart, body.config.noise, rng));
 }
 
-/// The body as the model has it: its own frame, seen from the middle of the pass.
+/// Returns the true spin state in the body frame of the model, at the middle of the pass.
 inline SpinState true_state(const SpinningBody& body, const PassModel& model) {
   const double turn_rad =
       body.first_turn_rad + body.rate_rad_s * seconds_between(kTransferStart, model.middle());
@@ -48,7 +50,7 @@ inline SpinState true_state(const SpinningBody& body, const PassModel& model) {
           .drift_rad_s2 = 0.0};
 }
 
-/// A body between Sun and Earth over a transfer orbit, from a seed.
+/// Holds a random body that sees Sun and Earth from a transfer orbit.
 struct BatchScene {
   std::mt19937_64 rng;
   Orbit orbit = transfer_orbit();
@@ -66,7 +68,7 @@ struct BatchScene {
   }
 };
 
-/// Edges without noise, and the state that they come from.
+/// Holds edges without noise and the spin state that they come from.
 struct ExactPass {
   BatchScene scene{61};
   std::vector<PassEdge> edges = counted(
@@ -75,7 +77,7 @@ struct ExactPass {
   SpinState truth = true_state(scene.body, model);
 };
 
-/// Some degrees from the axis, as a fix would be.
+/// Returns a start axis `off_rad` away from the true axis, like the result of a single fix.
 inline Eigen::Vector3d start_near(const SpinningBody& body, double off_rad, std::mt19937_64& rng) {
   const double azimuth_rad = std::uniform_real_distribution{0.0, 2.0 * std::numbers::pi}(rng);
   return Eigen::AngleAxisd{azimuth_rad, body.axis_icrf} *

@@ -1,5 +1,6 @@
 /// @file
-/// Errors of `batch` over many simulated passes, against what it promises and the Cramer-Rao bound.
+/// Errors of the estimator `batch` over many simulated passes, compared with its covariance and
+/// with the Cramer-Rao bound.
 
 #pragma once
 
@@ -18,20 +19,22 @@ namespace spindrift::testing {
 
 struct BatchStatistics {
   int passes = 0;
-  int failures = 0;         ///< Without a solution, or not OK.
-  double squares = 0.0;     ///< Normalised squared errors of the axis: chi-square, two a pass.
-  double over_bound = 0.0;  ///< Sum over passes of squared error over squared bound.
-  double over_bound_variance = 0.0;  ///< Of that sum, by the covariances.
-  double bias_squares = 0.0;         ///< Of the biases that were estimated: chi-square, one each.
+  int failures = 0;  ///< Passes without a solution or with one that is not OK.
+  /// Sum of normalised squared axis errors: chi-square, two degrees of freedom a pass.
+  double squares = 0.0;
+  double over_bound = 0.0;  ///< Sum over passes of the squared error over the squared bound.
+  double over_bound_variance = 0.0;  ///< Variance of `over_bound` by the covariances.
+  /// Sum of normalised squared errors of the estimated biases: chi-square, one degree each.
+  double bias_squares = 0.0;
   int biases = 0;
   int biases_beyond_three_sigmas = 0;
 
   double rms_over_bound() const { return std::sqrt(over_bound / passes); }
-  /// One standard deviation of that, for an estimator that reaches the bound.
+  /// Returns one standard deviation of `rms_over_bound` for an estimator that reaches the bound.
   double rms_noise() const { return 0.5 * std::sqrt(over_bound_variance) / passes; }
 };
 
-/// What the passes have in common.
+/// Holds what all passes of a statistic have in common.
 struct PassKind {
   double turns;
   BiasSet estimated;
@@ -39,7 +42,7 @@ struct PassKind {
   SunEarthEphemeris around = seen_from(orbit, spherical_horizon_km(40.0));
 };
 
-/// Shifts edges as a chord measured too wide and a wrong azimuth of the beams do.
+/// Shifts edges as a wrong chord width and a wrong azimuth of the beams would.
 inline void apply(const SpinningBody& body, const SensorBiases& biases,
                   std::vector<Pulse>& pulses) {
   for (Pulse& pulse : pulses) {
@@ -63,8 +66,9 @@ inline void apply(const SpinningBody& body, const SensorBiases& biases,
   }
 }
 
-/// @param biases North chord's, dihedral's, and the south mounting angle's, which the oracle itself
-///        has.
+/// Simulates a pass, solves it and adds its errors to `sums`.
+/// @param biases True biases: the north chord's and dihedral's shift the edges, the south mounting
+/// angle's is applied to the oracle itself.
 inline void add_pass(const PassKind& kind, SpinningBody body, const SensorBiases& biases,
                      std::mt19937_64& rng, BatchStatistics& sums) {
   SpinConfig told = body.config;
@@ -96,7 +100,7 @@ inline void add_pass(const PassKind& kind, SpinningBody body, const SensorBiases
   }
 }
 
-/// Biases are drawn from their priors.
+/// Runs passes whose biases are drawn from their priors.
 inline BatchStatistics many_passes(int passes, const PassKind& kind, std::uint64_t seed) {
   std::mt19937_64 rng{seed};
   std::normal_distribution<double> normal;
@@ -115,7 +119,7 @@ inline BatchStatistics many_passes(int passes, const PassKind& kind, std::uint64
   return sums;
 }
 
-/// All with these biases.
+/// Runs passes that all have the given biases.
 inline BatchStatistics many_passes_with(int passes, const PassKind& kind,
                                         const SensorBiases& biases, std::uint64_t seed) {
   std::mt19937_64 rng{seed};
@@ -126,8 +130,8 @@ inline BatchStatistics many_passes_with(int passes, const PassKind& kind,
   return sums;
 }
 
-/// A north chord 0.3 deg too wide, in a pass of 60 turns that both beams see, and said to be
-/// unknown.
+/// Runs passes of 60 turns seen by both beams whose north chord is 0.3 deg too wide, with that bias
+/// configured as unknown.
 inline BatchStatistics many_passes_with_a_wide_north_chord(int passes, std::uint64_t seed) {
   SensorBiases biases = SensorBiases::Zero();
   biases[NorthChordBias] = 0.3 * kRadPerDeg;

@@ -1,5 +1,6 @@
 /// @file
-/// The program bus_foreign_writer as a child process: only another process is met over the network.
+/// Runs bus_foreign_writer as a child process: DDS participants meet over the network only across
+/// processes.
 
 #pragma once
 
@@ -16,10 +17,11 @@
 
 namespace spindrift {
 
-/// "telemetry": writes `count` pulses, seq 0 on, and goes when all are acknowledged. "keys": each
-/// of another spacecraft; "impossible": of a time that cannot be; "foreign": of another type of the
-/// same name; "patient": waits a minute in each write that is held up. "weak": offers BEST_EFFORT
-/// and VOLATILE, and stays until killed.
+/// Starts a child process that writes pulses, by `kind`: "telemetry" writes `count` pulses from seq
+/// 0 on and exits once all are acknowledged; "keys" does so with another spacecraft each;
+/// "impossible" with impossible times; "foreign" with another type of the same name; "patient"
+/// waits up to a minute in each blocked write. "weak" offers BEST_EFFORT and VOLATILE and stays
+/// until it is killed.
 class ForeignWriter {
  public:
   ForeignWriter(const bus::BusConfig& bus, std::string kind, int count)
@@ -46,7 +48,8 @@ class ForeignWriter {
 
   pid_t pid() const { return pid_; }
 
-  /// Waits for its end. @return -1 when it did not end by itself.
+  /// Waits until the child exits.
+  /// @return Exit status, or -1 if the child was killed.
   int exit_status() {
     int status = 0;
     const bool ended = waitpid(std::exchange(pid_, 0), &status, 0) > 0 && WIFEXITED(status);

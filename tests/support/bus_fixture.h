@@ -1,5 +1,5 @@
 /// @file
-/// A corner of the bus of its own for each test.
+/// A DDS domain and partition of its own for each test.
 
 #pragma once
 
@@ -23,8 +23,9 @@
 
 namespace spindrift {
 
-/// Domain N has the 250 UDP ports from 7400 + 250 N on. Those of 20 to 99 lie above the usual
-/// domains and below the ports that the system hands out by itself.
+/// Returns the domains that have a UDP socket on this machine. Domain N uses the 250 UDP ports from
+/// 7400 + 250 N on. Those of domains 20 to 99 lie above the usual domains and below the ephemeral
+/// ports.
 inline std::set<unsigned> domains_in_use() {
   std::set<unsigned> used;
   for (const char* sockets : {"/proc/net/udp", "/proc/net/udp6"}) {
@@ -43,8 +44,8 @@ inline std::set<unsigned> domains_in_use() {
   return used;
 }
 
-/// Takes the last port of the domain, which no participant has, to the end of this process.
-/// @return false where another process has it.
+/// Reserves a domain until this process ends by binding its last port, which no participant uses.
+/// @return False if another process has the port.
 inline bool is_reserved(unsigned domain) {
   const int socket = ::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
   sockaddr_in address{};
@@ -58,7 +59,7 @@ inline bool is_reserved(unsigned domain) {
   return false;
 }
 
-/// A domain that nobody is in nor looks at, and another partition for each call.
+/// Returns a domain that nobody uses, with another partition for each call.
 inline bus::BusConfig bus_of_its_own() {
   constexpr unsigned kFirst = 20;
   constexpr unsigned kDomains = 80;
@@ -74,7 +75,7 @@ inline bus::BusConfig bus_of_its_own() {
           .partition = "test-" + std::to_string(pid) + "-" + std::to_string(++calls)};
 }
 
-/// Takes until there are `count` samples.
+/// Takes samples until there are `count`, or the wait of eventually() is over.
 template <class Sample>
 std::vector<Sample> take_samples(const bus::Reader<Sample>& reader, std::size_t count) {
   std::vector<Sample> samples;
@@ -94,14 +95,14 @@ inline std::vector<std::uint64_t> seqs_of(const std::vector<spindrift_Pulse>& pu
   return seqs;
 }
 
-/// 0, 1, 2, ...
+/// Returns 0, 1, 2, ..., `count` - 1.
 inline std::vector<std::uint64_t> first_seqs(std::size_t count) {
   std::vector<std::uint64_t> seqs(count);
   std::iota(seqs.begin(), seqs.end(), 0U);
   return seqs;
 }
 
-/// 2026-11-20T03:00:00 UTC and `seq` seconds.
+/// 2026-11-20T03:00:00 UTC.
 inline constexpr std::int64_t kTestTime_tai_ns = 1'795'143'637'000'000'000;
 
 inline spindrift_Pulse idl_pulse(std::uint64_t seq, std::uint64_t session = 1) {

@@ -1,5 +1,6 @@
 /// @file
-/// bus_foreign_writer DOMAIN PARTITION KIND COUNT: pulses from another process; see bus_child.h.
+/// The program `bus_foreign_writer DOMAIN PARTITION KIND COUNT`, which writes pulses from another
+/// process; see bus_child.h for the kinds.
 
 #include <array>
 #include <cstdio>
@@ -24,7 +25,8 @@ bus::Qos weak_qos() {
   return qos;
 }
 
-/// As telemetry_writer_qos, whose history has room in advance for the minutes of each spacecraft.
+/// Returns telemetry_writer_qos with a short durability history: the full one allocates room for
+/// minutes of samples for each spacecraft in advance.
 bus::Qos short_qos() {
   bus::Qos qos = bus::telemetry_writer_qos();
   dds_qset_durability_service(qos.get(), 0, DDS_HISTORY_KEEP_LAST, 1, DDS_LENGTH_UNLIMITED,
@@ -48,7 +50,8 @@ bus::Qos qos_of(const std::string& kind) {
   return kind == "keys" ? short_qos() : bus::telemetry_writer_qos();
 }
 
-/// The type of pulses by its name, without what describes it, and with their first member only.
+/// Returns a type that has the name of the pulse type but only its first member and no type
+/// information.
 const dds_topic_descriptor_t& foreign_type() {
   static constexpr std::array<std::uint32_t, 6> kOps = {
       DDS_OP_ADR | DDS_OP_FLAG_KEY | DDS_OP_FLAG_MU | DDS_OP_TYPE_BST,
@@ -121,7 +124,7 @@ int main(int argc, char** argv) {
   if (argc != 5) {
     return EXIT_FAILURE;
   }
-  alarm(120);  // Nobody waits for it longer, nor kills it once its test is killed.
+  alarm(120);  // Ends this process when its test was killed and nobody else ends it.
   return spindrift::run(
       {.domain = static_cast<std::uint32_t>(std::stoul(argv[1])), .partition = argv[2]}, argv[3],
       std::stoull(argv[4]));

@@ -1,5 +1,5 @@
 /// @file
-/// What a comparison with the ground model found.
+/// Queries on the result of a comparison with the ground model.
 
 #pragma once
 
@@ -21,7 +21,7 @@ inline ByChannel by_channel(const std::vector<ChannelComparison>& channels) {
   return all;
 }
 
-/// Since when each channel is away that is, behind the start.
+/// Returns when each departed channel left the model, in s after `start`.
 inline std::map<std::string, double> departures_s(const ByChannel& all, TaiTime start) {
   std::map<std::string, double> departed;
   for (const auto& [name, channel] : all) {

@@ -1,5 +1,5 @@
 /// @file
-/// What a real link does to the edges of a pass.
+/// Disturbs the edges of a pass as a real link does: lost, displaced and spurious edges.
 
 #pragma once
 
@@ -12,14 +12,14 @@
 namespace spindrift::testing {
 
 struct Dirt {
-  double lost = 0.0;      ///< Share of the edges.
-  double spoilt = 0.0;    ///< Share of the edges: a hundredth to a fifth of a turn off, either way.
-  double spurious = 0.0;  ///< Edges more for each that is there, anywhere in a turn about it.
+  double lost = 0.0;      ///< Share of the edges that are lost.
+  double spoilt = 0.0;    ///< Share of the edges displaced by 1/100 to 1/5 of a turn, either way.
+  double spurious = 0.0;  ///< Extra edges for each real one, anywhere within a turn about it.
 };
 
 struct DirtyPass {
-  std::vector<Pulse> pulses;  ///< In order of time.
-  std::set<Pulse> bad;        ///< Those that are spoilt or spurious.
+  std::vector<Pulse> pulses;  ///< Pulses in order of time.
+  std::set<Pulse> bad;        ///< Displaced and spurious pulses.
 };
 
 DirtyPass dirty(const std::vector<Pulse>& pulses, double period_s, const Dirt& dirt,

@@ -1,5 +1,5 @@
 /// @file
-/// Questions to the judgements of the doctor.
+/// Expectations on the checks of `spindrift doctor`.
 
 #pragma once
 
@@ -20,7 +20,7 @@ inline Check named(const std::vector<Check>& checks, const std::string& name) {
   return found == checks.end() ? Check{"absent: " + name, Verdict::Failure, "", ""} : *found;
 }
 
-/// Every check that asks for attention says what to do.
+/// Expects advice from every check that is not OK, and a finding from every check.
 inline void expect_advice(const std::vector<Check>& checks) {
   for (const Check& check : checks) {
     if (check.verdict != Verdict::Ok) {

@@ -1,5 +1,5 @@
 /// @file
-/// Trains of edges at even phases, and what association makes of them.
+/// Simulated trains of edges at constant phases, and queries on their association.
 
 #pragma once
 
@@ -20,7 +20,7 @@ namespace spindrift {
 inline const TaiTime kStart = tai_from_ns(1'795'143'637'000'000'000);
 inline constexpr double kPeriod_s = 0.75;
 
-/// Phases of the six channels behind sun1, in turns.
+/// Holds the phases of the six channels after sun1, in turns.
 using Phases = std::array<double, kPulseChannels>;
 inline constexpr Phases kOrdinary = {0.0, 0.11, 0.40, 0.52, 0.41, 0.55};
 
@@ -31,7 +31,7 @@ struct Train {
   double noise_s = 0.0;
 };
 
-/// The edge of a channel on a turn, as it was made: what association has to find out.
+/// Holds an edge with the turn on which it was made, which association has to find.
 struct MadeEdge {
   Pulse pulse;
   int turn;
@@ -82,7 +82,7 @@ inline Association associate(const std::vector<MadeEdge>& edges) {
   return associate(pulses_of(edges));
 }
 
-/// For every edge that was given a place, the number of its revolution.
+/// Returns the revolution number of every edge that was assigned to a revolution.
 inline std::map<Pulse, std::int64_t> places(const Association& association) {
   std::map<Pulse, std::int64_t> found;
   for (const Revolution& revolution : association.closed) {
@@ -95,7 +95,8 @@ inline std::map<Pulse, std::int64_t> places(const Association& association) {
   return found;
 }
 
-/// Every edge has a place, and all that have one agree on how many turns their number is off.
+/// Expects that every edge was assigned and that all revolution numbers differ from the true turns
+/// by the same offset.
 inline void expect_every_edge_on_its_turn(const Association& association,
                                           const std::vector<MadeEdge>& edges) {
   const auto found = places(association);

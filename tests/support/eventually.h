@@ -1,5 +1,5 @@
 /// @file
-/// Waiting for what others do in their own time.
+/// Waits for asynchronous conditions.
 
 #pragma once
 
@@ -8,7 +8,9 @@
 
 namespace spindrift {
 
-/// Waits for `condition`. @return false when it does not come, which only a failing test sees.
+/// Waits for `condition`.
+/// @return False if it is not met within the deadline, which is long because only a failing test
+/// waits for it.
 template <class Condition>
 bool eventually(const Condition& condition) {
   using namespace std::chrono_literals;

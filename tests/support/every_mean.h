@@ -1,5 +1,5 @@
 /// @file
-/// Every row of the estimator `mean` in passes of random geometry, not only the last.
+/// Checks every row of the estimator `mean`, not only the last, in passes of random geometry.
 
 #pragma once
 
@@ -31,8 +31,8 @@ inline bool lies_at(const SpinEstimate& mean, const SpinFix& fix) {
   return angle_between_rad(mean.axis_icrf, fix.axis_icrf) < kMostSigmas * both_rad;
 }
 
-/// Expects each to lie at one of the fixes so far, and what is OK at the true axis.
-/// @return How many are OK.
+/// Expects each mean to lie at one of the fixes so far, and each OK mean at the true axis.
+/// @return Number of OK means.
 inline int check_every_mean(const SpinOutput& output, const Eigen::Vector3d& axis_icrf) {
   int ok = 0;
   std::vector<SpinFix> fixes;
@@ -58,8 +58,8 @@ inline int check_every_mean(const SpinOutput& output, const Eigen::Vector3d& axi
   return ok;
 }
 
-/// Passes in which the Earth comes into sight or leaves it, so that chords are short and fixes few;
-/// half of them without sun2, which leaves one beam two angles with nothing to spare.
+/// Checks passes in which the Earth enters or leaves the view of a beam, so that chords are short
+/// and fixes few. Half of them lack sun2, which leaves two angles from one beam and no redundancy.
 inline void check_passes_across_the_limb(std::uint64_t first_seed, int passes) {
   constexpr double kRevolutions = 300.0;
   int ok = 0;

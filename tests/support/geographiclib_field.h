@@ -1,5 +1,6 @@
 /// @file
-/// The main field by GeographicLib, which sums by Clenshaw's method.
+/// The main geomagnetic field computed with GeographicLib (Clenshaw summation), independent of the
+/// project's own.
 
 #pragma once
 
@@ -26,7 +27,7 @@ class GeographicLibField {
   GeographicLibField(const GeographicLibField&) = delete;
   GeographicLibField& operator=(const GeographicLibField&) = delete;
 
-  /// ITRF, nT.
+  /// Returns the field in ITRF, nT.
   Eigen::Vector3d at(const Eigen::Vector3d& position_itrf_km) const {
     Eigen::Vector3d slope;
     potential_(position_itrf_km.x(), position_itrf_km.y(), position_itrf_km.z(), slope.x(),
@@ -35,7 +36,7 @@ class GeographicLibField {
   }
 
  private:
-  /// As it wants them: order by order.
+  /// Returns the coefficients sorted by order m, as GeographicLib expects them.
   static std::vector<double> by_order(
       const std::array<double, GaussCoefficients::kCount>& coefficients, int first) {
     std::vector<double> ordered;

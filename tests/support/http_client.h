@@ -1,5 +1,5 @@
 /// @file
-/// A client of HTTP, one request a connection, and one that watches events.
+/// An HTTP client that opens one connection for each request, and a reader of event streams.
 
 #pragma once
 
@@ -15,12 +15,12 @@ namespace spindrift {
 using HttpSocket = boost::asio::ip::tcp::socket;
 using HttpReply = boost::beast::http::response<boost::beast::http::string_body>;
 
-/// Of an event stream.
+/// Reads a server-sent event stream.
 struct EventViewer {
   HttpSocket socket;
   std::string unread = {};
 
-  /// What comes up to `end`, which must come.
+  /// Returns the text up to and including `end`; throws if the connection ends before.
   std::string until(const std::string& end) {
     const auto length = boost::asio::read_until(socket, boost::asio::dynamic_buffer(unread), end);
     const std::string text = unread.substr(0, length);
@@ -31,7 +31,7 @@ struct EventViewer {
 
 class HttpClient {
  public:
-  /// @param url http://127.0.0.1:PORT/
+  /// @param url Address as http://127.0.0.1:PORT/.
   explicit HttpClient(const std::string& url)
       : port_{static_cast<std::uint16_t>(std::stoi(url.substr(url.rfind(':') + 1)))} {}
 
@@ -40,7 +40,7 @@ class HttpClient {
     socket.connect({boost::asio::ip::make_address("127.0.0.1"), port_});
     return socket;
   }
-  /// With what was sent.
+  /// Sends `text` on a new connection and returns that connection.
   HttpSocket call(const std::string& text) {
     HttpSocket socket = connected();
     boost::asio::write(socket, boost::asio::buffer(text));
@@ -63,7 +63,8 @@ class HttpClient {
                       token + "\r\nContent-Length: " + std::to_string(body.size()) + "\r\n\r\n" +
                       body));
   }
-  /// @param head More lines of it.
+  /// Opens the event stream.
+  /// @param head Additional header lines, each ended by CRLF.
   EventViewer watch(const std::string& head = "") {
     return {call("GET /api/v1/events HTTP/1.1\r\nHost: localhost\r\n" + head + "\r\n")};
   }

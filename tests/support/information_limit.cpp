@@ -10,11 +10,12 @@ namespace spindrift::testing {
 
 namespace {
 
-/// By a step of the axis (east, north), of the phase, or of the rate: rad, over the whole pass.
+/// Returns the body after a step of one component: axis (east, north), phase, or rate. The step is
+/// in rad; for the rate it is the angle gained over the whole pass.
 SpinningBody moved(SpinningBody body, Eigen::Index component, double step, double duration_s) {
   if (component < 2) {
-    // Turned about an axis across: the oracle's own frame then turns with it a little about the
-    // axis, which the unknown phase takes up.
+    // The turn also rotates the oracle's body frame a little about the axis, which the unknown
+    // phase absorbs.
     const Eigen::Vector3d across = tangent_basis(body.axis_icrf).col(component);
     body.axis_icrf = (body.axis_icrf + step * across).normalized();
   } else if (component == 2) {
@@ -29,7 +30,7 @@ SpinningBody moved(SpinningBody body, Eigen::Index component, double step, doubl
 
 Eigen::Matrix2d cramer_rao_rad2(const SpinningBody& body, const SunEarthEphemeris& around,
                                 double duration_s) {
-  constexpr double kStep = 1e-4;  // rad; of the rate, rad over the whole pass.
+  constexpr double kStep = 1e-4;  // Step, rad; for the rate, the angle gained over the pass.
   const auto truth = edges_between(body, around, 0.0, duration_s);
   Eigen::MatrixXd slopes = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(truth.size()), 4);
   for (Eigen::Index component = 0; component < 4; ++component) {
@@ -37,7 +38,7 @@ Eigen::Matrix2d cramer_rao_rad2(const SpinningBody& body, const SunEarthEphemeri
       const auto edges =
           edges_between(moved(body, component, step, duration_s), around, 0.0, duration_s);
       for (std::size_t i = 0; i < truth.size(); ++i) {
-        // An edge at either end of the pass may have come or gone: then it has no partner here.
+        // An edge at either end of the pass may have appeared or vanished and then has no partner.
         for (const Edge& edge : edges) {
           if (edge.channel == truth[i].channel && std::abs(edge.t_s - truth[i].t_s) < 0.05) {
             const double sigma_s =

@@ -1,5 +1,5 @@
 /// @file
-/// How well any estimator can know the axis: the Cramer-Rao bound.
+/// The Cramer-Rao bound: the lowest covariance of the axis that any estimator can reach.
 
 #pragma once
 
@@ -9,8 +9,8 @@
 
 namespace spindrift::testing {
 
-/// The inverse of Fisher's information on the axis (its tangent plane), with phase and rate unknown
-/// besides: how the edges of the oracle move when its body is changed a little, each way.
+/// Returns the Cramer-Rao bound of the axis in its tangent plane, rad^2, with phase and rate
+/// unknown. The Fisher information comes from central differences of the oracle's edges.
 Eigen::Matrix2d cramer_rao_rad2(const SpinningBody& body, const SunEarthEphemeris& around,
                                 double duration_s);
 

@@ -1,5 +1,5 @@
 /// @file
-/// The fix of one revolution that nothing is known about beforehand.
+/// Computes the fix of a single revolution without prior knowledge.
 
 #pragma once
 
@@ -12,7 +12,7 @@
 
 namespace spindrift::testing {
 
-/// The revolution's measurements, some of them rejected.
+/// Returns the measurements of the revolution with the quantities in `left_out` rejected.
 inline RevolutionMeasurements measured_without(const SpinConfig& config,
                                                const Revolution& revolution,
                                                const std::set<SpinQuantity>& left_out) {

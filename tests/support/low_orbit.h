@@ -1,5 +1,5 @@
 /// @file
-/// A spacecraft near the Earth.
+/// A low Earth orbit.
 
 #pragma once
 
@@ -10,7 +10,8 @@
 
 namespace spindrift::testing {
 
-/// 650 km high, 97.9 deg. @param mean_anomaly_rad At the epoch.
+/// Returns an orbit at 650 km altitude and 97.9 deg inclination.
+/// @param mean_anomaly_rad Mean anomaly at the epoch, rad.
 inline Orbit low_orbit(TaiTime epoch, double mean_anomaly_rad = 0.0) {
   return Orbit{KeplerOrbit::make({.epoch = epoch,
                                   .semi_major_axis_km = 7028.137,

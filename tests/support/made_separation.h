@@ -1,5 +1,5 @@
 /// @file
-/// A reconstructed separation of round numbers.
+/// A made-up reconstructed separation with round numbers.
 
 #pragma once
 
@@ -16,10 +16,11 @@
 
 namespace spindrift::testing {
 
-/// 2026-03-01T04:00:00Z
+/// 2026-03-01T04:00:00Z.
 inline constexpr std::int64_t kSeparation_tai_ns = 1'772'337'637'000'000'000;
 
-/// phi (10, 20, 30) deg at T1, psi a degree more every ten seconds; sigma 0.4 deg of all axes.
+/// Returns an attitude with (phi, theta, psi) = (10, 20, 30) deg at T1, psi growing by a degree
+/// every ten seconds, and a sigma of 0.4 deg about each axis.
 inline ReconstructedAttitude made_attitude(double t_s) {
   const double sigma_rad = 0.4 * kRadPerDeg;
   return {.t = shifted(tai_from_ns(kSeparation_tai_ns), t_s),
@@ -31,8 +32,9 @@ inline ReconstructedAttitude made_attitude(double t_s) {
           .rate_covariance_rad2_s2 = 1e-8 * Eigen::Matrix3d::Identity()};
 }
 
-/// T1 to T4 at 0, 60, 78, 300 s, a history every ten seconds. `batch` has a bound and a bias that
-/// is open along the Sun; in the orbit frame the attitude is (1, 2, 3) deg but for T3.
+/// Returns a reconstruction with T1 to T4 at 0, 60, 78 and 300 s and a history every ten seconds.
+/// `batch` has a Cramer-Rao bound and a bias that is unobservable along the Sun; in the orbit frame
+/// the attitude is (1, 2, 3) deg, except at T3 where it is missing.
 inline ReconstructedSeparation made_separation(ReconstructionMethod method) {
   using enum SeparationEvent;
   const bool is_batch = method == ReconstructionMethod::Batch;
@@ -85,7 +87,7 @@ inline ReconstructionProduct made_product(ReconstructionMethod method) {
   return std::make_shared<const ReconstructedSeparation>(made_separation(method));
 }
 
-/// Of both methods.
+/// Returns a report with both methods.
 inline SeparationReport made_report() {
   return {.spacecraft_id = "LEOSAT",
           .run_id = "run-1",

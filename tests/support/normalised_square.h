@@ -1,5 +1,5 @@
 /// @file
-/// An error in units of what a covariance promises.
+/// The squared error of an estimate normalised by its covariance (NEES).
 
 #pragma once
 
@@ -8,7 +8,7 @@
 
 namespace spindrift::testing {
 
-/// Squared, summed over the directions: its mean is their number.
+/// Returns the NEES, whose expectation is the number of directions.
 template <int kDirections>
 double normalised_square(const Eigen::Matrix<double, kDirections, 1>& error,
                          const Eigen::Matrix<double, kDirections, kDirections>& covariance) {

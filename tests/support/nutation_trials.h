@@ -1,5 +1,5 @@
 /// @file
-/// Passes of a nutating body, and how far off what is found of it is.
+/// Simulated passes of a nutating body, and the errors of the nutation found in them.
 
 #pragma once
 
@@ -12,16 +12,17 @@
 
 namespace spindrift::testing {
 
-/// Each of 300 turns, with 0.1 ms (Sun) and 0.5 ms (infrared) of noise.
+/// Simulates passes with timing noise of 0.1 ms (Sun) and 0.5 ms (infrared).
 class NutationTrials {
  public:
   explicit NutationTrials(unsigned seed, double duration_s = 300.0)
       : duration_s_{duration_s}, rng_{seed} {}
 
-  /// Of any phase, slender or flat, its frequency not within 0.03 of one that cannot be seen.
+  /// Returns a nutation with random phase of a prolate or oblate body whose nutation frequency
+  /// differs by at least 0.03 from one that is unobservable.
   Nutation random_nutation(double half_angle_deg);
 
-  /// The truth, nutating so.
+  /// Simulates the truth with this nutation and searches for it.
   NutationSearch searched(const Nutation& nutation);
 
   SpinTruth truth = steady_truth();
@@ -38,7 +39,7 @@ struct Deviations {
   double lean_sigmas;
 };
 
-/// @param nutation Of a body with the rate of `steady_truth`.
+/// @param nutation True nutation of a body that spins at the rate of `steady_truth`.
 Deviations deviations(const FoundNutation& found, const Nutation& nutation);
 
 std::string text_of(const Nutation& nutation);

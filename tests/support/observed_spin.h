@@ -1,5 +1,6 @@
 /// @file
-/// A pass cut into revolutions, each with the sky about it: what the sequential filter is fed.
+/// A pass cut into revolutions, each with its Sun and Earth directions, as input of the sequential
+/// filter.
 
 #pragma once
 
@@ -21,36 +22,36 @@ struct ObservedRevolution {
   Sky sky;
 };
 
-/// Revolutions as the associator finds them.
+/// Returns the revolutions that the associator finds in the pulses.
 std::vector<ObservedRevolution> observed(const SpinConfig& config, const Orbit& orbit,
                                          std::vector<Pulse> pulses);
 
 Sky sky_at(const Orbit& orbit, TaiTime t);
 
-/// A transfer orbit from `kTransferStart` on, two and a half Earth radii up and climbing.
+/// Epoch of transfer_orbit(), which starts 2.5 Earth radii up and climbing.
 inline const TaiTime kTransferStart = tai_from_ns(1'795'143'637'000'000'000);
 Orbit transfer_orbit();
 
-/// Sun and Earth as seen from the orbit, time counted from `kTransferStart`; the ellipsoid stands
-/// on the Earth's pole of date, all turned with it.
+/// Returns Sun and Earth as seen from the orbit, ICRF; time is counted from `kTransferStart`.
 SunEarthEphemeris seen_from(const Orbit& orbit, const Eigen::Vector3d& horizon_km);
 
-/// The scenarios' transfer orbit with another node.
+/// Returns the scenarios' transfer orbit with another right ascension of the ascending node.
 Orbit transfer_with_node(double raan_deg);
 
-/// Both beams look across the same middle of the Earth: errors of the model move the axis far, and
-/// without sun slit 1 the two roots keep fitting all edges alike. From `kTransferStart` on.
+/// Returns an orbit from `kTransferStart` on. With body_across_the_earth(), both beams scan across
+/// the middle of the Earth: model errors then move the axis far, and without sun slit 1 both roots
+/// fit all edges alike.
 Orbit orbit_across_the_earth();
 SpinningBody body_across_the_earth();
 
-/// Chord, dihedral and sun angle well observed: an axis across the Earth's direction within
-/// `tilt_rad`, the Sun within 25 deg of the body's equator.
+/// Returns a body for which chord, dihedral and sun angle are well observed: its axis is within
+/// `tilt_rad` of perpendicular to the Earth direction, the Sun within 25 deg of its equator.
 SpinningBody random_body(const SunEarthEphemeris& around, double tilt_rad, std::mt19937_64& rng);
 
-/// What a fix of that sigma (each way) would say: the axis with an error drawn from it.
+/// Returns a fix with this sigma in each direction and an axis error drawn from it.
 SpinFix drawn_fix(const Eigen::Vector3d& axis_icrf, double sigma_rad, std::mt19937_64& rng);
 
-/// The error of an estimate in its tangent plane, rad.
+/// Returns the error of an estimated axis in its tangent plane, rad.
 Eigen::Vector2d error_rad(const Eigen::Vector3d& estimated_icrf, const Eigen::Vector3d& true_icrf);
 
 }  // namespace spindrift::testing

@@ -1,5 +1,5 @@
 /// @file
-/// What `spindrift process` makes of a pass, and passes with something changed.
+/// Runs `spindrift process` on recorded, simulated and altered passes.
 
 #pragma once
 
@@ -20,7 +20,7 @@ namespace spindrift {
 
 struct Outcome {
   int status;
-  nlohmann::json run;  ///< Of the summary.
+  nlohmann::json run;  ///< Run object of the JSON summary.
   std::string log;
   std::filesystem::path db;
   nlohmann::json warnings = {};
@@ -50,7 +50,7 @@ inline std::string replaced(std::string text, const Replacements& replacements) 
   return text;
 }
 
-/// Of the rows of a pulse file, all but those of channels that begin so.
+/// Returns a pulse file without the rows of channels whose name starts with `channel`.
 inline std::string without_channel(const std::string& channel, const std::string& csv) {
   std::istringstream lines{csv};
   std::string kept;
@@ -62,7 +62,7 @@ inline std::string without_channel(const std::string& channel, const std::string
   return kept;
 }
 
-/// The folder of a pass simulated from deploy/scenarios/gto-nominal.toml with that changed.
+/// Simulates deploy/scenarios/gto-nominal.toml with these replacements and returns its folder.
 inline std::filesystem::path simulated_pass(const TemporaryFolder& folder,
                                             const Replacements& replacements) {
   const auto nominal = scenarios() / "gto-nominal.toml";
@@ -73,7 +73,7 @@ inline std::filesystem::path simulated_pass(const TemporaryFolder& folder,
   return pass;
 }
 
-/// That, without the edges of channels that begin so.
+/// Simulates a pass and processes it without the channels that start with `dead_channels`.
 inline Outcome process_simulated(const TemporaryFolder& folder, const Replacements& replacements,
                                  const std::vector<std::string>& dead_channels = {}) {
   const auto pass = simulated_pass(folder, replacements);

@@ -13,7 +13,7 @@
 namespace spindrift::testing {
 namespace {
 
-/// Words parted by blanks; doubles in hexadecimal.
+/// Joins words with blanks and writes doubles in hexadecimal, which is exact.
 class Line {
  public:
   Line() { text_ << std::hexfloat; }

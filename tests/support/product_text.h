@@ -1,6 +1,6 @@
 /// @file
-/// Whole passes, and their products picked out or as text that keeps every bit, so that two runs
-/// can be compared and a difference read.
+/// Runs whole passes and extracts their products, also as bit-exact text, so that two runs can be
+/// compared and a difference read.
 
 #pragma once
 
@@ -18,12 +18,12 @@ namespace spindrift::testing {
 
 std::string text_of(const SpinProduct& product);
 
-/// Runs a whole pass, in the order given.
+/// Processes a whole pass; the arrivals keep their order.
 SpinOutput run(SpinPass pass, const std::vector<Pulse>& arrivals);
 SpinOutput run(SpinPass pass, const std::vector<CodedFrame>& arrivals);
 SpinOutput run(const RecordedPass& pass);
 
-/// The products of one kind, in the order in which they arose.
+/// Returns the products of one kind in the order of their creation.
 template <class Product>
 std::vector<Product> all_of(const SpinOutput& output) {
   std::vector<Product> found;
@@ -35,13 +35,13 @@ std::vector<Product> all_of(const SpinOutput& output) {
   return found;
 }
 
-/// What an estimator says in the end. Throws where it has said nothing.
+/// Returns the last estimate of an estimator; throws if there is none.
 SpinEstimate last_estimate(const SpinOutput& output, SpinEstimator estimator);
 
-/// Both directions of the tangent plane together.
+/// Returns the sigma of the axis over both directions of its tangent plane, rad.
 double sigma_rad(const SpinEstimate& estimate);
 
-/// Every product of the pass as text, in the order in which they arose.
+/// Returns every product of the pass as text in the order of creation.
 std::vector<std::string> texts_of(const SpinOutput& output);
 
 }  // namespace spindrift::testing

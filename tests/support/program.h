@@ -1,5 +1,5 @@
 /// @file
-/// The real program as a child process: its arguments, what it prints, how it ends.
+/// Runs the real program as a child process with access to its output and exit status.
 
 #pragma once
 
@@ -24,14 +24,16 @@ namespace spindrift {
 
 class Program {
  public:
-  /// @param largest_file_kib Beyond which no file of it may grow, as on a full disk; 0: any.
-  /// @param out Where its standard output goes; empty: to a file that `out()` gives.
-  /// @param log Likewise its standard error, and `log()`.
+  /// Starts spindrift.
+  /// @param largest_file_kib Largest file that it may write, to simulate a full disk; 0 for no
+  /// limit.
+  /// @param out File for standard output; when empty, out() returns that output.
+  /// @param log File for standard error; when empty, log() returns that output.
   explicit Program(std::vector<std::string> arguments, int largest_file_kib = 0,
                    const std::string& out = "", const std::string& log = "")
       : Program{spindrift_program(), std::move(arguments), largest_file_kib, out, log} {}
 
-  /// Another program.
+  /// Starts another program.
   Program(const std::filesystem::path& program, std::vector<std::string> arguments,
           int largest_file_kib = 0, const std::string& out = "", const std::string& log = "")
       : out_path_{out.empty() ? (folder_.path() / "out").string() : out},
@@ -70,7 +72,8 @@ class Program {
 
   void signal(int number) const { kill(pid_, number); }
 
-  /// Waits for its end. @return -1 when it did not end by itself.
+  /// Waits until the program ends.
+  /// @return Exit status, or -1 if it was killed.
   int exit_status() {
     int status = 0;
     rusage used{};
@@ -79,7 +82,8 @@ class Program {
     return ended ? WEXITSTATUS(status) : -1;
   }
 
-  /// Waits until it has said so on standard error. @return false when it does not come.
+  /// Waits until the program has printed `words` on standard error.
+  /// @return False if it does not.
   bool says(const std::string& words) const {
     using namespace std::chrono_literals;
     for (int tries = 0; tries < 6000; ++tries) {
@@ -91,7 +95,7 @@ class Program {
     return false;
   }
 
-  /// Memory that it had at most, once it has ended.
+  /// Returns the peak memory; valid once exit_status() has returned.
   long peak_kib() const { return peak_kib_; }
 
   std::string out() const { return text_of(out_path_); }

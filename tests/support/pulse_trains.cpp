@@ -36,7 +36,7 @@ PulseTrains half(PulseChannel channel, const Dirt& dirt = {}) {
           }};
 }
 
-/// With a noise of its own.
+/// Returns a second copy of a channel with a jitter of its own.
 PulseTrains second(PulseChannel channel, double behind_turns, const Dirt& dirt = {},
                    double from_share = 0.0) {
   return {.name = "second " + std::string{name_of(channel)},

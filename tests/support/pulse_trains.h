@@ -1,6 +1,6 @@
 /// @file
-/// Passes whose pulse trains are doubled or halved: several receivers, edges that are lost one by
-/// one, sensors that see something twice.
+/// Passes with doubled or halved pulse trains, as from several receivers, from a channel that loses
+/// every other edge, or from a sensor that sees something twice.
 
 #pragma once
 
@@ -20,17 +20,17 @@ inline const std::set<PulseChannel> kEveryChannel = {PulseChannel::Sun1,    Puls
 
 struct Copying {
   double behind_s;
-  double jitter_s = 0.0;  ///< Noise of the copy's own, one sigma.
+  double jitter_s = 0.0;  ///< Standard deviation of the copy's own timing noise, s.
   std::set<PulseChannel> channels = kEveryChannel;
-  double from_share = 0.0;  ///< Of the pass's edges.
+  double from_share = 0.0;  ///< Share of the pass's edges after which the copy starts.
   double to_share = 1.0;
 };
 
-/// The edges and a copy of each of those channels, in order of time.
+/// Returns the edges together with a copy of the given channels, in order of time.
 std::vector<Pulse> copied(const std::vector<Pulse>& pulses, const Copying& copying,
                           std::mt19937_64& rng);
 
-/// Every other edge of a channel is lost.
+/// Returns the pulses without every other edge of a channel.
 std::vector<Pulse> halved(std::vector<Pulse> pulses, PulseChannel channel);
 
 struct PulseTrains {
@@ -40,13 +40,16 @@ struct PulseTrains {
       of;
 };
 
-/// A copy of all, 1 ns to 20 ms behind; every other sun1 lost; a second sun1 half a turn later.
+/// Returns trains with a copy of all edges 1 ns to 20 ms later, without every other sun1, and with
+/// a second sun1 half a turn later.
 std::vector<PulseTrains> plain_trains();
-/// Copies that jitter, of some channels, in a part of the pass, among other dirt.
+/// Returns trains with jittering copies, with copies of some channels or of a part of the pass, and
+/// with copies among other disturbances.
 std::vector<PulseTrains> mixed_trains();
 
-/// Of random bodies at 40, 60, 75 and 100 rpm, 200 revolutions each: no row says OK beyond five of
-/// its sigmas. Of plain trains there is an axis besides, OK or DOUBTFUL, within five of its sigmas.
+/// Runs random bodies at 40, 60, 75 and 100 rpm for 200 revolutions each and expects that no OK row
+/// is more than five of its sigmas off. Plain trains must also yield an OK or DOUBTFUL axis within
+/// five of its sigmas.
 void expect_the_axis_of(const std::vector<PulseTrains>& all_trains, bool are_plain, int first_seed,
                         int seeds);
 

@@ -64,7 +64,7 @@ SpinConfig random_config(Draw& draw) {
   return config;
 }
 
-/// Sees the Earth well; or not at all.
+/// Returns whether a beam either crosses the Earth well inside its limb or misses it clearly.
 bool well_seen_or_not(const std::optional<InfraredSensor>& sensor, double earth_rad,
                       double disc_rad, int& seen) {
   if (!sensor) {
@@ -118,7 +118,7 @@ bool crosses_the_limb(const RandomPass& pass) {
          sees_the_earth(pass, config.south, 0.0) != sees_the_earth(pass, config.south, end_s);
 }
 
-/// All channels, or some that are missing or dead.
+/// Draws whether all channels work or which sensors are missing or dead; returns a description.
 std::string draw_channels(Draw& draw, SpinningBody& body, std::vector<PulseChannel>& dead) {
   const double kind = draw.between(0.0, 1.0);
   if (kind < 0.15) {

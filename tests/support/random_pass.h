@@ -1,6 +1,6 @@
 /// @file
-/// Passes drawn at random over all that a mission may be: where orbit, Sun and axis stand, how the
-/// sensors are mounted, how fast the body turns, which channels are dead.
+/// Passes drawn at random over the range of possible missions: orbit, Sun and axis directions,
+/// sensor mounting, spin rate and dead channels.
 
 #pragma once
 
@@ -15,23 +15,24 @@
 namespace spindrift::testing {
 
 struct RandomPass {
-  std::string name;  ///< What was drawn, to be read.
+  std::string name;  ///< Readable summary of what was drawn.
   Orbit orbit;
-  SunEarthEphemeris around;  ///< Time from `kTransferStart`.
+  SunEarthEphemeris around;  ///< Sun and Earth; time is counted from `kTransferStart`.
   SpinningBody body;
   std::vector<PulseChannel> dead;
 
-  /// What is received of so many revolutions, with the noise that the mission states.
+  /// Returns the received pulses of this many revolutions, with the mission's noise.
   std::vector<Pulse> pulses(double revolutions, std::mt19937_64& rng) const;
 };
 
-/// 5 to 200 rpm; both slits see the Sun; a beam that works crosses the Earth in chords of 8 to
-/// 160 deg, far enough from its limb that no noise makes them vanish. Sphere or ellipsoid. One of:
-/// all channels, either infrared sensor alone, no sun2, no sun1.
+/// Draws a pass at 5 to 200 rpm in which both slits see the Sun and a working beam crosses the
+/// Earth in chords of 8 to 160 deg, far enough from the limb that noise cannot make them vanish.
+/// The horizon is a sphere or an ellipsoid. Available are all channels, one infrared sensor only,
+/// or all but sun2 or sun1.
 RandomPass random_pass(std::mt19937_64& rng);
 
-/// Likewise, of any geometry in which the Earth comes into a beam's sight, or leaves it, within the
-/// first 300 revolutions.
+/// Draws such a pass with any geometry in which the Earth enters or leaves the view of a beam
+/// within the first 300 revolutions.
 RandomPass pass_across_the_limb(std::mt19937_64& rng);
 
 }  // namespace spindrift::testing

@@ -1,5 +1,5 @@
 /// @file
-/// All that telemetry files give, read through the stream.
+/// Reads whole telemetry files through the telemetry stream.
 
 #pragma once
 
@@ -27,12 +27,12 @@ struct BadRow {
   const char* reason;
 };
 
-/// Everything that a stream gives, in its order; no batch is larger than it may be.
+/// Collects everything that a stream delivers in its order and checks the size of each batch.
 struct ReadTelemetry {
   std::vector<TelemetrySample<Pulse>> samples;
   std::vector<TelemetrySample<CodedFrame>> coded;
   std::vector<RejectedInput> rejected;
-  std::vector<TaiTime> times;  ///< Of samples of all kinds.
+  std::vector<TaiTime> times;  ///< Times of the samples of all kinds.
 };
 
 inline ReadTelemetry read(const std::vector<std::filesystem::path>& paths,

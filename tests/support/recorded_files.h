@@ -1,5 +1,5 @@
 /// @file
-/// The recorded passes as files, and the command lines that process them.
+/// Paths of the recorded passes and command lines that process them.
 
 #pragma once
 
@@ -27,7 +27,7 @@ inline std::vector<std::string> arguments(const std::string& pass,
   return arguments(kPasses / pass / "mission.toml", kPasses / pass, db);
 }
 
-/// A mission folder to spoil.
+/// Holds a copy of a mission folder that a test may corrupt.
 struct PassCopy {
   TemporaryFolder folder;
   std::filesystem::path db = folder.path() / "out.db";
@@ -38,7 +38,7 @@ struct PassCopy {
     }
   }
   std::filesystem::path mission() const { return folder.path() / "mission.toml"; }
-  /// In the mission file, where it first stands.
+  /// Replaces the first occurrence of `text` in the mission file.
   void replace(const std::string& text, const std::string& by) const {
     std::string mission_text = text_of(mission());
     mission_text.replace(mission_text.find(text), text.size(), by);

@@ -1,5 +1,5 @@
 /// @file
-/// The recorded passes of tests/data/spin, read without the services.
+/// Reads the recorded passes of tests/data/spin without the services.
 
 #pragma once
 
@@ -18,14 +18,15 @@ namespace spindrift::testing {
 struct RecordedPass {
   SpinConfig config;
   Orbit orbit;
-  std::vector<Pulse> pulses;       ///< In the order of the file; none where frames are.
-  std::vector<CodedFrame> frames;  ///< Likewise.
-  std::set<Pulse> bad_edges;       ///< Spoilt and spurious ones, as truth.json names them.
+  std::vector<Pulse> pulses;       ///< Pulses in file order; empty if the pass has coded frames.
+  std::vector<CodedFrame> frames;  ///< Frames in file order; empty if the pass has pulses.
+  std::set<Pulse> bad_edges;       ///< Displaced and spurious edges named in truth.json.
   Eigen::Vector3d true_axis_icrf;
   double true_rate_rad_s;
 };
 
-/// @param name A folder of tests/data/spin. Throws where a file cannot be read.
+/// Reads a pass; throws if a file cannot be read.
+/// @param name Name of a folder in tests/data/spin.
 RecordedPass recorded_pass(const std::string& name);
 
 }  // namespace spindrift::testing

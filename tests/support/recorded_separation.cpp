@@ -17,7 +17,7 @@ struct Row {
   std::vector<double> values;
 };
 
-/// None where there is no such file.
+/// Returns the rows of a file; none if it does not exist.
 std::vector<Row> rows_of(const std::filesystem::path& path) {
   std::ifstream file{path};
   std::string line;

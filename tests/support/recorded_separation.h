@@ -28,7 +28,7 @@ struct RecordedSeparation {
   std::vector<GyroSample> gyro;
   std::vector<SunDirection> sun;
   std::vector<StarFix> stars;
-  std::map<std::string, TrueAttitude> truth;  ///< "T1" to "T4"
+  std::map<std::string, TrueAttitude> truth;  ///< True attitudes, keyed "T1" to "T4".
 
   ReconstructionRequest request() const {
     return {.sensors = sensors,
@@ -40,7 +40,7 @@ struct RecordedSeparation {
   }
 };
 
-/// @param name A folder of tests/data/three-axis.
+/// @param name Name of a folder in tests/data/three-axis.
 RecordedSeparation recorded_separation(const std::string& name);
 
 }  // namespace spindrift::testing

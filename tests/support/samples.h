@@ -1,5 +1,5 @@
 /// @file
-/// Samples of one kind as the services hold them.
+/// Builds samples of one kind in the form in which the services hold them.
 
 #pragma once
 

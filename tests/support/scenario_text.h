@@ -1,5 +1,5 @@
 /// @file
-/// Scenarios as texts.
+/// Edits the text of scenario files.
 
 #pragma once
 
@@ -22,7 +22,7 @@ inline std::string error_of(const std::string& text) {
   return scenario ? "no error" : scenario.error().message;
 }
 
-/// Where it first stands.
+/// Replaces the first occurrence of `from`, which must exist.
 inline std::string replaced(std::string text, const std::string& from, const std::string& to) {
   const auto at = text.find(from);
   EXPECT_NE(at, std::string::npos) << from;

@@ -1,6 +1,6 @@
 /// @file
-/// Separations that the ground model flies, with any attitude and rate at the start: what is
-/// reconstructed from, and the truth. No formula of the reconstruction is in them.
+/// Separations simulated by the ground model with any initial attitude and rate, with the telemetry
+/// and the truth. They share no formula with the reconstruction.
 
 #pragma once
 
@@ -17,10 +17,10 @@
 namespace spindrift::testing {
 
 struct FlightPlan {
-  double control_on_s = 60.0;       ///< T2, T1 is at 0.
-  double acquisition_s = 78.0;      ///< T3
-  double first_star_fix_s = 300.0;  ///< T4
-  double star_fix_step_s = 0.0;     ///< More fixes behind T4, to the end; 0: none.
+  double control_on_s = 60.0;       ///< T2, s after T1.
+  double acquisition_s = 78.0;      ///< T3, s after T1.
+  double first_star_fix_s = 300.0;  ///< T4, s after T1.
+  double star_fix_step_s = 0.0;  ///< Interval of further star fixes from T4 to the end; 0 for none.
   double end_s = 300.0;
   double gyro_step_s = 0.25;
   double sun_step_s = 1.0;
@@ -37,8 +37,8 @@ struct SeparationFlight {
   std::vector<SunDirection> sun;
   std::vector<StarFix> stars;
   Eigen::Vector3d bias_rad_s;
-  Orbit orbit;  ///< Along the terminator: the Earth never hides the Sun.
-  /// At T1 to T4.
+  Orbit orbit;  ///< Orbit along the terminator: the Earth never hides the Sun.
+  /// Attitudes at T1 to T4.
   std::vector<Eigen::Matrix3d> R_icrf_body;
 
   ReconstructionRequest request() const {
@@ -50,12 +50,13 @@ struct SeparationFlight {
             .orbit = orbit,
             .disturbance_rad_s2 = 0.0};
   }
-  /// Small rotation about body axes from what was found to the truth.
+  /// Returns the small rotation about body axes from the found to the true attitude.
   Eigen::Vector3d error_rad(std::size_t event, const Eigen::Quaterniond& found) const;
 };
 
-/// Bias, start and noise by the seed: a start within a degree per second and any attitude; relay
-/// damping from T2; from T3 -Zb turned to the Sun.
+/// Simulates a flight with bias, initial state and noise drawn from the seed: any initial attitude
+/// at up to a degree per second, rate damping by relay control from T2 on, and from T3 on a turn of
+/// -Zb to the Sun.
 SeparationFlight separation_flight(const FlightPlan& plan, std::uint64_t seed);
 
 }  // namespace spindrift::testing

@@ -1,6 +1,6 @@
 /// @file
-/// The estimator `sequential` by itself: revolutions of a body under the transfer orbit, and fixes
-/// as a test wants them.
+/// Runs the estimator `sequential` alone on revolutions of a body in the transfer orbit, with fixes
+/// chosen by the test.
 
 #pragma once
 
@@ -24,7 +24,8 @@
 namespace spindrift::testing {
 
 inline constexpr double kFixSigma_rad = 0.5 * kRadPerDeg;
-inline constexpr double kOneInTenThousand = 18.42;  // chi-square, two degrees of freedom.
+// Chi-square quantile for a probability of 1e-4 and two degrees of freedom.
+inline constexpr double kOneInTenThousand = 18.42;
 
 inline double error_deg(const SpinEstimate& estimate, const Eigen::Vector3d& true_icrf) {
   return angle_between_rad(estimate.axis_icrf, true_icrf) / kRadPerDeg;
@@ -39,10 +40,10 @@ inline double squared_error(const SpinEstimate& estimate, const Eigen::Vector3d&
   return normalised_square(error_rad, estimate.covariance_rad2);
 }
 
-/// The fixes that are settled before the revolution with that index is worked in.
+/// Returns the fixes that are complete before the revolution of that index is processed.
 using Fixes = std::function<std::vector<SpinFix>(std::size_t index)>;
 
-/// Every estimate there is; none may say more than its field holds.
+/// Returns all estimates; the text of each one's reasons must fit a field of 63 characters.
 inline std::vector<SpinEstimate> estimates(const SpinConfig& config,
                                            const std::vector<ObservedRevolution>& seen,
                                            const Fixes& fixes) {
@@ -63,7 +64,7 @@ inline Fixes at_first(const SpinFix& fix) {
   return [fix](std::size_t i) { return i == 0 ? std::vector{fix} : std::vector<SpinFix>{}; };
 }
 
-/// A body under the transfer orbit.
+/// Holds a random body in the transfer orbit.
 struct Scene {
   Orbit orbit = transfer_orbit();
   SunEarthEphemeris around = seen_from(orbit, spherical_horizon_km(40.0));
@@ -85,7 +86,7 @@ struct Scene {
   }
 };
 
-/// What is left when the Sun is not seen: a cone about the Earth.
+/// Returns the revolutions without the sun edges, which leaves a cone of axes about the Earth.
 inline std::vector<ObservedRevolution> without_sun(std::vector<ObservedRevolution> seen) {
   for (ObservedRevolution& observed : seen) {
     observed.revolution.edges.at(index_of(PulseChannel::Sun1)).reset();

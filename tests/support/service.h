@@ -1,5 +1,5 @@
 /// @file
-/// `spindrift serve` as a process of one test, and a front-end that feeds it.
+/// Runs `spindrift serve` as a child process for one test, and a front-end that feeds it.
 
 #pragma once
 
@@ -24,10 +24,10 @@
 
 namespace spindrift {
 
-/// What a service says that stopped before it had computed all.
+/// Part of the message of a service that stopped before it had computed everything.
 constexpr const char* kLeftToTheNextStart = "the next start of the service will";
 
-/// A service of its own for one test.
+/// Runs a service with an archive and a bus of its own.
 class Service {
  public:
   explicit Service(std::string pass, const std::string& partition = "", int largest_file_kib = 0)
@@ -49,7 +49,7 @@ class Service {
   }
 
   int starts() const { return starts_; }
-  /// Of all starts.
+  /// Returns the log of all starts.
   std::string log() const { return log_before_ + (program_ ? program_->log() : ""); }
 
   Program& program() { return *program_; }
@@ -66,11 +66,12 @@ class Service {
     return replay.exit_status();
   }
 
-  /// The whole pass at once, from ready to stopped. @return Whether all went well.
+  /// Serves the whole pass, sent at once, from start to stop.
+  /// @return False if any step failed.
   bool serves_its_pass() { return ready() && replay("0") == 0 && stop_when_computed() == 0; }
 
-  /// A stop computes for some seconds only: started again while it leaves anything, as where other
-  /// tests have the processors.
+  /// Stops the service. A stop computes for a few seconds only, so the service is started again as
+  /// long as it leaves work, as happens on a busy machine.
   int stop_when_computed() {
     constexpr int kMostStops = 10;
     int status = stop_when_at_rest();
@@ -89,7 +90,7 @@ class Service {
   }
 
  private:
-  /// Once it has stored nothing for a while.
+  /// Stops the service once it has committed nothing for a while.
   int stop_when_at_rest() {
     using namespace std::chrono_literals;
     using Clock = std::chrono::steady_clock;
@@ -113,8 +114,8 @@ class Service {
   int starts_ = 0;
 };
 
-/// `serve` with these arguments, which `send` brings telemetry, until all of it is computed:
-/// started again where a stop left something to the next start.
+/// Runs `serve` with these arguments and the telemetry from `send`, and restarts it until
+/// everything is computed.
 template <class Send>
 void serve_whole(const std::vector<std::string>& serve, const Send& send) {
   constexpr int kMostStarts = 6;
@@ -124,7 +125,7 @@ void serve_whole(const std::vector<std::string>& serve, const Send& send) {
     if (starts == 0) {
       send();
     }
-    // A busy machine does not compute it in the time to stop; each start gives it more.
+    // A busy machine may not finish within one stop, so each start gets more time.
     std::this_thread::sleep_for(starts * std::chrono::seconds{8});
     service.signal(SIGTERM);
     ASSERT_EQ(service.exit_status(), 0) << service.log();
@@ -135,7 +136,7 @@ void serve_whole(const std::vector<std::string>& serve, const Send& send) {
   FAIL() << "not computed by " << kMostStarts << " starts";
 }
 
-/// The pulses of a recorded pass, by way of an archive.
+/// Returns the pulses of a recorded pass, read back from an archive.
 inline std::vector<Pulse> pulses_of(const std::string& pass) {
   const TemporaryFolder folder;
   const auto db = folder.path() / "processed.db";
@@ -145,7 +146,7 @@ inline std::vector<Pulse> pulses_of(const std::string& pass) {
   return pulses_in(db);
 }
 
-/// A front-end, and the pulses of a recorded pass to send.
+/// Sends the pulses of a recorded pass like a front-end.
 class FrontEnd {
  public:
   FrontEnd(const bus::BusConfig& bus, std::string spacecraft, std::vector<Pulse> pulses,
@@ -155,8 +156,8 @@ class FrontEnd {
         publisher_{TelemetryPublisher<Pulse>::create(participant_, source).value()},
         pulses_{std::move(pulses)} {}
 
-  /// Those from where it is to `share` of all, with a pause before each. @return false when nobody
-  /// takes them.
+  /// Sends the next pulses up to `share` of all, with a pause before each.
+  /// @return False if there is no subscriber.
   bool send_until(double share, std::chrono::microseconds pause = {}) {
     const auto end = static_cast<std::size_t>(share * static_cast<double>(pulses_.size()));
     if (!publisher_.wait_for_subscriber(std::chrono::seconds{30})) {

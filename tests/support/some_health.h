@@ -1,5 +1,5 @@
 /// @file
-/// Health of a service, all its numbers different.
+/// A sample health report of a service in which all numbers differ.
 
 #pragma once
 
@@ -19,7 +19,7 @@ inline Health some_health() {
           .message = {}};
 }
 
-/// Nothing is stored.
+/// Returns the health of a service that cannot store anything.
 inline Health failing_health() {
   Health health = some_health();
   health.status = "not storing: disk full";

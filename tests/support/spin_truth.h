@@ -1,5 +1,5 @@
 /// @file
-/// The truth of a body whose sensors are where they are said to be.
+/// Builds the simulator's truth for a body whose sensors are mounted as configured.
 
 #pragma once
 
@@ -9,7 +9,7 @@
 
 namespace spindrift::testing {
 
-/// On `transfer_orbit`; it spins evenly about the axis of `body`.
+/// Returns the truth of a body that spins steadily about the axis of `body`.
 inline SpinTruth truth_of(const SpinningBody& body) {
   const auto beam = [](const InfraredSensor& sensor) {
     return TrueInfrared{.mount_angle_rad = sensor.mount_angle_rad,

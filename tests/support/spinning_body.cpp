@@ -24,18 +24,18 @@ Eigen::Matrix3d rotation_icrf_body(const SpinningBody& body, double t_s) {
   return (to_axis * Eigen::AngleAxisd{turn_rad, Eigen::Vector3d::UnitZ()}).toRotationMatrix();
 }
 
-/// At this azimuth behind slit 1, on the body's equator.
+/// Returns the direction on the body's equator at this azimuth behind slit 1.
 Eigen::Vector3d equator_body(double behind_rad) {
   return Eigen::AngleAxisd{-behind_rad, Eigen::Vector3d::UnitZ()} * Eigen::Vector3d::UnitX();
 }
 
-/// Half a plane through the body's centre: the side of `middle_body`.
+/// Holds the half-plane of a slit: the plane's normal, and a vector on the side that sees.
 struct Slit {
   Eigen::Vector3d middle_body;
   Eigen::Vector3d normal_body;
 };
 
-/// A meridian, tipped about its point on the equator so that its north end lies further behind.
+/// Returns a meridian slit tipped about its point on the equator, north end further behind.
 Slit slit_at(double behind_rad, double cant_rad) {
   const Eigen::Vector3d middle = equator_body(behind_rad);
   const Eigen::Vector3d north = Eigen::AngleAxisd{cant_rad, middle} * Eigen::Vector3d::UnitZ();
@@ -48,8 +48,9 @@ Eigen::Vector3d beam_body(const InfraredSensor& sensor) {
   return Eigen::AngleAxisd{sensor.mount_angle_rad, sideways} * Eigen::Vector3d::UnitZ();
 }
 
-/// Positive where the ray meets the horizon: the ray's closest approach to the centre, in a space
-/// where the horizon is the unit sphere.
+/// Returns a value that is positive where the ray meets the horizon. It is computed from the
+/// distance of the ray to the Earth's centre in a space scaled so that the horizon is the unit
+/// sphere.
 double immersion(const Eigen::Vector3d& ray, const Eigen::Vector3d& centre_km,
                  const Eigen::Vector3d& horizon_km) {
   const Eigen::Vector3d along = ray.cwiseQuotient(horizon_km).normalized();
@@ -66,7 +67,7 @@ double zero_between(const Signal& signal, double before_s, double after_s) {
   return 0.5 * (before_s + after_s);
 }
 
-/// Calls `found(t_s, rising)` for every change of sign.
+/// Calls `found(t_s, rising)` for every change of sign of the signal.
 void scan(const Signal& signal, double from_s, double to_s, double step_s,
           const std::function<void(double t_s, bool rising)>& found) {
   bool negative = signal(from_s) < 0.0;
@@ -195,7 +196,7 @@ Revolution revolution_seen(const SpinningBody& body, const SunEarthEphemeris& ar
       seen.edges.at(index_of(channel)) = shifted(start, *t_s);
     }
   };
-  // The second sun1: everything that belongs to it lies within what was watched.
+  // The second sun1 is used so that all edges that belong to it lie in the scanned interval.
   const auto sun1_s = first_after(edges, Sun1, period_s);
   if (!sun1_s) {
     return seen;

@@ -1,7 +1,7 @@
 /// @file
-/// The oracle of the spin tests: turns a body with slits and pencil beams under Sun and Earth and
-/// watches when the Sun crosses a slit's plane and when a beam meets the Earth. It searches, and
-/// shares no formula with the code under test.
+/// The oracle of the spin tests: rotates a body with slits and pencil beams and searches for the
+/// times at which the Sun crosses the plane of a slit and a beam meets the Earth. It shares no
+/// formula with the code under test.
 
 #pragma once
 
@@ -17,32 +17,34 @@
 
 namespace spindrift::testing {
 
-/// Semi-axes of the infrared horizon: a sphere of the Earth's equatorial radius raised by `h_km`.
+/// Returns semi-axes of the infrared horizon: a sphere of the equatorial radius plus `h_km`.
 Eigen::Vector3d spherical_horizon_km(double h_km);
-/// The WGS-84 ellipsoid raised by `h_km`, its short axis along ICRF z.
+/// Returns semi-axes of the WGS-84 ellipsoid raised by `h_km`, short axis along ICRF z.
 Eigen::Vector3d ellipsoidal_horizon_km(double h_km);
 
-/// What stands around the body, `t_s` seconds after the beginning.
+/// Holds Sun and Earth as functions of the time since the start, s.
 struct SunEarthEphemeris {
-  std::function<Eigen::Vector3d(double t_s)> sun_icrf;       ///< Any length.
-  std::function<Eigen::Vector3d(double t_s)> earth_icrf_km;  ///< Spacecraft -> Earth's centre.
-  Eigen::Vector3d horizon_km;                                ///< Semi-axes.
+  std::function<Eigen::Vector3d(double t_s)> sun_icrf;  ///< Sun direction, any length.
+  /// Vector from spacecraft to Earth's centre.
+  std::function<Eigen::Vector3d(double t_s)> earth_icrf_km;
+  Eigen::Vector3d horizon_km;  ///< Semi-axes of the horizon.
 };
 
-/// Sun and Earth at rest, and the spherical horizon 40 km up.
+/// Returns Sun and Earth at rest with the spherical horizon 40 km up.
 SunEarthEphemeris at_rest(const Eigen::Vector3d& sun_icrf, const Eigen::Vector3d& earth_icrf_km);
 
-/// Turns right-handed about its axis, which is the body's +Z. Slit 1 is the half-plane of +X;
-/// what lies behind it lies towards -Y.
+/// Rotates right-handed about its axis, the body's +Z. Slit 1 is the half-plane of +X; positive
+/// azimuth behind it is towards -Y.
 struct SpinningBody {
-  Eigen::Vector3d axis_icrf;  ///< Unit.
-  double rate_rad_s;          ///< Positive.
-  double first_turn_rad;      ///< How far it has turned when time begins.
-  SpinConfig config;          ///< Mounting of the sensors.
+  Eigen::Vector3d axis_icrf;  ///< Spin axis, unit vector.
+  double rate_rad_s;          ///< Spin rate, positive.
+  double first_turn_rad;      ///< Rotation angle at time 0.
+  SpinConfig config;          ///< Mounting and noise of the sensors.
 };
 
-/// Cant 45 deg, separation 35 deg; beams at 85 and 95 deg, 90 and 92 deg behind slit 1; noise
-/// 0.1 ms (Sun) and 0.5 ms (infrared); infrared horizon 40 km up.
+/// Returns a configuration with cant 45 deg, slit separation 35 deg, beams at 85 and 95 deg from
+/// the axis and 90 and 92 deg behind slit 1, noise 0.1 ms (Sun) and 0.5 ms (infrared), and an
+/// infrared horizon 40 km up.
 SpinConfig usual_config();
 
 struct Edge {
@@ -50,19 +52,19 @@ struct Edge {
   PulseChannel channel;
 };
 
-/// The edges from `from_s` to `to_s`, in order of time, good to 1e-12 s. Chords narrower than half
-/// a degree may go unseen.
+/// Returns the edges from `from_s` to `to_s` in order of time, accurate to 1e-12 s. Chords narrower
+/// than half a degree may be missed.
 std::vector<Edge> edges_between(const SpinningBody& body, const SunEarthEphemeris& around,
                                 double from_s, double to_s);
 
-/// The edges as telemetry, to the nearest nanosecond, in order.
+/// Returns the edges as telemetry in order of time, rounded to nanoseconds.
 std::vector<Pulse> pulses_from(const std::vector<Edge>& edges, TaiTime start);
-/// The same with Gaussian noise on every time.
+/// Returns the edges as telemetry with Gaussian noise on every time.
 std::vector<Pulse> pulses_from(const std::vector<Edge>& edges, TaiTime start,
                                const PulseNoise& noise, std::mt19937_64& rng);
 
-/// One whole turn as the body's sensors see it: a sun1, the sun2 that belongs to it, and the first
-/// chord of either beam to begin behind sun1. The period is the true one.
+/// Returns one whole revolution: a sun1, its sun2, and the first chord of either beam that begins
+/// after sun1. The period is the true one.
 Revolution revolution_seen(const SpinningBody& body, const SunEarthEphemeris& around,
                            TaiTime start);
 

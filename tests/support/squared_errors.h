@@ -1,5 +1,5 @@
 /// @file
-/// Errors of many random passes over what the estimators promise.
+/// Normalised squared errors of the estimators over many random passes.
 
 #pragma once
 
@@ -26,8 +26,8 @@ inline constexpr double kStatisticsRevolutions = 150.0;
 struct SquaredErrors {
   double mean = 0.0;
   double sequential = 0.0;
-  double rate = 0.0;  ///< Of the mean.
-  int model_off = 0;  ///< Means that say so, of models that are right.
+  double rate = 0.0;  ///< NEES of the rate of `mean`.
+  int model_off = 0;  ///< Means that report a wrong model although it is right.
 };
 
 inline double squared_error(const SpinEstimate& estimate, const Eigen::Vector3d& true_icrf) {

@@ -18,7 +18,7 @@ namespace {
 using Eigen::Vector3d;
 
 constexpr double kGyro_s = 0.25;
-// Of a field of 40,000 nT and 100 nT.
+// Noise of 100 nT relative to a field of 40,000 nT.
 constexpr double kField_rad = 0.0025;
 constexpr double kBeyond = 5.0;
 

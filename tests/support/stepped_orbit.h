@@ -1,5 +1,5 @@
 /// @file
-/// An orbit of two segments that do not meet.
+/// An orbit of two segments with a discontinuity between them.
 
 #pragma once
 
@@ -13,15 +13,15 @@
 
 namespace spindrift::testing {
 
-/// The same, interpolated between two points each: it may be cut near its ends.
+/// Returns the segment interpolated between two points only, so that it may be cut near its ends.
 inline OemSegment of_few_points(OemSegment segment) {
   segment.interpolation = Interpolation::Hermite;
   segment.degree = 3;
   return segment;
 }
 
-/// The segment cut in two at its first state from `t` on, which both have; the second is off there
-/// by so much, and goes on at that speed.
+/// Cuts the segment in two at its first state from `t` on, which both parts contain; the second
+/// part starts with a position offset of `by_km` and drifts by `by_km_s`.
 inline OrbitEphemeris stepped(const OemSegment& segment, TaiTime t, const Eigen::Vector3d& by_km,
                               const Eigen::Vector3d& by_km_s) {
   const auto joint = std::find_if(segment.points.begin(), segment.points.end(),

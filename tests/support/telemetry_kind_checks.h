@@ -1,5 +1,5 @@
 /// @file
-/// What is expected of the traits of every kind of telemetry.
+/// Expectations on the traits of every kind of telemetry.
 
 #pragma once
 
@@ -21,7 +21,7 @@ struct BadFields {
   const char* reason;
 };
 
-/// Of a row behind its time, which is good.
+/// Parses a CSV row with a valid time in front of it.
 template <class Value>
 Expected<Value> value_of_row(std::string_view row) {
   const std::string line = "1772337697000000000," + std::string{row};

@@ -1,5 +1,5 @@
 /// @file
-/// A directory of its own for one test, gone with it.
+/// A temporary directory that is removed with its object.
 
 #pragma once
 
@@ -31,7 +31,7 @@ class TemporaryFolder {
 
   const std::filesystem::path& path() const { return path_; }
 
-  /// Writes a file into it and gives its path.
+  /// Writes a file into the folder and returns its path.
   std::filesystem::path write(const std::filesystem::path& name, std::string_view text) const {
     std::ofstream{path_ / name, std::ios::binary} << text;
     return path_ / name;

@@ -1,5 +1,5 @@
 /// @file
-/// Where the tests find data and programs.
+/// Paths of test data and programs.
 
 #pragma once
 
@@ -8,19 +8,17 @@
 namespace spindrift {
 
 std::filesystem::path source_folder();
-/// tests/data.
+/// Returns tests/data.
 std::filesystem::path test_data();
-/// The recorded passes of test_data().
 std::filesystem::path recorded_passes();
-/// The scenarios that the project delivers.
+/// Returns the folder of the scenarios that are delivered with the project.
 std::filesystem::path scenarios();
-/// The program under test.
 std::filesystem::path spindrift_program();
-/// The example of a subscriber (idl/examples).
+/// Returns the example subscriber (idl/examples).
 std::filesystem::path example_program();
-/// A writer of telemetry in another process (support/bus_foreign_writer.cpp).
+/// Returns the program of support/bus_foreign_writer.cpp.
 std::filesystem::path foreign_writer_program();
-/// Whether a sanitizer is built into that program.
+/// Returns whether the program under test was built with a sanitizer.
 bool is_sanitized();
 
 }  // namespace spindrift

@@ -1,5 +1,5 @@
 /// @file
-/// A file's text.
+/// Reads a file into a string.
 
 #pragma once
 

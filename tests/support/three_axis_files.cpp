@@ -17,7 +17,7 @@
 namespace spindrift::testing {
 namespace {
 
-// The third star fix, and this gyro sample.
+// Indices of the wrong star fix and of the saturated gyro sample.
 constexpr int kWrongStar = 3;
 constexpr int kSaturatedGyro = 70;
 
@@ -35,7 +35,7 @@ std::string mission_toml(const ThreeAxisConfig& config) {
       config.magnetometer->noise_nt);
 }
 
-/// `row(t_s, number)` at steps of `step_s`.
+/// Writes a CSV file with a row `row(t_s, number)` every `step_s`.
 template <class Row>
 void write_rows(const std::filesystem::path& file, const char* columns, double from_s, double to_s,
                 double step_s, const Row& row) {
@@ -82,7 +82,7 @@ void write_three_axis_pass(const std::filesystem::path& folder, const ThreeAxisS
   write_rows(folder / "sun.csv", "sx,sy,sz", 0.0, end_s, scene.sun_s, [&](double t_s, int) {
     return fields(sensors.direction(t_s, sun_icrf, config.sun_sensor->noise_rad));
   });
-  // Before the Earth, seen from the Sun.
+  // The spacecraft is between Earth and Sun, so that it is never in eclipse.
   const Eigen::Vector3d position_km = 7000.0 * sun_icrf;
   const auto orbit = KeplerOrbit::through(
       at_s(0.0),

@@ -1,6 +1,6 @@
 /// @file
-/// A pass of a three-axis spacecraft as files, with a little of everything that samples are left
-/// out for.
+/// Writes a pass of a three-axis spacecraft as files that contain samples of each kind that is left
+/// out.
 
 #pragma once
 
@@ -11,17 +11,18 @@ namespace spindrift::testing {
 
 struct ThreeAxisScene {
   double duration_s = 60.0;
-  double gyro_s = 0.1;  ///< Between samples; likewise:
+  double gyro_s = 0.1;  ///< Interval of the gyro samples.
   double star_s = 1.0;
-  double sun_s = 0.5;       ///< Of the magnetometer, too.
-  bool separation = false;  ///< The mission says that it separated 60 s before the first sample.
+  double sun_s = 0.5;  ///< Interval of sun sensor and magnetometer.
+  /// Whether the mission states a separation 60 s before the first sample.
+  bool separation = false;
 };
 
-/// mission.toml of a spacecraft "SAT" without an orbit, and a CSV file of each kind. It turns
-/// smoothly; one gyro sample is saturated, one star fix is of another attitude.
+/// Writes mission.toml of a spacecraft "SAT" without an orbit and a CSV file of each kind. The body
+/// rotates smoothly; one gyro sample is saturated and one star fix is wrong.
 void write_three_axis_pass(const std::filesystem::path& folder, const ThreeAxisScene& scene = {});
 
-/// Of the CSV files of a pass the rows of one half of its time.
+/// Copies the rows of the first or second half of a pass's time span.
 void write_half(const std::filesystem::path& pass, std::int64_t middle_tai_ns, bool first,
                 const std::filesystem::path& to);
 

@@ -1,5 +1,5 @@
 /// @file
-/// Passes whose times were cut to a grid, and what the estimators make of them.
+/// Passes whose times are truncated to a grid, and the errors of the estimators on them.
 
 #pragma once
 
@@ -22,7 +22,7 @@
 
 namespace spindrift::testing {
 
-/// Times cut, not rounded, to whole multiples.
+/// Returns pulses with times truncated, not rounded, to multiples of `grid_ns`.
 inline std::vector<Pulse> cut(std::vector<Pulse> pulses, std::int64_t grid_ns) {
   for (Pulse& pulse : pulses) {
     const std::int64_t t_ns = tai_ns(pulse.t);
@@ -32,11 +32,11 @@ inline std::vector<Pulse> cut(std::vector<Pulse> pulses, std::int64_t grid_ns) {
   return pulses;
 }
 
-/// Of one estimator.
+/// Holds the error statistics of one estimator.
 struct OnGrid {
   int rows = 0;
-  int ok = 0;                ///< That are OK.
-  double most_sigmas = 0.0;  ///< The error of any that is OK, over its sigma; likewise of the rate.
+  int ok = 0;                ///< Number of OK rows.
+  double most_sigmas = 0.0;  ///< Largest axis error of an OK row, sigma; below, that of the rate.
   double most_rate_sigmas = 0.0;
 
   void note(const SpinEstimate& estimate, const SpinningBody& body) {
@@ -64,12 +64,12 @@ struct PassOnGrid {
   OnGrid mean;
   OnGrid sequential;
   OnGrid batch;
-  double sigma_deg = 0.0;  ///< Of `batch` in the end.
+  double sigma_deg = 0.0;  ///< Axis sigma of the last `batch` solution.
 };
 
-/// A body of random geometry at that rate, every row of `mean` and `sequential`; `batch` of a half,
-/// three quarters and all of the pass.
-/// @param grid_ns 1: none.
+/// Runs a body of random geometry at this rate and checks every row of `mean` and `sequential`, and
+/// `batch` on a half, three quarters and all of the pass.
+/// @param grid_ns Grid width; 1 for none.
 inline PassOnGrid pass_on_grid(double rpm, std::int64_t grid_ns, std::uint64_t seed,
                                double revolutions) {
   const Orbit orbit = transfer_orbit();
@@ -111,7 +111,7 @@ inline PassOnGrid pass_on_grid(double rpm, std::int64_t grid_ns, std::uint64_t s
   return found;
 }
 
-/// Commensurate with a millisecond, with less, or nearly so, and not.
+/// Rates whose periods are multiples of a millisecond, of smaller units, nearly so, or not at all.
 inline constexpr double kRatesOnGrid_rpm[] = {60.0, 30.0,    100.0,   50.0, 75.0,    40.0,  99.2177,
                                               61.3, 47.91,   33.3333, 90.0, 66.6667, 120.0, 45.0,
                                               80.0, 59.9999, 60.0003, 55.5, 85.7143, 71.7};

@@ -1,7 +1,6 @@
 /// @file
-/// A body that turns smoothly at rates that somebody gives, and what the sensors of the ground
-/// model read of it: independent of the code under test. The attitude is integrated by steps of
-/// five milliseconds.
+/// A body that rotates at given rates, and readings of the ground model's sensors on it,
+/// independent of the code under test. The attitude is integrated in steps of 5 ms.
 
 #pragma once
 
@@ -22,17 +21,19 @@ namespace spindrift::testing {
 Eigen::Vector3d normal_vector(std::mt19937_64& rng, double sigma);
 Eigen::Quaterniond any_attitude(std::mt19937_64& rng);
 
-/// Gyro 0.002 deg/s and bias 0.01 deg/s, sun sensor 0.5 deg, star tracker 20 arcsec, turned.
+/// Returns a configuration with gyro noise 0.002 deg/s and bias 0.01 deg/s, sun sensor noise 0.5
+/// deg, star tracker noise 20 arcsec, and a rotated tracker mounting.
 ThreeAxisConfig usual_three_axis();
 
-/// The truth at steps of five milliseconds.
+/// Holds the true attitude at steps of 5 ms.
 class TurningBody {
  public:
-  using Rate = std::function<Eigen::Vector3d(double t_s)>;  ///< Body axes, rad/s.
+  using Rate = std::function<Eigen::Vector3d(double t_s)>;  ///< Rate in body axes, rad/s.
 
   TurningBody(const Eigen::Quaterniond& q_icrf_body, double duration_s, Rate rate);
 
-  /// Each axis by three sines of up to `most_rad_s` together, periods of 8 s and more.
+  /// Returns a body whose rate about each axis is a sum of three sines with periods of 8 s and more
+  /// and a total of up to `most_rad_s`.
   static TurningBody smooth(std::mt19937_64& rng, double duration_s, double most_rad_s);
 
   const Eigen::Quaterniond& q_icrf_body(double t_s) const;
@@ -43,18 +44,18 @@ class TurningBody {
   std::vector<Eigen::Quaterniond> q_icrf_body_;
 };
 
-/// Of a pass that starts at kStart.
+/// Start of the pass; at_s() counts from it.
 inline constexpr std::int64_t kStart_tai_ns = 1'795'143'637'000'000'000;
 TaiTime at_s(double t_s);
 
-/// The sensors of one pass with their errors.
+/// Simulates the sensors of one pass with their errors.
 class Sensors {
  public:
   Sensors(const TurningBody& body, const ThreeAxisConfig& config, std::mt19937_64& rng);
 
   GyroSample gyro(double t_s);
   StarFix star(double t_s);
-  /// @param ref_icrf Unit.
+  /// @param ref_icrf Unit vector, ICRF.
   Eigen::Vector3d direction(double t_s, const Eigen::Vector3d& ref_icrf, double sigma_rad);
   MagneticField field(double t_s, const Eigen::Vector3d& field_icrf_nt);
 
@@ -67,7 +68,7 @@ class Sensors {
   Eigen::Vector3d bias_rad_s_;
 };
 
-/// The small turn, body axes, from an estimate to the truth.
+/// Returns the small rotation about body axes from the estimate to the truth.
 Eigen::Vector3d error_rad(const Eigen::Quaterniond& estimate, const Eigen::Quaterniond& truth);
 
 }  // namespace spindrift::testing

@@ -13,10 +13,10 @@
 namespace spindrift::testing {
 namespace {
 
-// The sky is good for a minute.
+// Half the interval, s, over which one set of Sun and Earth directions is used.
 constexpr double kSky_s = 30.0;
 
-// Of Newton's steps: the first moves the axis by a degree at most.
+// Newton steps; the first moves the axis by at most a degree.
 constexpr int kSteps = 4;
 
 std::vector<TrueEdge> with_noise(std::vector<TrueEdge> edges, const PulseNoise& noise,
@@ -28,8 +28,9 @@ std::vector<TrueEdge> with_noise(std::vector<TrueEdge> edges, const PulseNoise& 
   return edges;
 }
 
-/// Change of an edge's phase, rad/rad, with coning: nutation that goes round once a turn.
-/// @param azimuth_rad Of slit 1 where the edge is expected.
+/// Returns the change of an edge's phase with coning, rad/rad; coning is a nutation with one cycle
+/// per revolution.
+/// @param azimuth_rad Azimuth of slit 1 at which the edge is expected.
 Eigen::Vector2d phase_per_coning(const PredictedEdge& edge, double azimuth_rad) {
   return Eigen::Rotation2Dd{-azimuth_rad} * edge.phase_per_rotation.head<2>();
 }
@@ -44,10 +45,10 @@ Eigen::Matrix3d rotation(const Eigen::Vector3d& turned_rad) {
   return Eigen::AngleAxisd{turned_rad.norm(), turned_rad.stableNormalized()}.toRotationMatrix();
 }
 
-/// An even spin: a frame, the azimuth in it, a parabola of time, and what the sensors are off by.
+/// Holds a steady spin: frame, quadratic azimuth in it, and sensor errors.
 struct Spin {
   Eigen::Matrix3d R_spin_icrf;
-  Eigen::Vector3d azimuth;  ///< rad, rad/s, rad/s^2.
+  Eigen::Vector3d azimuth;  ///< Azimuth at 0, rad; its rate, rad/s; half its acceleration, rad/s^2.
   Eigen::Vector2d coning_rad = Eigen::Vector2d::Zero();
   Eigen::Matrix<double, kModelErrors, 1> errors_rad =
       Eigen::Matrix<double, kModelErrors, 1>::Zero();
@@ -57,9 +58,8 @@ struct Spin {
   }
   double rate_rad_s(double t_s) const { return azimuth[1] + 2.0 * azimuth[2] * t_s; }
 
-  /// Tipped by the whole coning rotation, since it may come out at a degree.
-  /// @param slit_1_rad Where it is expected: were it as measured, noise would be multiplied by
-  /// itself.
+  /// Returns the frame rotated by the full coning rotation, since that may reach a degree.
+  /// @param slit_1_rad Expected azimuth of slit 1. The measured one would multiply noise by itself.
   Eigen::Matrix3d R_tipped_icrf(double slit_1_rad) const {
     const Eigen::Vector3d tip = Eigen::AngleAxisd{slit_1_rad, Eigen::Vector3d::UnitZ()} *
                                 Eigen::Vector3d{coning_rad.x(), coning_rad.y(), 0.0};
@@ -67,7 +67,7 @@ struct Spin {
   }
 };
 
-/// The true one, what wobbles apart.
+/// Returns the true spin without nutation and coning.
 Spin spin_of(const SpinMotion& motion) {
   Spin spin = {
       .R_spin_icrf = {},
@@ -111,11 +111,11 @@ std::vector<UniformSpinResidual> against(const Spin& spin, const std::vector<Tru
 }
 
 struct Step {
-  Unknowns change;  ///< Tilt, azimuth, coning, errors.
+  Unknowns change;  ///< Change of tilt, azimuth, coning and errors.
   Normal covariance;
 };
 
-/// @param known Information on the unknowns beforehand, each near zero.
+/// @param known Prior information on each unknown, whose prior mean is zero.
 Step step_of(const Spin& spin, const std::vector<UniformSpinResidual>& residuals,
              const Unknowns& known) {
   Normal normal = known.asDiagonal();

@@ -1,5 +1,5 @@
 /// @file
-/// What an even spin leaves of the edges of a body that may nutate and cone.
+/// Residuals that a steady spin leaves on the edges of a body that may nutate and cone.
 
 #pragma once
 
@@ -12,8 +12,8 @@
 
 namespace spindrift::testing {
 
-/// The usual sensors, exactly where they are said to be, at 60 rpm; axis and
-/// start of `body_across_the_earth`.
+/// Returns the usual sensors, mounted exactly as configured, at 60 rpm with axis and start of
+/// `body_across_the_earth`.
 SpinTruth steady_truth();
 
 struct Turning {
@@ -21,11 +21,11 @@ struct Turning {
   std::vector<TrueEdge> edges;
 };
 
-/// On `orbit_across_the_earth`.
+/// Simulates the edges of `truth` on `orbit_across_the_earth`.
 Turning turning(const SpinTruth& truth, double duration_s);
 
-/// Residuals of the edges, with noise on each time, against the spin about the axis, phase, rate
-/// and drift that fit them best.
+/// Returns the residuals of noisy edges against the steady spin (axis, phase, rate, drift) that
+/// fits them best.
 std::vector<UniformSpinResidual> uniform_spin_residuals(const Turning& turning,
                                                         const PulseNoise& noise,
                                                         std::mt19937_64& rng);
@@ -35,8 +35,8 @@ struct FittedConing {
   Eigen::Matrix2d covariance_rad2;
 };
 
-/// Coning that fits the edges best, with all that a steady spin has and the errors of the model.
-/// @param alignment_sigma_rad To which each error is known to be zero.
+/// Returns the coning that fits the edges best together with a steady spin and the model errors.
+/// @param alignment_sigma_rad Prior sigma of each model error about zero.
 FittedConing fitted_coning(const Turning& turning, const PulseNoise& noise,
                            double alignment_sigma_rad, std::mt19937_64& rng);
 

@@ -1,6 +1,6 @@
 /// @file
-/// Whether a text is well-formed XML, as far as the SVG of this project uses it: elements,
-/// attributes in double quotes, text; no comments, no declarations.
+/// Checks that a text is well-formed XML, limited to what the project's SVG uses: elements,
+/// attributes in double quotes, and text; no comments or declarations.
 
 #pragma once
 
@@ -13,7 +13,7 @@
 
 namespace spindrift::testing {
 
-/// @return What is wrong; empty: nothing.
+/// @return Description of the first problem; empty if there is none.
 inline std::string xml_problem(const std::string& text) {
   static const std::regex kTag{R"(^<(/?)([A-Za-z][\w.-]*)((?:\s+[\w:.-]+="[^"<>]*")*)\s*(/?)>)"};
   static const std::regex kBareAmpersand{"&(?!(amp|lt|gt|quot|apos);)"};
@@ -27,7 +27,7 @@ inline std::string xml_problem(const std::string& text) {
   std::vector<std::string> open;
   std::size_t roots = 0;
   for (std::size_t at = text.find('<'); at != std::string::npos; at = text.find('<', at + 1)) {
-    // A tag of many points is long: not for the stack of std::regex.
+    // Long lists of points are cut out because std::regex recurses on the stack.
     const std::size_t end = text.find('>', at);
     std::string tag = text.substr(at, end == std::string::npos ? end : end - at + 1);
     if (const std::size_t points = tag.find("points=\""); points != std::string::npos) {

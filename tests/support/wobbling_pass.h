@@ -1,5 +1,5 @@
 /// @file
-/// Passes of a body that nutates and cones, by the ground model, as the estimator `batch` is fed.
+/// Passes of a nutating and coning body from the ground model, as input of the estimator `batch`.
 
 #pragma once
 
@@ -17,7 +17,7 @@
 
 namespace spindrift::testing {
 
-/// Edges with the noise that the mission states, their turns counted.
+/// Returns edges with the mission's noise and their revolutions counted.
 inline std::vector<PassEdge> edges_of(const SpinTruth& truth, const Orbit& orbit, double duration_s,
                                       const PulseNoise& noise, std::mt19937_64& rng) {
   std::normal_distribution<double> normal;
@@ -36,19 +36,20 @@ inline std::vector<PassEdge> edges_of(const SpinTruth& truth, const Orbit& orbit
   return edges;
 }
 
-/// Chord, dihedral and sun angle well observed; one seed after the other.
+/// Draws passes in which chord, dihedral and sun angle are well observed.
 class WobblingPasses {
  public:
   WobblingPasses(std::uint64_t seed, double duration_s) : duration_s_{duration_s}, rng_{seed} {}
 
-  /// Another geometry and phase, its sensors perfect and the motion even.
+  /// Returns the next random geometry and phase, with perfect sensors and a steady spin.
   SpinTruth drawn() {
     body_ = random_body(around_, 6.0 * std::numbers::pi / 180.0, rng_);
     return truth_of(body_);
   }
   double uniform() { return std::uniform_real_distribution{}(rng_); }
 
-  /// Of any phase, slender or flat, its frequency not within 0.03 of one that cannot be seen.
+  /// Returns a nutation with random phase of a prolate or oblate body whose nutation frequency
+  /// differs by at least 0.03 from one that is unobservable.
   Nutation random_nutation(double half_angle_rad) {
     double inertia_ratio = 1.0;
     while (std::abs(inertia_ratio - 1.0) < 0.03) {
@@ -80,9 +81,9 @@ class WobblingPasses {
   SpinningBody body_ = body_across_the_earth();
 };
 
-/// Against the truth.
+/// Holds the error of a solution's axis.
 struct AxisError {
-  double squares;  ///< Normalised: chi-square, two degrees of freedom.
+  double squares;  ///< Normalised squared error: chi-square, two degrees of freedom.
   double rad2;
 };
 inline AxisError axis_error(const BatchSolution& solution, const SpinTruth& truth) {

@@ -1,5 +1,3 @@
-// What `spindrift process` and `spindrift alerts` say of passes that are not nominal.
-
 #include <SQLiteCpp/Database.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -34,7 +32,7 @@ void process(const PassCopy& pass) {
   ASSERT_EQ(program.exit_status(), 0) << program.log();
 }
 
-/// Of a pass whose target is elsewhere.
+/// Holds a pass whose target attitude is far from the actual one.
 struct OffTarget : PassCopy {
   OffTarget() : PassCopy{"nominal"} {
     std::ofstream{folder.path() / "mission.toml", std::ios::app}
@@ -69,7 +67,7 @@ TEST(Alerts, NameAChannelThatDiesInTheMidstOfAPass) {
   EXPECT_THAT(rows_of(pass.db, kOpenKeys), ElementsAre("channel.silent:north_in|"));
 }
 
-/// As two stations send them; the second is 5 ms behind.
+/// Two stations send the same edges, the second 5 ms later.
 TEST(Alerts, SayThatEdgesComeSeveralTimes) {
   constexpr std::int64_t kBehind_ns = 5'000'000;
   const PassCopy pass{"nominal"};

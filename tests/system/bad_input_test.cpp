@@ -1,5 +1,5 @@
-// What no pass should bring: the program says so and makes no number up. Bad rows and files of
-// telemetry are in process_test.cpp.
+// Input that no pass should contain: the program reports it and invents no results. Bad rows and
+// files of telemetry are in process_test.cpp.
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -33,7 +33,7 @@ using ::testing::Not;
 const std::filesystem::path kData = test_data();
 const std::filesystem::path kNominal = kData / "spin" / "nominal";
 
-/// A copy of the nominal pass to spoil.
+/// Returns a copy of the nominal pass that a test may corrupt.
 std::filesystem::path nominal_copy(const TemporaryFolder& folder) {
   auto pass = folder.path() / "pass";
   std::filesystem::copy(kNominal, pass);
@@ -47,14 +47,14 @@ void expect_no_axis(const Outcome& outcome) {
   EXPECT_TRUE(outcome.run["sequential"].is_null());
   EXPECT_EQ(number_of(outcome.db, "SELECT count(*) FROM spin_estimate"), 0);
   EXPECT_EQ(number_of(outcome.db, "SELECT count(*) FROM spin_fix WHERE accepted = 1"), 0);
-  // Telemetry is kept all the same.
+  // Telemetry is stored even without a fix.
   EXPECT_EQ(number_of(outcome.db, "SELECT count(*) FROM pulse"), outcome.run["edges_received"]);
 }
 
 TEST(BadGeometry, WithSunAndEarthInOneLineGivesNoAxisAndSaysWhy) {
   const TemporaryFolder folder;
-  // At local noon: from the geostationary ring the Earth stands opposite the Sun, whose place then
-  // is RA 235.14, Dec -19.58 deg.
+  // Local noon: seen from the geostationary orbit the Earth is opposite the Sun, which is then at
+  // RA 235.14, Dec -19.58 deg.
   const auto outcome = process_simulated(folder, {{"a_km = 24400.0", "a_km = 42164.0"},
                                                   {"e = 0.73", "e = 0.0"},
                                                   {"i_deg = 28.5", "i_deg = 90.0"},
@@ -122,12 +122,12 @@ double error_deg(const nlohmann::json& estimate) {
 
 struct Missing {
   const char* channel;
-  int main_case;  ///< Of nearly all revolutions: what the other five channels allow.
+  int main_case;  ///< Geometry case of nearly all revolutions with the other five channels.
 };
 
 TEST(MissingChannel, LeavesTheCaseThatTheOthersAllow) {
-  // Without sun1 no dihedral and no sun angle, but the azimuth of both chords from sun2; without
-  // sun2 no sun angle; with half a chord the other one alone.
+  // Without sun1 there is no dihedral and no sun angle, but sun2 gives the azimuth of both chords;
+  // without sun2 there is no sun angle; with half a chord only the other beam's is left.
   for (const auto& [channel, main_case] : std::array<Missing, 6>{{{"sun1", 7},
                                                                   {"sun2", 4},
                                                                   {"north_in", 3},
@@ -148,14 +148,14 @@ TEST(MissingChannel, LeavesTheCaseThatTheOthersAllow) {
       ASSERT_FALSE(outcome.run[estimator].is_null());
       const double sigma_deg = outcome.run[estimator]["sigma_deg"].get<double>();
       EXPECT_LT(error_deg(outcome.run[estimator]), std::min(0.2, 3.0 * sigma_deg)) << estimator;
-      // Without a sun angle, the cones cross rather than touch in the second half only.
+      // Without a sun angle, the cones intersect well in the second half of the pass only.
       const bool is_poor = main_case == 4 && estimator == std::string_view{"mean"};
       EXPECT_LT(sigma_deg, is_poor ? 0.2 : 0.1) << estimator;
     }
   }
 }
 
-/// The nominal pass as far as `keep` says of a row's channel and number.
+/// Processes the rows of the nominal pass for which `keep(channel, number)` is true.
 template <class Keep>
 Outcome process_part(const TemporaryFolder& folder, const Keep& keep) {
   const auto pass = nominal_copy(folder);
@@ -194,8 +194,8 @@ TEST(OneSensor, AloneGivesNoAxisAndNoBatchSolutionAndSaysWhy) {
   }
 }
 
-/// Every fiftieth edge of a channel, as far off its place as chance would have it, is no channel:
-/// no axis is made of it.
+/// Every fiftieth edge of a channel, displaced at random, does not make a usable channel, so no
+/// axis may come of it.
 TEST(MissingChannel, StraysOfADeadSensorGiveNoAxis) {
   const TemporaryFolder folder;
   const auto outcome = process_part(folder, [](const std::string& channel, int row) {
@@ -272,7 +272,8 @@ TEST(ShortOrbit, GivesTheAxisWhereItReachesAndSaysFromWhereOnItDoesNot) {
   EXPECT_THAT(outcome.log,
               ::testing::ContainsRegex("revolutions outside it gave no axis, the last at "
                                        "2026-11-20T03:09:59.*Z"));
-  EXPECT_EQ(outcome.run["revolutions"], 599);  // Of 600 good sun1 edges one lies 3 sigma off.
+  // One of the 600 good sun1 edges is a 3-sigma outlier.
+  EXPECT_EQ(outcome.run["revolutions"], 599);
   EXPECT_NEAR(outcome.run["fixes"].get<double>(), 300.0, 3.0);
   EXPECT_EQ(
       number_of(outcome.db, "SELECT count(*) FROM spin_fix WHERE t_tai_ns > 1795143937000000000"),
@@ -280,7 +281,8 @@ TEST(ShortOrbit, GivesTheAxisWhereItReachesAndSaysFromWhereOnItDoesNot) {
   EXPECT_LT(error_deg(outcome.run["mean"]), 0.1);
 }
 
-/// The nominal pass with an orbit that is `off_km` further from 03:05:00, line 31 of its file, on.
+/// Returns the nominal pass with an orbit displaced by `off_km` from 03:05:00 (line 31 of the file)
+/// on.
 std::filesystem::path spliced_copy(const TemporaryFolder& folder, double off_km) {
   auto pass = nominal_copy(folder);
   std::istringstream lines{text_of(pass / "orbit.oem")};
@@ -305,7 +307,7 @@ TEST(SplicedOrbit, IsWarnedOfByEveryCommandThatUsesIt) {
   const auto pass = spliced_copy(folder, 18.0);
   const auto outcome = process(folder, pass);
   EXPECT_EQ(outcome.status, 0) << outcome.log;
-  // 15 124 km from the Earth's centre.
+  // The distance to the Earth's centre is 15 124 km.
   const auto warns = HasSubstr(
       "mission.toml: orbit.oem = \"orbit.oem\", line 31: the orbit jumps by 18 km at "
       "2026-11-20T03:05:00.000Z: states of different solutions spliced? The nadir direction is off "
@@ -329,7 +331,7 @@ TEST(SplicedOrbit, IsRefusedByLineWhereNoOrbitCouldBeSo) {
   EXPECT_FALSE(std::filesystem::exists(outcome.db));
 }
 
-/// Two segments, the second with that much speed more, at 03:05.
+/// Returns the pass with two orbit segments; from 03:05 on, the second is `faster_km_s` faster.
 std::filesystem::path stepped_copy(const TemporaryFolder& folder, double faster_km_s) {
   auto pass = nominal_copy(folder);
   std::istringstream whole{text_of(kNominal / "orbit.oem")};
@@ -350,7 +352,7 @@ std::filesystem::path stepped_copy(const TemporaryFolder& folder, double faster_
       double vy_km_s = 0.0;
       double vz_km_s = 0.0;
       words >> time >> x_km >> y_km >> z_km >> vx_km_s >> vy_km_s >> vz_km_s;
-      // Half a minute from state to state.
+      // The states are 30 s apart.
       const auto states = std::count(second.begin(), second.end(), '\n');
       second += fmt::format("{} {} {} {} {} {} {}\n", time, x_km, y_km,
                             z_km + 30.0 * static_cast<double>(states) * faster_km_s, vx_km_s,
@@ -384,7 +386,7 @@ TEST(OrbitWithAStep, IsWarnedOfAndWhatRestsOnBothSidesIsDoubtful) {
 
 TEST(OrbitWithAHole, IsWarnedOfAndGivesNoAxisThere) {
   const TemporaryFolder folder;
-  // Through the perigee of 03:26.
+  // The pass contains the perigee at 03:26.
   const auto pass = simulated_pass(folder, {{"duration_s = 600.0", "duration_s = 3600.0"},
                                             {"mean_anomaly_deg = 30.0", "mean_anomaly_deg = 345.0"},
                                             {"rate_rpm = 60.0", "rate_rpm = 30.0"}});
@@ -400,7 +402,7 @@ TEST(OrbitWithAHole, IsWarnedOfAndGivesNoAxisThere) {
   EXPECT_THAT(outcome.log,
               HasSubstr("mission.toml: orbit.oem = \"orbit.oem\", line 43: no orbit for 1800 s "
                         "before it, from 2026-11-20T03:15:00.000Z to 2026-11-20T03:45:00.000Z"));
-  // 03:15:00 and 03:45:00, by a revolution inwards.
+  // The interval is 03:15:00 to 03:45:00, less a revolution at either end.
   EXPECT_EQ(number_of(outcome.db,
                       "SELECT count(*) FROM spin_fix WHERE t_tai_ns BETWEEN 1795144539000000000 "
                       "AND 1795146335000000000"),
@@ -419,7 +421,7 @@ TEST(NominalOrbit, IsNotWarnedOf) {
 TEST(AbsurdTimes, ThatCouldBeTrueLeaveTheOtherProductsAlone) {
   const TemporaryFolder folder;
   const auto pass = nominal_copy(folder);
-  // The years 1980 and 2099, and a day ahead.
+  // The stamps are in the years 1980 and 2099, and a day ahead.
   std::ofstream{pass / "more.csv"} << "t_tai_ns,channel\n315532819000000000,sun2\n"
                                       "4070908837000000000,sun1\n1795230037000000000,north_in\n";
   const auto outcome = process(folder, pass);
@@ -430,7 +432,8 @@ TEST(AbsurdTimes, ThatCouldBeTrueLeaveTheOtherProductsAlone) {
                       "SELECT count(*) FROM pulse_use WHERE accepted = 0 AND t_tai_ns IN"
                       " (315532819000000000, 4070908837000000000, 1795230037000000000)"),
             3);
-  EXPECT_EQ(outcome.run["revolutions"], 599);  // Of 600 good sun1 edges one lies 3 sigma off.
+  // One of the 600 good sun1 edges is a 3-sigma outlier.
+  EXPECT_EQ(outcome.run["revolutions"], 599);
   EXPECT_LT(error_deg(outcome.run["mean"]), 0.05);
   EXPECT_LT(error_deg(outcome.run["sequential"]), 0.05);
 }

@@ -1,4 +1,5 @@
-// The estimator `batch`, as an analyst uses it: at the end of `process`, by itself, in the archive.
+// The estimator `batch` as an analyst uses it: at the end of `process`, as a command, and in the
+// archive.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -31,14 +32,14 @@ nlohmann::json truth_of(const std::string& pass) {
   return nlohmann::json::parse(text_of(kPasses / pass / "truth.json"));
 }
 
-/// Of a command that is told to print one JSON object.
+/// Runs a command that prints one JSON object and returns that object.
 nlohmann::json answer(const std::vector<std::string>& words) {
   Program program{words};
   EXPECT_EQ(program.exit_status(), 0) << program.log();
   return nlohmann::json::parse(program.out(), nullptr, false);
 }
 
-/// Of `batch` for a recorded pass in an archive, with more words behind.
+/// Returns the arguments of `batch` for a recorded pass in an archive.
 std::vector<std::string> batch_of(const std::string& pass, const std::filesystem::path& db,
                                   const std::vector<std::string>& more) {
   std::vector<std::string> words{"batch", "--mission", (kPasses / pass / "mission.toml").string(),
@@ -67,7 +68,7 @@ TEST(Batch, StandsBesideTheOtherEstimatorsWithBoundAndBiases) {
 
   EXPECT_EQ(number_of(db, "SELECT count(*) FROM spin_batch WHERE outliers < 5 AND noise = 1"), 1);
   EXPECT_EQ(number_of(db, "SELECT count(*) FROM spin_bias WHERE estimator = 'batch'"), 8);
-  // Of what the edges leave open nothing is known but its prior.
+  // A bias that the edges do not determine has no value, only its prior.
   EXPECT_GT(number_of(db, "SELECT count(*) FROM spin_bias WHERE observable = 0 AND value IS NULL"),
             0);
   EXPECT_EQ(number_of(db, "SELECT count(*) FROM spin_comparison WHERE NOT disagree"), 3);
@@ -76,7 +77,7 @@ TEST(Batch, StandsBesideTheOtherEstimatorsWithBoundAndBiases) {
 
 TEST(Batch, EstimatorsThatAModelErrorSetsApartAreNamedAsTheViewFlagsThem) {
   const PassCopy pass{"nominal"};
-  // `batch` finds the bias, the others have it as an error.
+  // `batch` estimates this bias; for the other estimators it is an error.
   pass.replace("mount_angle_deg = 85", "mount_angle_deg = 86");
   const auto told = answer(pass.arguments_here())["runs"][0]["disagreements"];
   ASSERT_EQ(told.size(), 1U);
@@ -104,7 +105,7 @@ TEST(Batch, AGapOfTheOrbitCostsTheEdgesThereOnly) {
   std::string text = text_of(orbit);
   const std::string head = text.substr(
       text.find("META_START"), text.find("2026-11-20T02:58:00.000 ") - text.find("META_START"));
-  // Two segments, a minute apart.
+  // The orbit consists of two segments with a gap of a minute.
   std::string second = head;
   second.replace(second.find("02:58:00"), 8, "03:05:00");
   const auto gap = text.find("2026-11-20T03:04:30.000 ");
@@ -212,7 +213,7 @@ TEST(Batch, EstimatesTheBiasesThatTheMissionAsksFor) {
   EXPECT_LT(std::abs(dihedral["value"].get<double>()), 3.0 * dihedral["sigma"].get<double>());
 }
 
-/// A scenario that comes with the program, with something added to its attitude, processed.
+/// Holds a processed run of a delivered scenario with an addition to its attitude.
 struct WobblingRun {
   TemporaryFolder folder;
   std::filesystem::path db = folder.path() / "out.db";

@@ -1,5 +1,3 @@
-// Coded telemetry from the file or the bus to the archive: the real program, real DDS.
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -30,7 +28,7 @@ std::vector<std::string> on(const bus::BusConfig& bus, std::vector<std::string> 
   return arguments;
 }
 
-/// What `serve` makes of what `source` publishes.
+/// Runs `serve` on what the program `source` publishes.
 void serve(const std::string& mission, const std::filesystem::path& db,
            const std::vector<std::string>& source) {
   const bus::BusConfig bus = bus_of_its_own();
@@ -102,7 +100,7 @@ TEST(Coded, SimulatedPassGivesTheSameProductsFromTheBusAsFromFiles) {
   EXPECT_EQ(product_rows(served), product_rows(offline));
 }
 
-/// Its period changes by a hundred times its noise a turn.
+/// The drift changes the period by a hundred times its noise each turn.
 TEST(Coded, FramesOfASlowBodyThatDriftsAreTakenFromTheFirstTurns) {
   for (const std::string drift_rpm_h : {"0.5", "1.0", "2.0"}) {
     SCOPED_TRACE(drift_rpm_h);
@@ -118,7 +116,7 @@ TEST(Coded, FramesOfASlowBodyThatDriftsAreTakenFromTheFirstTurns) {
     const auto db = folder.path() / "processed.db";
     process((pass / "mission.toml").string(), pass, db);
     EXPECT_GT(real_of(db, "SELECT avg(accepted) FROM pulse_use"), 0.9);
-    // One frame a turn, and every turn counted.
+    // There is one frame a turn, and every turn is counted.
     EXPECT_EQ(number_of(db, "SELECT max(revolution) - min(revolution) + 1 FROM revolution"),
               number_of(db, "SELECT count(*) FROM coded_frame") - 1);
     EXPECT_EQ(number_of(db, "SELECT count(*) FROM pass_answer WHERE quality = 'OK'"), 3);
@@ -138,7 +136,8 @@ TEST(Coded, SimulatedPassWithASilenceAndEveryFaultIsTelemetryThatCanBeTrue) {
   ASSERT_EQ(simulate.exit_status(), 0) << simulate.log();
   const auto db = folder.path() / "processed.db";
   process((pass / "mission.toml").string(), pass, db);
-  // 12 turns of 60 rpm: as many sun1 in a row are not lost, but a minute of silence is longer.
+  // 12 s are 12 turns at 60 rpm: so many consecutive sun1 are never lost, but the silence lasts a
+  // minute.
   EXPECT_LT(real_of(db, "SELECT max(period_s) FROM coded_frame"), 12.0);
 }
 

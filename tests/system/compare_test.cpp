@@ -1,5 +1,3 @@
-// `spindrift compare`, as a user runs it.
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -30,7 +28,7 @@ std::filesystem::path simulated(const TemporaryFolder& folder, const std::string
   return out;
 }
 
-/// A pass of the nominal scenario, but that it turns a little faster.
+/// Simulates the nominal scenario with a slightly higher spin rate.
 std::filesystem::path faster_pass(const TemporaryFolder& folder) {
   std::string text = text_of(kNominal);
   const std::string rate = "rate_rpm = 60.0";
@@ -98,7 +96,7 @@ TEST(Compare, StoresADepartureInTheArchiveAsAnAlert) {
                       " OR (samples = 0 AND rms IS NULL)"),
             7);
 
-  // From the files the same, but for what is stored.
+  // The files give the same result, except for what depends on the archive.
   auto from_files =
       compared({"--mission", mission, "--telemetry", pass.string(), "--model", kNominal});
   EXPECT_EQ(from_files["channels"], json["channels"]);

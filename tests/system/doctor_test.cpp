@@ -1,5 +1,3 @@
-// `spindrift doctor`: the real program before real archives, missions and other programs.
-
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -59,7 +57,7 @@ Diagnosis diagnose(const bus::BusConfig& bus, const std::vector<std::string>& ar
   return {.status = status, .report = nlohmann::json::parse(doctor.out())};
 }
 
-/// An archive of one pass.
+/// Returns an archive of one pass.
 std::filesystem::path processed(const TemporaryFolder& folder) {
   const auto db = folder.path() / "pass.db";
   Program process{{"process", "--mission", kMission, "--telemetry", (kPasses / "nominal").string(),
@@ -68,7 +66,7 @@ std::filesystem::path processed(const TemporaryFolder& folder) {
   return db;
 }
 
-/// A mission whose ephemeris reaches from an hour before now to two days after.
+/// Returns a mission whose ephemeris reaches from an hour ago to two days ahead.
 std::string current_mission(const TemporaryFolder& folder) {
   const TaiTime now = tai_now();
   std::string oem =
@@ -79,7 +77,7 @@ std::string current_mission(const TemporaryFolder& folder) {
   std::string first;
   std::string last;
   for (int hour = -1; hour <= 48; ++hour) {
-    // Without the Z that marks UTC.
+    // OEM times have no trailing Z.
     last = format_utc(now + hour * 1h, 3);
     last.pop_back();
     first = first.empty() ? last : first;
@@ -118,10 +116,10 @@ TEST(Doctor, FindsNoFailureWhereAllIsWell) {
   }
   EXPECT_NE(diagnosis.verdict("round trip"), "failure") << diagnosis.found("round trip");
   EXPECT_THAT(diagnosis.found("telemetry"), HasSubstr("pid " + std::to_string(front_end.pid())));
-  // "N of 100 programs ...", N without the front-end at least.
+  // The text is "N of 100 programs ...", where N leaves room at least for the front-end.
   EXPECT_LT(std::stoi(diagnosis.found("participants")), 100);
   EXPECT_THAT(diagnosis.found("participants"), HasSubstr(" of 100 programs"));
-  // It waits for a subscriber, and has not taken the doctor for one.
+  // The front-end waits for a subscriber and must not take the doctor for one.
   EXPECT_TRUE(is_running(front_end.pid()));
 }
 
@@ -239,7 +237,7 @@ TEST(Doctor, LooksAtAnArchiveThatAServiceWrites) {
 
   service.signal(SIGTERM);
   EXPECT_EQ(service.exit_status(), 0) << service.log();
-  // The service has taken the doctor for nobody.
+  // The service must not report the doctor as an incompatible client.
   EXPECT_EQ(service.log().find("incompatible"), std::string::npos);
   EXPECT_EQ(number_of(db, "SELECT count(*) FROM source_count"), 0);
 }

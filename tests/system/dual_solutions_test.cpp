@@ -1,4 +1,4 @@
-// Passes of which no single revolution tells the true axis from the false one, through the program.
+// Passes in which no single revolution separates the true axis from the false one.
 
 #include <SQLiteCpp/Database.h>
 #include <gmock/gmock.h>
@@ -23,7 +23,7 @@ double error_deg(double ra_deg, double dec_deg, double true_ra_deg, double true_
 }
 
 TEST(DualSolutions, AreSettledByTheirDispersionAsTheGeometryTurns) {
-  // Of a beam so noisy that its fixes tell before its edges do.
+  // One beam is so noisy that the dispersion of its fixes decides before its edges do.
   const TemporaryFolder folder;
   const auto outcome = process_simulated(folder,
                                          {{"mean_anomaly_deg = 30.0", "mean_anomaly_deg = 20.0"},
@@ -48,8 +48,8 @@ TEST(DualSolutions, AreSettledByTheirDispersionAsTheGeometryTurns) {
   }
 }
 
-/// Of one beam and sun1: 25 deg from the true axis another one explains the edges as well, and no
-/// fix has the true one, whose candidates graze.
+/// Processes a pass with one beam and sun1. Another axis, 25 deg from the true one, explains the
+/// edges as well, and no fix has the true one because its candidates are near tangent.
 Outcome process_false_twin(const TemporaryFolder& folder, int seed, const std::string& prior) {
   return process_simulated(
       folder,

@@ -1,5 +1,3 @@
-// `spindrift geomag field`, as an analyst runs it.
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -22,7 +20,7 @@ using ::testing::IsEmpty;
 
 const std::string kHeader = "lat_deg,lon_deg,height_km\n";
 
-/// One run over a file of points with this text.
+/// Runs the command on a file of points with this text.
 struct FieldAt {
   explicit FieldAt(const std::string& text, const std::string& year = "2025.0", bool json = false)
       : points{(folder.path() / "points.csv").string()} {
@@ -44,7 +42,7 @@ struct FieldAt {
   std::string log;
 };
 
-/// Geodetic latitude and height of a geocentric place, by going back and forth.
+/// Returns geodetic latitude and height of a geocentric position by iteration.
 std::pair<double, double> geodetic_of(double geocentric_rad, double radius_km) {
   constexpr double kSquare = 1.0 - wgs84::kPolarRadius_km * wgs84::kPolarRadius_km /
                                        (wgs84::kEquatorialRadius_km * wgs84::kEquatorialRadius_km);
@@ -63,8 +61,8 @@ std::pair<double, double> geodetic_of(double geocentric_rad, double radius_km) {
 }
 
 TEST(GeomagField, PrintsThePublishedFieldOfAGeodeticPoint) {
-  // The British Geological Survey, IGRF-14, 2025, colatitude 56, longitude -3, 6375 km geocentric:
-  // north 28927.56, east 261.98, down 30910.08 nT.
+  // Source: British Geological Survey, IGRF-14, 2025, colatitude 56, longitude -3, 6375 km
+  // geocentric: north 28927.56, east 261.98, down 30910.08 nT.
   const auto [latitude_rad, height_km] = geodetic_of(34.0 * kRadPerDeg, 6375.0);
   char point[100];
   std::snprintf(point, sizeof point, "%.9f,-3,%.6f\n", degrees(latitude_rad), height_km);

@@ -1,5 +1,3 @@
-// `spindrift geometry`, as a ship operator runs it before a pass.
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -23,7 +21,7 @@ const std::filesystem::path kScenarios = scenarios();
 const std::filesystem::path kMissions = test_data() / "mission";
 const std::string kNominal = (recorded_passes() / "nominal" / "mission.toml").string();
 
-/// Of the nominal pass, with arguments put in the place of its own or added.
+/// Returns the arguments of the nominal pass with these options replaced or added.
 std::vector<std::string> arguments_with(
     const std::vector<std::pair<std::string, std::string>>& changes,
     const std::string& mission = kNominal) {
@@ -43,7 +41,7 @@ std::vector<std::string> arguments_with(
   }
   std::vector<std::string> arguments = {"geometry"};
   for (const auto& [name, value] : options) {
-    // In one word: a value may begin with a minus.
+    // Option and value are one word, since a value may begin with a minus.
     arguments.push_back(name);
     arguments.back().append(value.empty() ? "" : "=").append(value);
   }
@@ -118,7 +116,7 @@ TEST(Geometry, NoiseInAngleGoesWithTheRate) {
         {{"--rpm", rpm}, {"--step", "600"}, {"--json", ""}}))["steps"][0]["fix_sigma_deg"]
         .get<double>();
   };
-  // The Earth moves on a little less in a shorter turn.
+  // The Earth direction moves slightly less in a shorter turn, so the ratio is not exactly 2.
   EXPECT_NEAR(fix_sigma_deg("100") / fix_sigma_deg("50"), 2.0, 0.01);
 }
 
@@ -198,7 +196,7 @@ double published_sigma_deg(const std::filesystem::path& mission,
   return nlohmann::json::parse(process.out())["runs"][0]["sequential"]["sigma_deg"];
 }
 
-/// @param folder Of the ten minutes from 03:00 on.
+/// @param folder Folder of the ten-minute pass that starts at 03:00.
 double planned_sigma_deg(const std::filesystem::path& folder) {
   const auto truth = nlohmann::json::parse(text_of(folder / "truth.json"));
   const auto text = [&](const char* key) { return std::to_string(truth[key].get<double>()); };

@@ -1,4 +1,5 @@
-// Passes whose beams look near the limb: every mean that `process` stores, not only the last.
+// Passes whose beams look near the limb: checks every mean that `process` stores, not only the
+// last.
 
 #include <SQLiteCpp/Database.h>
 #include <SQLiteCpp/Statement.h>

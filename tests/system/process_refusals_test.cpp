@@ -1,5 +1,3 @@
-// What `spindrift process` says of bad files, and the program of a bad command line.
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>
@@ -61,7 +59,7 @@ TEST(Process, RefusesBadRowsWhenStrict) {
   EXPECT_FALSE(std::filesystem::exists(pass.db));
 }
 
-/// A pass of which one file reads so.
+/// Expects an error for a pass with this text in one of its files.
 void expect_refused(const std::string& file, const std::string& text,
                     const std::vector<std::string>& says) {
   const PassCopy pass{"nominal"};
@@ -195,20 +193,19 @@ TEST(Process, RefusesAnArchiveWhereNoFileCanBe) {
 
 TEST(Process, CountsEveryKindOfImpossibleRowAndKeepsTheRest) {
   const PassCopy pass{"nominal"};
-  const std::vector<std::string> rows = {
-      "-8520336000000000000,sun1",       // The year 1700.
-      "19880899200000000000,sun1",       // The year 2600, beyond 64 bits.
-      "9223372036854775807,sun1",        // The year 2262.
-      "-9223372036854775808,sun1",       //
-      "nan,sun1",                        //
-      "inf,sun2",                        //
-      "-inf,sun2",                       //
-      "noon,north_in",                   //
-      "1795143637568806257,sun3",        //
-      "1795143637568806257,",            //
-      "1795143637568806257",             //
-      "17951436375",                     // Cut in half.
-      "1795143637568806257,sun1,sun2"};  //
+  const std::vector<std::string> rows = {"-8520336000000000000,sun1",  // Year 1700.
+                                         "19880899200000000000,sun1",  // Year 2600, beyond 64 bits.
+                                         "9223372036854775807,sun1",   // Year 2262.
+                                         "-9223372036854775808,sun1",  //
+                                         "nan,sun1",                   //
+                                         "inf,sun2",                   //
+                                         "-inf,sun2",                  //
+                                         "noon,north_in",              //
+                                         "1795143637568806257,sun3",   //
+                                         "1795143637568806257,",       //
+                                         "1795143637568806257",        //
+                                         "17951436375",                // Truncated row.
+                                         "1795143637568806257,sun1,sun2"};  //
   std::string text = "t_tai_ns,channel\r\n";
   for (const std::string& row : rows) {
     text += row + "\r\n";
@@ -274,7 +271,7 @@ TEST(CommandLine, IsRefusedWithTwoWhenBad) {
     SCOPED_TRACE(bad.empty() ? "" : bad.back());
     Program program{bad};
     EXPECT_EQ(program.exit_status(), 2);
-    // Of the command line itself, before any file is looked for.
+    // The command line is checked before any file is opened.
     EXPECT_THAT(program.log(), HasSubstr("--help"));
     EXPECT_EQ(program.out(), "");
   }

@@ -1,5 +1,3 @@
-// `spindrift process`, as a user runs it: the program, files, the archive.
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -22,7 +20,7 @@ namespace spindrift::process_test {
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-/// The last row of an estimator, behind a SELECT.
+/// Returns the end of a SELECT for the last row of an estimator.
 std::string last(const std::string& estimator) {
   return " FROM spin_estimate WHERE estimator = '" + estimator + "' ORDER BY t_tai_ns DESC LIMIT 1";
 }
@@ -31,7 +29,7 @@ nlohmann::json truth_of(const std::string& pass) {
   return nlohmann::json::parse(text_of(kPasses / pass / "truth.json"));
 }
 
-/// Error of the archive's answer, in degrees.
+/// Returns the error of the estimate in the archive, deg.
 double error_deg(const std::filesystem::path& db, const nlohmann::json& truth,
                  const std::string& estimator) {
   const auto place = [](double ra_deg, double dec_deg) {
@@ -165,13 +163,13 @@ TEST(Process, KeepsTheNameThatTheRunIsGivenAndWhatItsTelemetryWas) {
             std::vector<std::string>{"second try|64|1|1|"});
 }
 
-/// What a person is told of the run, and of what its archive keeps.
+/// The warnings printed for a run are also stored in the archive.
 TEST(Process, KeepsItsWarnings) {
   const PassCopy pass{"nominal"};
   pass.folder.write("more.csv",
                     "t_tai_ns,channel,spacecraft\nsoon,sun1,SPINNER\n"
                     "1795143637568806257,sun1,OTHER\n");
-  // Seven minutes of silence within the pass.
+  // The pulses have a gap of seven minutes.
   std::istringstream rows{text_of(pass.folder.path() / "pulses.csv")};
   std::string header;
   std::getline(rows, header);
@@ -234,7 +232,7 @@ TEST(Process, GivesTheSameRowsWhateverTheOrderOfTheFile) {
   EXPECT_EQ(product_rows(in_order), product_rows(pass.db));
 }
 
-/// The recorded pass and, so much later, the same edges again.
+/// Appends the edges of the recorded pass again, `later_s` later.
 void append_a_second_pass(const PassCopy& pass, std::int64_t later_s) {
   std::istringstream csv{text_of(pass.folder.path() / "pulses.csv")};
   std::string line;
@@ -292,7 +290,7 @@ TEST(Process, StoresThePassAndSaysWhereTheOrbitDoesNotReach) {
   EXPECT_EQ(number_of(pass.db, "SELECT count(*) FROM pulse"), 3600);
   EXPECT_EQ(number_of(pass.db, "SELECT count(*) FROM spin_fix"), 0);
   EXPECT_EQ(number_of(pass.db, "SELECT count(*) FROM revolution"),
-            599);  // One sun1 lies 3 sigma off.
+            599);  // One sun1 edge is a 3-sigma outlier.
 }
 
 TEST(Process, CountsAnEdgeThatIsSentTwiceOnceAmongTheStored) {
@@ -346,7 +344,7 @@ TEST(Process, ReadsALargeFileInBoundedMemory) {
   if (is_sanitized()) {
     GTEST_SKIP() << "sanitizers need memory of their own";
   }
-  // 60 MB: another spacecraft's pulses, which are counted only, around those of ours.
+  // The file has 60 MB: pulses of another spacecraft, which are only counted, around the pass.
   const PassCopy pass{"nominal"};
   constexpr std::int64_t kOthers = 1'800'000;
   std::string text = "t_tai_ns,channel,spacecraft\n";
@@ -375,7 +373,7 @@ TEST(Process, CountsAndLeavesTheEdgesOfAnotherSpacecraft) {
   EXPECT_EQ(number_of(pass.db, "SELECT count(*) FROM pulse"), 3600);
 }
 
-/// The pass again and again: more than is computed before a signal comes.
+/// Repeats the pass so often that the program cannot finish before the signal.
 void repeat_pulses(const std::filesystem::path& file) {
   std::ifstream in{file};
   std::string header;

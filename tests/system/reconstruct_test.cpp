@@ -1,5 +1,3 @@
-// The attitude at separation through the program: from files and from the archive.
-
 #include <SQLiteCpp/Database.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -112,7 +110,7 @@ TEST(Reconstruct, FromTheArchiveLeavesOutWhatAnOperatorExcluded) {
       "INSERT INTO operator_action SELECT 'a', spacecraft_id, run_id, first_arrival, first_tai_ns,"
       " started_utc, 'shift', 'exclude_channel', '{\"channel\":\"sun\"}', '' FROM run"
       " WHERE first_tai_ns IS NOT NULL");
-  // Also where a run has reconstructed since.
+  // The second time, the run contains the results of a reconstruction.
   for (int again = 0; again < 2; ++again) {
     const Answer answer = reconstruct({"--db", processed.db.string(), "--method", "batch"});
     ASSERT_EQ(answer.status, 0) << answer.log;
@@ -133,7 +131,7 @@ TEST(Reconstruct, TakesTheMissionOfTheNewestRunWhereNoneIsGiven) {
   EXPECT_TRUE(answer.object["sequential"].is_null());
 }
 
-/// 59 minutes, 72 deg of turn, no orbit.
+/// The rates flown by Dawn: 59 minutes, a rotation of 72 deg, no orbit.
 TEST(Reconstruct, OfTheRatesThatDawnFlewIsWhereItWas) {
   const TemporaryFolder folder;
   const auto pass = pass_of("dawn-2015");

@@ -1,5 +1,3 @@
-// What the archive has of the residuals of every edge and sample, and of why each was left out.
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -46,7 +44,7 @@ TEST_F(Residuals, OfTheNominalPassAreNormalForBothEstimators) {
     SCOPED_TRACE(estimator);
     const std::string of_it = " FROM edge_residual WHERE estimator = '" + estimator + "'";
     EXPECT_GT(number_of(db_, "SELECT count(*)" + of_it), 3000);
-    // The first turns of `sequential` settle it.
+    // The first turns are left out because `sequential` converges in them.
     EXPECT_NEAR(std::sqrt(real_of(db_, "SELECT avg(whitened * whitened)" + of_it +
                                            " AND used = 1 AND revolution > 20")),
                 1.0, 0.05);
@@ -115,7 +113,7 @@ TEST_F(Residuals, EveryFixHasItsCandidatesAndTheRunItsChoice) {
       << "what the pass chose was settled by that, too";
 }
 
-/// Most fixes of all these tell the axis by themselves.
+/// In these passes most fixes determine the axis by themselves.
 TEST_F(Residuals, TheChoiceOfARunIsItsAnswerWithWhatSettledItAndHowMuchWorseTheOtherAxisFits) {
   for (const std::string pass : {"nominal", "dirty", "north-only"}) {
     SCOPED_TRACE(pass);
@@ -155,7 +153,8 @@ TEST_F(Residuals, OfAThreeAxisPassAreThoseOfItsSensorsWithValueAndLimit) {
               IsEmpty());
 }
 
-/// Whether the filter has the samples too, or only a reconstruction.
+/// The result is the same whether the filter processes the samples too or only the reconstruction
+/// does.
 TEST_F(Residuals, OfAReconstructionAreThoseOfGatedFixesAndGyroSamplesToo) {
   testing::write_three_axis_pass(
       folder_.path(),
@@ -166,7 +165,7 @@ TEST_F(Residuals, OfAReconstructionAreThoseOfGatedFixesAndGyroSamplesToo) {
     Program program{{command, "--mission", (folder_.path() / "mission.toml").string(),
                      "--telemetry", folder_.path().string(), "--db", db_.string()}};
     ASSERT_EQ(program.exit_status(), 0) << program.log();
-    // The batch uses the fixes to two minutes behind the first one, the sequential that one.
+    // `batch` uses the fixes up to two minutes after the first one, `sequential` only that one.
     EXPECT_THAT(
         rows_of(db_,
                 "SELECT estimator, kind, dof, unit, rejected_by, count(*) FROM"

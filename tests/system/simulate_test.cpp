@@ -1,5 +1,3 @@
-// `spindrift simulate`, as a user runs it.
-
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -35,7 +33,7 @@ const std::string kLastMean =
 nlohmann::json simulated(const std::string& scenario, const std::filesystem::path& out) {
   Program program{{"simulate", scenario, "--out", out.string(), "--json"}};
   EXPECT_EQ(program.exit_status(), 0) << program.log();
-  // Standard error is a file here: no bar is drawn.
+  // Standard error is a file here, so no progress bar is drawn.
   EXPECT_EQ(program.log(), "");
   return nlohmann::json::parse(program.out());
 }
@@ -49,7 +47,7 @@ std::vector<std::string> lines_of(const std::filesystem::path& path) {
   return lines;
 }
 
-/// A scenario that comes with the program, changed.
+/// Returns a delivered scenario with a replacement.
 std::string changed(const TemporaryFolder& folder, const std::string& scenario,
                     const std::string& from, const std::string& to) {
   std::string text = text_of(scenario);
@@ -82,7 +80,7 @@ TEST(Simulate, MakesAPassOfWhichTheAxisIsFound) {
                                              place(real_of(db, "SELECT ra_deg" + kLastMean),
                                                    real_of(db, "SELECT dec_deg" + kLastMean))) *
                            180.0 / std::numbers::pi;
-  // Three sigma of a two-dimensional error, whose sigma is that of both axes together.
+  // Three sigma of a two-dimensional error, where sigma covers both directions.
   EXPECT_LT(error_deg, 3.0 * real_of(db, "SELECT sigma_deg" + kLastMean));
   EXPECT_NEAR(real_of(db, "SELECT spin_rate_rpm" + kLastMean), truth["rpm"],
               4.0 * real_of(db, "SELECT sigma_rpm" + kLastMean));
@@ -108,7 +106,7 @@ TEST(Simulate, TellsTheTruthAboutEveryFault) {
     EXPECT_EQ(truth[kind], counted[kind]) << kind;
     EXPECT_EQ(summary["faults"][kind], counted[kind]) << kind;
   }
-  // What came of 3600 true edges, and what came of nothing.
+  // Received edges consist of the 3600 true ones less the missing, plus spurious and doubled ones.
   const std::int64_t edges = summary["edges"];
   const std::int64_t missing = truth["missing"];
   EXPECT_EQ(edges + missing - counted["spurious"] - counted["doubled"], 3600);
@@ -145,7 +143,7 @@ TEST(Simulate, WritesCodedTelemetryOneRowARevolution) {
   for (std::size_t i = 0; i < sun1.size(); ++i) {
     EXPECT_THAT(rows[i + 1], StartsWith(sun1[i] + ","));
   }
-  // One turn a second, to a tenth of a millisecond; only the first frame has no neighbour.
+  // One turn takes 1 s, given to 0.1 ms; only the first frame has no predecessor.
   EXPECT_THAT(rows[1], StartsWith(sun1[0] + ",,0."));
   EXPECT_THAT(rows[2],
               ::testing::AnyOf(StartsWith(sun1[1] + ",0.999"), StartsWith(sun1[1] + ",1")));
@@ -235,8 +233,8 @@ TEST(Simulate, MakesASeparationThatIsReconstructed) {
   }
 }
 
-/// Of the attitudes that `process` makes of a pass, those at the instants of its true history: how
-/// many there are, and how many are off by more than four sigma.
+/// Counts the attitudes of `process` at the times of the true history, and those off by more than
+/// four sigma.
 struct Judged {
   int count = 0;
   int wrong = 0;
@@ -273,7 +271,7 @@ TEST(Simulate, MakesATumblingSatelliteWhoseAttitudeIsFound) {
   EXPECT_EQ(summary["files"].size(), 7U);
   EXPECT_EQ(summary["gyro_samples"], lines_of(out / "gyro.csv").size() - 1);
   const Judged judged = judged_attitudes(folder, out);
-  // At the latest from the first star fix on.
+  // There are attitudes at least from the first star fix on.
   EXPECT_GT(judged.count, 50);
   EXPECT_EQ(judged.wrong, 0);
 }
@@ -338,8 +336,8 @@ TEST(Simulate, PlotsHowTheBodyTurnedAndTheLoopsOfItsControl) {
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "no"));
 }
 
-/// A service of the pass in `out` that hears what `simulate --publish` sends of its scenario, and
-/// stops behind it. @return What was said of it.
+/// Runs a service that receives `simulate --publish` and is stopped afterwards.
+/// @return JSON output of `simulate`.
 nlohmann::json served(const std::string& scenario, const std::filesystem::path& out,
                       const std::filesystem::path& db) {
   const auto bus = bus_of_its_own();

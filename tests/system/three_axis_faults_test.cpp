@@ -1,5 +1,4 @@
-// Three-axis passes in which a sensor lies, or is not there, through the program: beside their
-// truth.
+// Three-axis passes with a faulty or missing sensor through the program, compared with their truth.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -31,7 +30,7 @@ struct Row {
   double error_sigmas;
 };
 
-/// At the instants of the truth.
+/// Returns the attitude rows at the times of the truth.
 std::vector<Row> rows_beside_truth(const std::filesystem::path& pass,
                                    const std::filesystem::path& db) {
   std::map<std::int64_t, Eigen::Quaterniond> truth;
@@ -61,10 +60,10 @@ std::vector<Row> rows_beside_truth(const std::filesystem::path& pass,
 
 struct Fault {
   const char* pass;
-  const char* sensor;    ///< The one that is named.
-  const char* quality;   ///< At the end.
-  double least_ok;       ///< Share of rows.
-  const char* left_out;  ///< Why its samples are.
+  const char* sensor;    ///< Sensor that the assessment names.
+  const char* quality;   ///< Quality at the end.
+  double least_ok;       ///< Lowest share of OK rows.
+  const char* left_out;  ///< Reason for which the sensor's samples are left out.
 };
 
 void PrintTo(const Fault& fault, std::ostream* out) { *out << fault.pass; }
@@ -123,7 +122,7 @@ TEST(ThreeAxisWithoutGyro, SunAndFieldGiveAnAttitude) {
   const Outcome outcome = process(folder, pass.path());
   ASSERT_EQ(outcome.status, 0) << outcome.log;
   EXPECT_EQ(outcome.run["attitude"]["quality"], "CONVERGING");
-  // A field and a Sun 10 ms later, 160 times.
+  // There are 160 pairs of a field and a sun sample 10 ms later.
   EXPECT_EQ(number_of(outcome.db, "SELECT count(*) FROM attitude"), 160);
   EXPECT_EQ(number_of(outcome.db, "SELECT count(*) FROM attitude WHERE sigma_deg > 2"), 0);
 }

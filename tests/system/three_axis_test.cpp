@@ -1,5 +1,3 @@
-// A three-axis spacecraft through the program: its samples, its attitude, its runs.
-
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -91,7 +89,7 @@ TEST(ThreeAxis, SunAndMagnetometerGiveTheAttitudeBeforeTheFirstStarFix) {
   const std::string mekf = " FROM attitude WHERE source = 'mekf'";
   EXPECT_LT(number_of(outcome.db, "SELECT min(t_tai_ns)" + mekf), acquisition + 5'000'000'000);
 
-  // What is known last without a star fix.
+  // The last attitude before the first star fix is compared with the truth at T4.
   const auto& q = truth["T4"]["q_icrf_body_xyzw"];
   const std::vector<std::string> last = rows_of(
       outcome.db,
@@ -105,7 +103,7 @@ TEST(ThreeAxis, SunAndMagnetometerGiveTheAttitudeBeforeTheFirstStarFix) {
   EXPECT_EQ(outcome.run["sensors"]["magnetometer"]["rejected"], nlohmann::json::object());
 }
 
-/// What an archive holds of a pass, but its runs.
+/// Returns what an archive holds of a pass, without its runs.
 std::vector<std::string> pass_rows(const std::filesystem::path& db) {
   std::vector<std::string> rows;
   for (const char* query :
@@ -121,7 +119,7 @@ std::vector<std::string> pass_rows(const std::filesystem::path& db) {
   return rows;
 }
 
-/// The last attitude that a late joiner is given.
+/// Returns the time of the last attitude that a late subscriber receives.
 std::int64_t last_on(const bus::BusConfig& bus) {
   const auto participant = bus::Participant::create(bus).value();
   const auto reader = bus::Reader<spindrift_AttitudeEstimate>::create(
@@ -187,7 +185,7 @@ TEST(ThreeAxis, BadRowsAreStoredWithTheirReasonAndTheOthersTakenInAnyOrder) {
                   "t_tai_ns,wx_rad_s,wy_rad_s,wz_rad_s\n"
                   "1772337697500000000,0.1,0,0\n"
                   "1772337697000000000,0.2,0,0\n"
-                  "1772337697000000000,0.3,0,0\n"  // Again.
+                  "1772337697000000000,0.3,0,0\n"  // Second value for the same time.
                   "1772337697250000000,nan,0,0\n"
                   "1772337697250000000,17.5,0,0\n"
                   "12,0,0,0\n"
@@ -206,11 +204,11 @@ TEST(ThreeAxis, BadRowsAreStoredWithTheirReasonAndTheOthersTakenInAnyOrder) {
   EXPECT_THAT(program.log(), HasSubstr("must have length 1 within 0.001"));
 }
 
-/// Of a kind, and a mission file without its sensor.
+/// Names a kind of telemetry whose sensor the mission file lacks.
 struct Sensorless {
   const char* file;
   const char* header;
-  const char* fields;  ///< Of every row, behind its time.
+  const char* fields;  ///< Fields of every row after its time.
   const char* sensors;
   const char* table;
   const char* warning;

@@ -1,5 +1,3 @@
-// The same samples from two files with different values, through the program.
-
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -34,7 +32,7 @@ struct Processed {
 
 class TwoSenders : public ::testing::Test {
  protected:
-  /// @param prefer Empty: none.
+  /// @param prefer Preferred source; empty for none.
   void prefer(const std::string& prefer) {
     mission_ = folder_.path() / "mission.toml";
     std::filesystem::copy_file(kPass / "orbit.oem", folder_.path() / "orbit.oem",
@@ -134,7 +132,7 @@ TEST_F(TwoSenders, TheValuesOfALaterRunAreItsOwnAndThatIsSaid) {
             0);
 }
 
-/// Four decimals of what has twelve.
+/// The copy has four decimals where the original has twelve.
 TEST_F(TwoSenders, ACopyWithFewerDigitsIsTheSameSample) {
   const auto copy = folder_.path() / "copy";
   std::filesystem::create_directory(copy);

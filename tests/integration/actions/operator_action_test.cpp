@@ -1,4 +1,4 @@
-// An operator's actions among the samples, in the archive, and after a restart.
+// Operator actions among the samples, in the archive, and after a restart.
 
 #include <gtest/gtest.h>
 
@@ -76,7 +76,7 @@ void work(Processor& processor, Routed routed, Archive& archive) {
   }
 }
 
-/// A service that takes these edges, and behind the first `kActed` of the pass what is said.
+/// Runs a service that receives the edges and, after the first `kActed` of the pass, the actions.
 struct Serving {
   std::filesystem::path db;
   std::string partition = "live";
@@ -154,7 +154,7 @@ TEST_F(OperatorActions, AreRepeatedByARestartToTheBit) {
   EXPECT_EQ(number("SELECT count(*) FROM run"), 1);
 }
 
-/// Of twelve turns, said ten later.
+/// A segment of twelve turns is excluded ten turns after its end.
 TEST_F(OperatorActions, LeaveAPastSegmentOutOfBatchAlsoAfterARestart) {
   const Samples all = edges();
   const TaiTime from = all[108].value.t;

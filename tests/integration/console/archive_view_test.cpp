@@ -1,4 +1,4 @@
-// Quantities that the archive does not hold as they are shown.
+// Series that the console derives because the archive does not hold them in that form.
 
 #include "services/console/archive_view.h"
 
@@ -16,7 +16,7 @@ constexpr std::int64_t kSecond_ns = 1'000'000'000;
 
 class ArchiveView : public testing::ArchiveFixture {
  protected:
-  /// Of a run of those products.
+  /// Stores a run of these products and returns the series.
   std::vector<SeriesPoint> values(SpacecraftKind kind, std::string_view name,
                                   const std::vector<Product>& products) {
     ArchiveBatch run = testing::start_of("run");
@@ -45,7 +45,7 @@ TEST_F(ArchiveView, HasThePhaseOfEveryEdgeBehindTheFirstOfItsTurn) {
       {RevolutionProduct{.revolution = 5, .t_sun1 = tai_from_ns(10 * kSecond_ns), .period_s = 2.0},
        edge(9 * kSecond_ns, std::nullopt, Rejection::Unassociated), edge(10'500'000'000, 5),
        edge(13 * kSecond_ns, std::nullopt, Rejection::Unassociated)});
-  ASSERT_EQ(found.size(), 2U);  // Nothing is known of the phase of the first.
+  ASSERT_EQ(found.size(), 2U);  // The first edge has no predicted phase.
   EXPECT_DOUBLE_EQ(found[0].value, 90.0);
   EXPECT_EQ(found[0].accepted, true);
   EXPECT_DOUBLE_EQ(found[1].value, 180.0);
@@ -71,7 +71,7 @@ TEST_F(ArchiveView, SaysWhichAcceptedEdgesTheFilterLeftOut) {
   EXPECT_EQ(found[0].accepted, true);
   EXPECT_EQ(found[0].used, false);
   EXPECT_EQ(found[0].held, (HeldAgainst{.off = 6.0, .limit = 5.0, .unit = "sigma"}));
-  EXPECT_EQ(found[1].used, std::nullopt);  // It was not asked.
+  EXPECT_EQ(found[1].used, std::nullopt);  // The edge was not tested.
 }
 
 TEST_F(ArchiveView, HasInnovationsAsNormalDeviates) {
@@ -83,7 +83,7 @@ TEST_F(ArchiveView, HasInnovationsAsNormalDeviates) {
                             .assessment = {},
                             .innovations = innovations};
   };
-  // Quantiles of a chi-square: 0.5 of 3 degrees of freedom, 0.99865 (3 sigma) of 5.
+  // Chi-square quantiles: 0.5 with 3 degrees of freedom, 0.99865 (3 sigma) with 5.
   const auto found = values(
       SpacecraftKind::ThreeAxis, "innovation",
       {attitude(kSecond_ns, {.squared = 2.365974, .freedom = 3}), attitude(2 * kSecond_ns, {}),

@@ -1,5 +1,3 @@
-// Every status of the console's interface, by a client of HTTP.
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -156,7 +154,7 @@ TEST_F(ConsoleAnswers, AnAcknowledgementOnceItIsStoredAndTold) {
                               "alert_transition WHERE from_state IS NOT NULL"),
               ElementsAre("night shift:seen:acknowledged"));
   EXPECT_EQ(client_->post(kAck, R"({"by":"night shift"})", token()).result_int(),
-            400U);  // Done already.
+            400U);  // The alert is already acknowledged.
 }
 
 TEST_F(ConsoleAnswers, ShelvingForAWhile) {

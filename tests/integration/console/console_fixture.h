@@ -1,5 +1,5 @@
 /// @file
-/// A console over an archive with a run and an open alert, and a client that speaks HTTP to it.
+/// A console on an archive with a run and an open alert, and an HTTP client for it.
 
 #pragma once
 
@@ -65,7 +65,7 @@ class ConsoleFixture : public testing::ArchiveFixture {
             .evidence = R"({"value":2.0,"limit":1.0})",
             .by = "spindrift"};
   }
-  /// As the service does.
+  /// Feeds committed batches to the console as the service does.
   void announce(std::span<const ArchiveBatch> stored) {
     for (const ArchiveBatch& batch : stored) {
       feed_.put_details(batch);
@@ -77,7 +77,7 @@ class ConsoleFixture : public testing::ArchiveFixture {
     }
   }
 
-  /// Takes what names an action.
+  /// Accepts every action that has a name.
   Expected<std::string> act(const nlohmann::json& action) {
     if (!action.contains("action")) {
       return Unexpected{{ErrorCode::InvalidInput, "action: is missing"}};

@@ -1,5 +1,3 @@
-// Many connections at once, and viewers of the events.
-
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

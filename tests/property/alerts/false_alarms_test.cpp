@@ -1,5 +1,3 @@
-/// Passes that are well raise nothing that asks for somebody.
-
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -15,7 +13,7 @@ using testing::SupervisedPass;
 using testing::with;
 
 constexpr int kPasses = 100;
-constexpr int kServed = 5;  // Every so manyth as `serve` computes it, too.
+constexpr int kServed = 5;  // Every fifth pass is also computed as `serve` does it.
 
 void expect_none(const RaisedByKey& raised, TaiTime start, int pass) {
   for (const auto& [key, alert] : raised) {
@@ -24,7 +22,7 @@ void expect_none(const RaisedByKey& raised, TaiTime start, int pass) {
   }
 }
 
-/// The end of telemetry is a silence.
+/// Expects only the silence at the end of the telemetry to be reported.
 void expect_none_but_the_end(const testing::Flight& flight, int pass) {
   SupervisedPass supervised{flight.mission, RunMode::Live};
   RaisedByKey raised = supervised.serve(flight.sent);

@@ -1,4 +1,4 @@
-/// Each of a table of faults is found; how soon is printed.
+/// Each fault of a table raises an alert; the delays are printed.
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -28,11 +28,11 @@ using Spoil = std::function<void(std::vector<Sent>&)>;
 
 struct Fault {
   std::string name;
-  std::set<std::string> keys;  ///< Any of which tells of it.
+  std::set<std::string> keys;  ///< Alert keys, any of which reports the fault.
   std::string scenario;
   std::string more_of_mission = {};
   double at_s = kFault_s;
-  Spoil sensors = [](auto& /*sent*/) {};  ///< Before the samples are numbered.
+  Spoil sensors = [](auto& /*sent*/) {};  ///< Applied to the samples before they are numbered.
   Spoil link = [](auto& /*sent*/) {};
 };
 
@@ -42,7 +42,7 @@ bool is_from(const Sent& one, const std::vector<Sent>& all, double t_s) {
   return seconds_between(all.front().came, one.came) >= t_s;
 }
 
-/// Of the samples from the fault on those go.
+/// Removes samples that come after the fault and satisfy `is_gone`.
 template <class IsGone>
 void erase(std::vector<Sent>& sent, const IsGone& is_gone) {
   const TaiTime from = shifted(sent.front().came, kFault_s);
@@ -67,7 +67,7 @@ Spoil dead() {
   };
 }
 
-/// @param change Is given the seconds since the fault, too.
+/// @param change Receives the value and the seconds since the fault.
 template <class Value>
 Spoil changed(const std::function<void(Value&, double)>& change) {
   return [change](std::vector<Sent>& sent) {
@@ -81,7 +81,7 @@ Spoil changed(const std::function<void(Value&, double)>& change) {
   };
 }
 
-/// Twelve degrees a second, which the gyro does not measure.
+/// Simulates a tumble at 12 deg/s that the gyro does not measure.
 void tumble(std::vector<Sent>& sent) {
   const auto turned = [](double t_s, const Eigen::Vector3d& axis) {
     return Eigen::AngleAxisd{12.0 * kRadPerDeg * t_s, axis};
@@ -101,7 +101,7 @@ void sort(std::vector<Sent>& sent) {
                    [](const Sent& a, const Sent& b) { return a.came < b.came; });
 }
 
-/// Beside each edge of sun2 one of north_in, half a millisecond later.
+/// Adds a north_in edge half a millisecond after each sun2 edge.
 void interfere(std::vector<Sent>& sent) {
   std::vector<Sent> more;
   for (const Sent& one : sent) {
@@ -139,7 +139,7 @@ void add_noise(std::vector<Sent>& sent) {
   sort(sent);
 }
 
-/// Once a second.
+/// Adds a magnetometer sample once a second.
 void add_magnetometer(std::vector<Sent>& sent) {
   const TaiTime start = sent.front().came;
   const double end_s = seconds_between(start, sent.back().came);
@@ -172,7 +172,7 @@ void restart(std::vector<Sent>& sent) {
   }
 }
 
-/// The last minute comes again, in a new session.
+/// Sends the last minute before the fault again in a new session.
 void repeat(std::vector<Sent>& sent) {
   std::vector<Sent> again;
   for (const Sent& one : sent) {
@@ -276,7 +276,7 @@ std::vector<Fault> faults() {
       {.name = "magnetometer dead",
        .keys = silent("magnetometer"),
        .scenario = leosat,
-       // So bad that any field agrees with it.
+       // The noise is so large that any field agrees with it.
        .more_of_mission = "\n[three_axis.magnetometer]\nnoise_nt = 100000.0\n",
        .sensors =
            [](std::vector<Sent>& sent) {

@@ -1,5 +1,6 @@
 /// @file
-/// Simulated passes as a service sees them: samples in, alerts out, without bus, archive and clock.
+/// Runs simulated passes through processing and supervision as a service does, without bus, archive
+/// and wall clock.
 
 #pragma once
 
@@ -33,7 +34,7 @@ inline TaiTime& time_of(AnySample& sample) {
   return std::visit([](auto& is) -> TaiTime& { return is.value.t; }, sample);
 }
 
-/// A sample, and when it comes.
+/// Holds a sample and its time of arrival.
 struct Sent {
   TaiTime came;
   AnySample sample;
@@ -41,10 +42,11 @@ struct Sent {
 
 struct Flight {
   Mission mission;
-  std::vector<Sent> sent;  ///< In order of time, by one source; they come when they are.
+  std::vector<Sent>
+      sent;  ///< Samples of one source in order of time; each arrives at its own time.
 };
 
-/// Each sample of a topic is the next of its session.
+/// Numbers the samples of each topic as one session.
 inline void number(std::vector<Sent>& sent) {
   std::map<std::size_t, std::uint64_t> next;
   for (Sent& one : sent) {
@@ -74,7 +76,7 @@ inline Flight flown(const std::string& scenario_text, const std::string& more_of
   return flight;
 }
 
-/// What was raised first under each key.
+/// Holds severity and time of the first alert under a key.
 struct Raised {
   AlertSeverity severity;
   TaiTime t;
@@ -90,7 +92,7 @@ class SupervisedPass {
     see(processor_.begin());
   }
 
-  /// As `process` does.
+  /// Processes all samples at once, like `process`.
   RaisedByKey process(const std::vector<Sent>& sent) {
     SampleBatch batch;
     std::int64_t arrival = 0;
@@ -102,7 +104,7 @@ class SupervisedPass {
     return raised_;
   }
 
-  /// As `serve` does, which looks once a second, and a while longer.
+  /// Processes the samples in steps of one second, like `serve`, and some seconds beyond their end.
   RaisedByKey serve(const std::vector<Sent>& sent) {
     constexpr int kLonger_s = 15;
     const TaiTime start = sent.front().came;
@@ -204,14 +206,14 @@ class SupervisedPass {
   RaisedByKey raised_;
 };
 
-/// Where it first stands.
+/// Replaces the first occurrence of `from`, which must exist.
 inline std::string with(std::string text, const std::string& from, const std::string& to) {
   const auto at = text.find(from);
   EXPECT_NE(at, std::string::npos) << from;
   return at == std::string::npos ? text : text.replace(at, from.size(), to);
 }
 
-/// deploy/scenarios/separation.toml without faults, and with star fixes from two minutes on.
+/// Returns deploy/scenarios/separation.toml without faults and with star fixes from 120 s on.
 inline std::string three_axis_text() {
   std::string text = text_of(scenarios() / "separation.toml");
   text = text.substr(0, text.find("[faults]"));

@@ -20,7 +20,7 @@ namespace spindrift::axis_candidates_every_case_test {
 using Scene = testing::AxisScene;
 using enum SpinQuantity;
 
-/// What is missing, and the case that it leaves.
+/// Holds what is missing and the geometry case that remains.
 struct Loss {
   std::set<PulseChannel> edges;
   std::set<SpinQuantity> quantities;
@@ -53,7 +53,7 @@ Revolution without(Revolution revolution, const std::set<PulseChannel>& edges) {
   return revolution;
 }
 
-/// A body anywhere, Sun and Earth where its sensors see them.
+/// Returns a body with any axis; Sun and Earth are where its sensors see them.
 Scene random_scene(HorizonModel model, std::mt19937_64& rng) {
   std::normal_distribution<double> normal;
   std::uniform_real_distribution<double> uniform{-1.0, 1.0};
@@ -72,7 +72,7 @@ Scene random_scene(HorizonModel model, std::mt19937_64& rng) {
   };
   scene.sun_icrf = away(90.0 + 35.0 * uniform(rng));
   scene.earth_icrf = away(90.0 + 10.0 * uniform(rng));
-  // Small: what comes of it is linear, and stays above the nanosecond.
+  // The noise is small enough for linearity but above the resolution of 1 ns.
   scene.config.noise = {.sun_s = 2e-6, .infrared_s = 2e-6};
   return scene;
 }
@@ -105,10 +105,10 @@ TEST_P(EveryCase, HasTheTrueAxisAmongItsCandidates) {
                            });
       const double off_rad = angle_between_rad(nearest->axis_icrf, scene.axis_icrf);
       if (found->near_tangent) {
-        // Only what is left over of cases 2 and 3 tells such roots apart.
+        // Only the redundant measurements of cases 2 and 3 tell such roots apart.
         ASSERT_TRUE(!found->told_apart || loss.quantities.empty());
         ASSERT_TRUE(!found->told_apart || loss.geometry_case < 4);
-        // A double root takes the square root of a nanosecond.
+        // Near a double root the error grows as the square root of the 1 ns resolution.
         found_true += off_rad < 1e-3 ? 1 : 0;
         continue;
       }
@@ -172,7 +172,7 @@ TEST_P(EveryCase, HasTheCovariancesOfCentralDifferences) {
       constexpr double kStep_s = 2e-6;
       for (std::size_t i = 0; i < found->candidates.size(); ++i) {
         const AxisCandidate& candidate = found->candidates[i];
-        // Where the geometry multiplies errors a hundredfold, differences are no measure.
+        // Finite differences fail where the geometry amplifies errors a hundredfold.
         if (candidate.covariance_rad2.trace() > std::pow(2e-4, 2)) {
           continue;
         }
@@ -191,7 +191,7 @@ TEST_P(EveryCase, HasTheCovariancesOfCentralDifferences) {
                                          solve(earlier)->candidates.at(i).axis_icrf);
           expected += moved * moved.transpose();
         }
-        // Of the step's square 1e-3 is lost where edges move by whole nanoseconds.
+        // Rounding of edges to nanoseconds costs 1e-3 of the squared step.
         ASSERT_LT((candidate.covariance_rad2 - expected).norm(), 3e-3 * expected.norm());
         ++compared;
       }
@@ -221,8 +221,8 @@ TEST(AxisCandidates, ConesAreNamed) {
   }
 }
 
-/// Sum over noisy copies of the revolution of the squared error, normalised by the covariance that
-/// the undisturbed revolution states.
+/// Returns the sum over noisy copies of the revolution of the squared error, normalised by the
+/// covariance of the undisturbed revolution.
 double squared_errors(const Scene& scene, const std::set<SpinQuantity>& left_out, int draws,
                       std::mt19937_64& rng) {
   const Revolution exact = scene.seen();
@@ -242,11 +242,11 @@ double squared_errors(const Scene& scene, const std::set<SpinQuantity>& left_out
 TEST_P(EveryCase, HasTheScatterThatTheNoiseMakes) {
   constexpr int kDraws = 3000;
   std::mt19937_64 rng{91};
-  // Noise small enough that the geometry is linear within it: 1e-4 rad of spin phase at most.
+  // At most 1e-4 rad of spin phase, so that the geometry is linear within the noise.
   Scene scene{.earth = GetParam()};
   scene.config.horizon.model = GetParam();
   scene.config.noise = {.sun_s = 2e-5, .infrared_s = 1e-4};
-  // 99.9 % of chi-square with 6000 degrees of freedom, standard deviation sqrt(12000).
+  // Chi-square with 6000 degrees of freedom has a standard deviation of sqrt(12000); 99.9 %.
   constexpr double kSpread = 3.29 * 109.5;
   for (const std::set<SpinQuantity>& left_out :
        {std::set<SpinQuantity>{}, std::set{SouthChord}, std::set{NorthChord},
@@ -257,14 +257,14 @@ TEST_P(EveryCase, HasTheScatterThatTheNoiseMakes) {
 }
 
 TEST(AxisCandidatesOnTheEllipsoid, TheScatterKnowsThatAnotherAxisSeesAnotherLimb) {
-  // A geometry in which that is 4.3 % of the squares.
+  // In this geometry that effect is 4.3 % of the squared error.
   std::mt19937_64 rng{93};
   Scene scene;
   for (int trial = 0; trial <= 6; ++trial) {
     scene = random_scene(HorizonModel::Ellipsoid, rng);
   }
   constexpr int kDraws = 20'000;
-  // 99.9 % of chi-square with 40,000 degrees of freedom: 2.3 %.
+  // The 99.9 % band of chi-square with 40,000 degrees of freedom is 2.3 % wide.
   EXPECT_NEAR(squared_errors(scene, {NorthChord, NorthDihedral}, kDraws, rng), 2.0 * kDraws,
               3.29 * std::sqrt(4.0 * kDraws));
 }
@@ -281,7 +281,7 @@ TEST(AxisCandidates, CovarianceGrowsWithTheSquareOfTheNoise) {
   const Eigen::Matrix2d once = scene.fix().value().covariance_rad2;
   scene.config.noise = {.sun_s = 2e-5, .infrared_s = 1e-4};
   const Eigen::Matrix2d twice = scene.fix().value().covariance_rad2;
-  // Edges move by whole nanoseconds: 5e-5 of the lesser noise.
+  // Rounding to nanoseconds is 5e-5 of the smaller noise.
   EXPECT_LT((twice - 4.0 * once).norm(), 4e-4 * twice.norm());
 }
 

@@ -1,5 +1,5 @@
-// The axis out of coded telemetry, from `spindrift simulate` to the archive of `spindrift process`:
-// its sigma is what the edges allow, and its errors are what the sigma promises.
+// Accuracy of the axis from coded telemetry, from `spindrift simulate` to the archive of `spindrift
+// process`: sigma reaches the information limit and is consistent with the errors.
 
 #include <gtest/gtest.h>
 
@@ -26,12 +26,12 @@ constexpr double kDuration_s = 600.0;
 constexpr int kPasses = 40;
 const std::filesystem::path kScenario = scenarios() / "gto-nominal.toml";
 
-/// Of the scenario, like the orbit and the sensors of the limit.
+/// Returns the scenario's axis.
 Eigen::Vector3d true_axis_icrf() {
   return direction_icrf({.ra_rad = 100.0 * kRadPerDeg, .dec_rad = -55.0 * kRadPerDeg});
 }
 
-/// The least standard deviation that any estimator can have.
+/// Returns the Cramer-Rao standard deviation of the axis for the scenario's orbit and sensors.
 double information_limit_rad() {
   const auto orbit = KeplerOrbit::make({.epoch = testing::kTransferStart,
                                         .semi_major_axis_km = 24400.0,
@@ -48,7 +48,7 @@ double information_limit_rad() {
   return std::sqrt(testing::cramer_rao_rad2(body, around, kDuration_s).trace());
 }
 
-/// The archive of a pass of coded frames.
+/// Processes a simulated pass of coded frames and returns its archive.
 std::filesystem::path processed(const TemporaryFolder& folder, int seed) {
   std::string text = text_of(kScenario);
   const std::string duration = "duration_s = 600.0\n";
@@ -84,8 +84,8 @@ Answer answer_of(const std::filesystem::path& db, const std::string& estimator) 
 }
 
 struct Sums {
-  double squared_error = 0.0;   ///< In units of the covariance.
-  double variance_ratio = 0.0;  ///< To the least that the edges allow.
+  double squared_error = 0.0;   ///< Sum of squared errors normalised by the covariance.
+  double variance_ratio = 0.0;  ///< Variance over the Cramer-Rao bound.
 };
 
 TEST(CodedAccuracy, SigmaIsWhatTheEdgesAllowAndErrorsAreWhatItPromises) {
@@ -104,14 +104,13 @@ TEST(CodedAccuracy, SigmaIsWhatTheEdgesAllowAndErrorsAreWhatItPromises) {
       sums->variance_ratio += answer.covariance_rad2.trace() / (limit_rad * limit_rad) / kPasses;
     }
   }
-  // 0.05 % and 99.95 % points of chi-square with 80 degrees of freedom: 99.9 % of all seeds lie
-  // between.
+  // The 0.05 % and 99.95 % points of chi-square with 80 degrees of freedom.
   for (const Sums& sums : {mean, sequential}) {
     EXPECT_GT(sums.squared_error, 44.79);
     EXPECT_LT(sums.squared_error, 128.26);
   }
   EXPECT_NEAR(sequential.variance_ratio, 1.0, 0.05);
-  // The mean uses whole fixes only: an edge whose revolution has none, or a bad one, is lost to it.
+  // The mean uses whole fixes only and loses the edges of revolutions without a good fix.
   EXPECT_GT(mean.variance_ratio, 0.95);
   EXPECT_LT(mean.variance_ratio, 1.25);
 }

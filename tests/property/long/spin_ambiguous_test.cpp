@@ -1,5 +1,5 @@
-/// Passes that nothing settles: they are said to be AMBIGUOUS, and the true axis is among those
-/// that are named.
+/// Passes whose ambiguity cannot be resolved are reported as AMBIGUOUS, and the true axis is among
+/// the named ones.
 
 #include <gtest/gtest.h>
 
@@ -24,12 +24,12 @@ namespace spindrift::spin_ambiguous_test {
 
 constexpr double kSigmas = 5.0;
 
-/// Within the noise, and what may be wrong with a model.
+/// Returns whether two axes agree within noise and the allowance for model errors.
 bool is_near(const Eigen::Vector3d& axis_icrf, double sigma_rad, const Eigen::Vector3d& true_icrf) {
   return angle_between_rad(axis_icrf, true_icrf) < kSigmas * sigma_rad + kModelLimit_rad;
 }
 
-/// The axis of the fix, or one of its alternates.
+/// Returns whether the true axis is the fix's axis or one of its alternates.
 bool lists(const SpinFix& fix, const Eigen::Vector3d& true_icrf) {
   bool found = is_near(fix.axis_icrf, std::sqrt(fix.covariance_rad2.trace()), true_icrf);
   for (const SpinAlternate& alternate : fix.alternates) {
@@ -39,7 +39,7 @@ bool lists(const SpinFix& fix, const Eigen::Vector3d& true_icrf) {
   return found;
 }
 
-/// The axis of the estimate, or the one that its assessment names.
+/// Returns whether the true axis is the estimate's axis or the one that its assessment names.
 bool names(const SpinEstimate& estimate, const Eigen::Vector3d& true_icrf) {
   const double sigma_rad = testing::sigma_rad(estimate);
   if (is_near(estimate.axis_icrf, sigma_rad, true_icrf)) {
@@ -53,7 +53,7 @@ bool names(const SpinEstimate& estimate, const Eigen::Vector3d& true_icrf) {
                  sigma_rad, true_icrf);
 }
 
-/// It says that there are no candidates but the two it names.
+/// Returns whether the estimate claims that only the two axes it names are possible.
 bool claims_to_name_all(const SpinEstimate& estimate) {
   return estimate.assessment.quality == Quality::Ambiguous &&
          has(estimate.assessment, ReasonCode::OtherAxis) &&
@@ -69,7 +69,7 @@ std::vector<SpinEstimate> of_sequential(const SpinOutput& output) {
 }
 
 TEST(SpinAmbiguous, CandidatesThatNothingSettlesAreSaidToBeAmbiguousToTheEnd) {
-  // Without sun slit 1 two axes of this pass keep fitting all edges alike.
+  // Without sun slit 1, two axes fit all edges of this pass alike.
   const Orbit orbit = testing::orbit_across_the_earth();
   const testing::SpinningBody body = testing::body_across_the_earth();
   auto edges = testing::edges_between(

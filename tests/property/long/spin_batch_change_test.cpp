@@ -1,6 +1,3 @@
-/// A change of attitude or rate is reported where there was one, and neither dirt nor a false axis
-/// passes for one.
-
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -31,7 +28,7 @@ using ::testing::StartsWith;
 constexpr double kPi = std::numbers::pi;
 constexpr double kRpm_rad_s = kPi / 30.0;
 
-/// As `process` does at the end of a pass.
+/// Solves the pass as `process` does at its end.
 Expected<BatchSolution> solved(const SpinConfig& config, const Orbit& orbit,
                                const std::vector<Pulse>& pulses) {
   PassEdges edges;
@@ -74,8 +71,8 @@ TEST(SpinBatchChange, IsNotMadeOfTheDirtOfASteadyPass) {
   EXPECT_GT(solutions, 150);
 }
 
-/// The Sun 6 deg from the axis, so that sun2 and the north beam see nothing: four axes are left,
-/// and fixes have chosen a false one.
+/// Holds a pass with the Sun 6 deg from the axis, so that sun2 and the north beam see nothing: four
+/// axes are possible, and the fixes chose a false one.
 struct HardPass {
   Orbit orbit = testing::transfer_with_node(91.06809);
   testing::SunEarthEphemeris around =
@@ -113,7 +110,7 @@ TEST(SpinBatchChange, DoesNotExplainAFalseAxis) {
   }
 }
 
-/// Ten minutes, with dirt, of a body whose axis moves by so much.
+/// Solves ten minutes of disturbed edges of a body whose axis moves by `by_rad` at `at_s`.
 Expected<BatchSolution> solved_moved(testing::BatchScene& scene, double at_s, double by_rad) {
   testing::SpinningBody after = scene.body;
   after.axis_icrf =
@@ -136,7 +133,7 @@ TEST(SpinBatchChange, IsFoundInDirtAndDated) {
     ASSERT_TRUE(solution) << solution.error().message;
     SCOPED_TRACE(sentence_of(solution->estimate.assessment));
     ASSERT_TRUE(solution->changed);
-    // A sixty-fourth of the pass, and the one beside it.
+    // The change is located to a 64th of the pass or the neighbouring one.
     EXPECT_NEAR(seconds_between(testing::kTransferStart, *solution->changed), 240.0, 20.0);
     EXPECT_TRUE(is_unopposed(solution->estimate.assessment.quality));
     EXPECT_LT(angle_between_rad(solution->estimate.axis_icrf, scene.body.axis_icrf),

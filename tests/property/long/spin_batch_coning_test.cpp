@@ -1,4 +1,4 @@
-/// Coning is found by `batch` where there is any, does not move the axis, and is not made up.
+/// `batch` finds coning where there is some, without moving the axis, and finds none otherwise.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -29,7 +29,7 @@ TEST(SpinBatchConing, IsNotMadeUpInAHundredCleanPasses) {
     EXPECT_FALSE(has(solution->estimate.assessment, ReasonCode::Coning));
     ASSERT_TRUE(solution->nutation);
     EXPECT_FALSE(solution->nutation->found) << sentence_of(solution->estimate.assessment);
-    // It does not widen what is known of the axis.
+    // The tested nutation must not widen the covariance of the axis.
     EXPECT_NEAR(std::sqrt(solution->estimate.covariance_rad2.trace()) / solution->bound_rad, 1.003,
                 0.001);
   }
@@ -43,7 +43,7 @@ TEST(SpinBatchConing, ThatIsAskedForIsFoundAndTheAxisIsThatOfTheSpin) {
   for (int pass = 0; pass < kPasses; ++pass) {
     SpinTruth truth = passes.drawn();
     passes.config().batch.biases = unknowns_of(ConingX);
-    // The prior's.
+    // Drawn from the prior.
     truth.motion.coning = {
         .tilt_rad = 0.5 * kRadPerDeg * std::sqrt(-2.0 * std::log(passes.uniform())),
         .azimuth_rad = 2.0 * std::numbers::pi * passes.uniform()};
@@ -53,7 +53,7 @@ TEST(SpinBatchConing, ThatIsAskedForIsFoundAndTheAxisIsThatOfTheSpin) {
     const double tilt_off_rad = solution->coning.verdict.tilt_rad - truth.motion.coning.tilt_rad;
     coning_squares += std::pow(tilt_off_rad / solution->coning.tilt_sigma_rad, 2);
   }
-  // 95 % of chi-square, 60 and 30 degrees of freedom.
+  // The 95 % bands of chi-square with 60 and 30 degrees of freedom.
   EXPECT_GT(squares, 40.5);
   EXPECT_LT(squares, 83.3);
   EXPECT_GT(coning_squares, 16.8);
@@ -76,7 +76,7 @@ TEST(SpinBatchConing, OfADegreeIsFoundUnaskedWhereItCanBe) {
       continue;
     }
     ++found;
-    // Nobody has asked for it: it may be something else.
+    // Coning that was not configured is DOUBTFUL: it may have another cause.
     EXPECT_EQ(solution->estimate.assessment.quality, Quality::Doubtful);
     EXPECT_TRUE(has(solution->estimate.assessment, ReasonCode::Coning));
     EXPECT_NEAR(solution->coning.verdict.tilt_rad, truth.motion.coning.tilt_rad,
@@ -88,7 +88,7 @@ TEST(SpinBatchConing, OfADegreeIsFoundUnaskedWhereItCanBe) {
   EXPECT_GE(found, 18);
 }
 
-/// No bias of the model is what one beam alone is off by about the axis; coning comes near.
+/// The model has no bias for an azimuth error of one beam; coning comes closest to it.
 TEST(SpinBatchConing, ThatAMisplacedBeamLooksLikeIsDoubtedAndInTheSigma) {
   testing::WobblingPasses passes{2414, 600.0};
   int coning = 0;

@@ -1,5 +1,5 @@
-/// Sensors out of place that nobody suspects: `batch` holds or adds biases as the edges have it,
-/// and the consider sigma is the error to expect of that.
+/// Misplaced sensors that the configuration does not mention: `batch` adds biases or not, and its
+/// consider sigma covers the resulting errors.
 
 #include <gtest/gtest.h>
 
@@ -15,7 +15,7 @@ namespace spindrift::spin_batch_consider_test {
 
 constexpr int kPasses = 200;
 
-/// Draws from the priors.
+/// Draws misplacements from the priors of the biases.
 class Misplacements {
  public:
   explicit Misplacements(std::uint64_t seed) : rng_{seed} {}
@@ -45,7 +45,7 @@ void misplace(SpinTruth& truth, Misplacements& drawn) {
                          .azimuth_rad = std::atan2(y_rad, x_rad)};
 }
 
-/// The second slit as one that is calibrated wrongly: asin(cot theta tan I) of another sun angle.
+/// Shifts sun2 as a calibration for another sun angle theta does, by asin(cot theta tan I).
 void misjudge_sun_angle(const SpinTruth& truth, double bias_rad, std::vector<PassEdge>& edges) {
   const double sun_angle_rad =
       std::acos(truth.motion.axis_icrf.dot(geometric_sun_icrf_km(truth.start).normalized()));
@@ -79,7 +79,7 @@ TEST(SpinBatchConsider, ItsSigmaIsTheErrorThatSensorsOutOfPlaceMake) {
   }
   RecordProperty("squares a pass", std::to_string(squares / kPasses));
   RecordProperty("squares a pass by sigma", std::to_string(sigma_squares / kPasses));
-  // 95 % where one direction has all of it: chi-square, one degree of freedom a pass.
+  // The 95 % band if the error lies in one direction: chi-square, one degree of freedom a pass.
   EXPECT_NEAR(squares / kPasses, 1.0, 1.96 * std::sqrt(2.0 / kPasses));
 }
 

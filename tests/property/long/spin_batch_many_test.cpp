@@ -1,5 +1,3 @@
-/// Two thousand passes: `batch` reaches the Cramer-Rao bound, with biases and without.
-
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -12,10 +10,10 @@ constexpr int kPasses = 2000;
 
 void expect_at_the_bound(const testing::BatchStatistics& sums) {
   EXPECT_EQ(sums.failures, 0);
-  // 95 % of chi-square, 4000 degrees of freedom.
+  // The 95 % band of chi-square with 4000 degrees of freedom.
   EXPECT_GT(sums.squares, 3826.6);
   EXPECT_LT(sums.squares, 4177.1);
-  // Three standard deviations above the bound itself.
+  // The limit is three standard deviations above the bound.
   EXPECT_LT(sums.rms_over_bound(), 1.05);
   EXPECT_LT(sums.rms_noise(), 0.05 / 3.0);
   ::testing::Test::RecordProperty("squares", std::to_string(sums.squares));
@@ -36,7 +34,7 @@ TEST(SpinBatchMany, ReachTheBoundWithBiases) {
 TEST(SpinBatchMany, ReachTheBoundWithAWideNorthChordThatIsRecovered) {
   const testing::BatchStatistics sums = testing::many_passes_with_a_wide_north_chord(kPasses, 2002);
   expect_at_the_bound(sums);
-  // One in 370; more than fourteen of 2000 are at odds of 1 in 2000.
+  // 3-sigma errors occur once in 370; more than 14 in 2000 have a probability of 1/2000.
   EXPECT_LE(sums.biases_beyond_three_sigmas, 14);
   EXPECT_GT(sums.biases, 1900);
 }
@@ -49,7 +47,7 @@ TEST(SpinBatchMany, ErrorsOfTwoHundredAreThoseThatTheCovariancePromisesWithBiase
   EXPECT_EQ(sums.failures, 0);
   EXPECT_GT(sums.squares, 346.5);
   EXPECT_LT(sums.squares, 457.3);
-  // Four sigmas of the mean of chi-squares of one degree each, which the prior correlates.
+  // Four sigma of the mean of chi-squares with one degree of freedom, correlated by the prior.
   ASSERT_GT(sums.biases, 100);
   EXPECT_NEAR(sums.bias_squares / sums.biases, 1.0, 4.0 * std::sqrt(2.0 / sums.biases));
 }
@@ -60,10 +58,10 @@ TEST(SpinBatchMany, AWideNorthChordIsRecoveredInTwoHundredAndTheAxisIsAtTheBound
   EXPECT_GT(sums.squares, 346.5);
   EXPECT_LT(sums.squares, 457.3);
   EXPECT_LT(sums.rms_over_bound(), 1.0 + 3.0 * sums.rms_noise());
-  // Where edges do not know the bias twice as well as its prior, none is stated.
+  // No bias is reported unless the edges at least halve the prior's sigma.
   EXPECT_GT(sums.biases, 180);
   EXPECT_NEAR(sums.bias_squares / sums.biases, 1.0, 4.0 * std::sqrt(2.0 / sums.biases));
-  // One in 370; more than four of 200 are at odds of 1 in 500.
+  // 3-sigma errors occur once in 370; more than 4 in 200 have a probability of 1/500.
   EXPECT_LE(sums.biases_beyond_three_sigmas, 4);
 }
 

@@ -1,5 +1,3 @@
-/// The axis of a nutating pass is as good as that of a steady one, and its covariance as true.
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -52,12 +50,12 @@ TEST(SpinBatchNutation, IsTakenOutAndTheAxisReachesTheBound) {
     bound_rad2 += solution->bound_rad * solution->bound_rad;
     steady_rad2 += steady->bound_rad * steady->bound_rad;
   }
-  // Which of the frequencies that look alike once a turn it is, noise hides at times.
+  // Noise sometimes hides which of the aliased frequencies is the true one.
   EXPECT_LE(periods_taken_for_another, 2);
-  // 95 % of chi-square, 240 degrees of freedom.
+  // The 95 % band of chi-square with 240 degrees of freedom.
   EXPECT_GT(squares, 199.0);
   EXPECT_LT(squares, 284.8);
-  // The mean of 120 squares of two degrees of freedom: 1.05 and 1.645 standard deviations of it.
+  // The mean of 120 squares with two degrees of freedom: 5 % plus 1.645 of its standard deviations.
   EXPECT_LT(std::sqrt(error_rad2 / bound_rad2), 1.05 + 0.5 * 1.645 * std::sqrt(2.0 / 240.0));
   EXPECT_NEAR(std::sqrt(bound_rad2 / steady_rad2), 1.0, 0.03);
   RecordProperty("squares", std::to_string(squares));
@@ -74,7 +72,8 @@ TEST(SpinBatchNutation, OfDegreesIsTakenOutToo) {
     ASSERT_TRUE(solution) << solution.error().message;
     SCOPED_TRACE(sentence_of(solution->estimate.assessment));
     EXPECT_TRUE(is_unopposed(solution->estimate.assessment.quality));
-    EXPECT_LT(testing::axis_error(*solution, truth).squares, 13.8);  // One in a thousand.
+    // The 99.9 % point of chi-square.
+    EXPECT_LT(testing::axis_error(*solution, truth).squares, 13.8);
     ASSERT_TRUE(solution->nutation->found);
     const FoundNutation& found = *solution->nutation->found;
     EXPECT_NEAR(found.half_angle_rad.value, half_angle_deg * kRadPerDeg,

@@ -1,4 +1,4 @@
-/// A spin rate that changes at once, as spin-up and despin do: said when, and solved from there on.
+/// `batch` reports when the spin rate steps, as at spin-up and despin, and solves from there on.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -17,7 +17,7 @@ using ::testing::StartsWith;
 constexpr double kRpm_rad_s = std::numbers::pi / 30.0;
 constexpr double kStepAt_s = 240.0;
 
-/// The azimuth goes on; only its rate changes.
+/// Returns the edges of a body whose rate steps while its azimuth stays continuous.
 std::vector<PassEdge> stepped(testing::WobblingPasses& passes, const SpinTruth& before,
                               double step_rpm) {
   SpinTruth after = before;
@@ -43,11 +43,12 @@ TEST(SpinBatchRateStep, OfAnySizeIsDatedToATurnOrSoAndSolvedFromThereOn) {
     ASSERT_TRUE(solution) << solution.error().message;
     SCOPED_TRACE(sentence_of(solution->estimate.assessment));
     ASSERT_TRUE(solution->changed);
-    // The smaller the step, the later its edges leave the noise.
+    // The edges of a smaller step take longer to leave the noise.
     EXPECT_NEAR(seconds_between(truth.start, *solution->changed), kStepAt_s,
                 std::abs(step_rpm) < 0.04 ? 10.0 : 4.0);
     EXPECT_TRUE(is_unopposed(solution->estimate.assessment.quality));
-    EXPECT_LT(testing::axis_error(*solution, truth).squares, 13.8);  // One in a thousand.
+    // The 99.9 % point of chi-square.
+    EXPECT_LT(testing::axis_error(*solution, truth).squares, 13.8);
     EXPECT_NEAR(solution->estimate.spin_rate_rad_s, truth.motion.rate_rad_s + step_rpm * kRpm_rad_s,
                 4.0 * solution->estimate.spin_rate_sigma_rad_s);
   }

@@ -1,5 +1,3 @@
-/// The covariance of `batch` is a promise, and its bound is that of Fisher.
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -20,7 +18,7 @@ TEST(SpinBatch, ErrorsAreThoseThatTheCovariancePromises) {
   const testing::BatchStatistics sums =
       testing::many_passes(200, {.turns = 60.0, .estimated = {}}, 1777);
   EXPECT_EQ(sums.failures, 0);
-  // 95 % of chi-square, 400 degrees of freedom.
+  // The 95 % band of chi-square with 400 degrees of freedom.
   EXPECT_GT(sums.squares, 346.5);
   EXPECT_LT(sums.squares, 457.3);
 }
@@ -41,9 +39,9 @@ TEST(SpinBatch, TheBoundIsThatOfTheInformationLimitAndThatOfThePlan) {
         {{testing::start_near(body, kRadPerDeg, rng)}});
     ASSERT_TRUE(solution) << solution.error().message;
     const double limit_rad = std::sqrt(testing::cramer_rao_rad2(body, around, duration_s).trace());
-    // The limit knows that the rate does not drift, which the axis hardly depends on.
+    // The limit assumes a rate without drift, which hardly affects the axis.
     EXPECT_NEAR(solution->bound_rad / limit_rad, 1.0, 0.01) << "pass " << pass;
-    // What `geometry` says beforehand.
+    // The prediction of `geometry` for the same pass.
     const TaiTime end = later_by_s(testing::kTransferStart, duration_s);
     const auto plan = plan_pass(config, orbit,
                                 {.from = testing::kTransferStart,
@@ -84,7 +82,7 @@ TEST(SpinBatch, NoiseBeyondWhatIsStatedIsDoubtedAndCovered) {
           testing::error_rad(solution->estimate.axis_icrf, scene.body.axis_icrf);
       squares += testing::normalised_square(error_rad, solution->estimate.covariance_rad2);
     }
-    // 99 % of chi-square, 40 degrees of freedom.
+    // The 99 % band of chi-square with 40 degrees of freedom.
     EXPECT_GT(squares, 20.7);
     EXPECT_LT(squares, 66.8);
   }

@@ -1,6 +1,3 @@
-/// Passes of a body whose rate drifts: rate and axis are right and their sigma means what it says,
-/// at every time of the pass.
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -28,19 +25,19 @@ constexpr double kRpm_rad_s = std::numbers::pi / 30.0;
 
 struct DriftingPass {
   Orbit orbit = testing::transfer_orbit();
-  double rate_rad_s;  ///< At the start.
+  double rate_rad_s;  ///< Spin rate at the start.
   double drift_rad_s2;
 
   double rate_at(double t_s) const { return rate_rad_s + drift_rad_s2 * t_s; }
-  /// When a body of constant rate would have turned as far.
+  /// Returns the time at which a body of constant rate would have turned as far as at `t_s`.
   double even_s(double t_s) const { return t_s + 0.5 * drift_rad_s2 / rate_rad_s * t_s * t_s; }
-  /// The inverse.
+  /// Returns the inverse of even_s().
   double drifting_s(double even_s) const {
     const double rate_then = std::sqrt(1.0 + 2.0 * drift_rad_s2 / rate_rad_s * even_s);
     return 2.0 * even_s / (1.0 + rate_then);
   }
 
-  /// Sun and Earth as the body sees them, by the time of constant rate.
+  /// Returns Sun and Earth by the time that even_s() gives.
   testing::SunEarthEphemeris around() const {
     const auto seen = testing::seen_from(orbit, testing::spherical_horizon_km(40.0));
     const DriftingPass pass = *this;
@@ -83,7 +80,7 @@ TEST(SpinDrift, RateAndAxisMeanWhatTheirSigmasSay) {
                               .drift_rad_s2 = drift_rpm_h * kRpm_rad_s / 3600.0};
       SpinningBody body = testing::random_body(pass.around(), 2.0 * kRadPerDeg, rng);
       body.rate_rad_s = pass.rate_rad_s;
-      // As good in angle at every rate.
+      // The timing noise is chosen to be the same angle at every rate.
       body.config.noise = {.sun_s = 6e-3 / rpm, .infrared_s = 3e-2 / rpm};
       const double duration_s = std::clamp(200.0 * 60.0 / rpm, 120.0, 1200.0);
       const SpinOutput output =
@@ -100,7 +97,7 @@ TEST(SpinDrift, RateAndAxisMeanWhatTheirSigmasSay) {
         EXPECT_LT(angle_between_rad(last.axis_icrf, body.axis_icrf),
                   4.0 * testing::sigma_rad(last));
         EXPECT_FALSE(testing::restarted(last.assessment)) << sentence_of(last.assessment);
-        // Half an rpm an hour, seen for a minute.
+        // The limit is half an rpm an hour over a minute.
         EXPECT_LT(last.spin_rate_sigma_rad_s, 0.5 / 60.0 * kRpm_rad_s);
       }
     }

@@ -1,5 +1,5 @@
-/// Two cones meet in two axes. Over many passes with the dihedral withheld the true one is chosen,
-/// or AMBIGUOUS said.
+/// Two cones intersect in two axes. With the dihedral withheld, the fixes of many passes choose the
+/// true axis or report AMBIGUOUS.
 
 #include <gtest/gtest.h>
 
@@ -27,11 +27,11 @@ constexpr double kRate_rad_s = 2.0 * kPi;
 constexpr int kPasses = 200;
 const TaiTime kStart = tai_from_ns(1'795'143'637'000'000'000);
 
-/// What is wrong with the model, in the way that a real pass shows it.
+/// Holds model errors as a real pass shows them.
 struct Flaws {
-  double mounting_rad = 0.0;  ///< Of both beams.
+  double mounting_rad = 0.0;  ///< Mounting angle error of both beams.
   double azimuth_rad = 0.0;
-  double limb_rad = 0.0;  ///< The oblate Earth's limb falls short of the sphere by up to this.
+  double limb_rad = 0.0;  ///< Largest shortfall of the oblate Earth's limb against the sphere.
 };
 
 struct Pass {
@@ -39,7 +39,7 @@ struct Pass {
   Eigen::Vector3d sun_icrf;
   Eigen::Vector3d earth_start_icrf;
   Eigen::Vector3d orbit_normal_icrf;
-  double turn_rad;  ///< The Earth's direction turns by this from beginning to end.
+  double turn_rad;  ///< Rotation of the Earth direction during the pass.
   double disc_start_rad;
   double disc_end_rad;
   int revolutions;
@@ -50,7 +50,7 @@ struct Pass {
             .disc_rad = disc_start_rad + (disc_end_rad - disc_start_rad) * share,
             .earth_pole_icrf = Eigen::Vector3d::UnitZ()};
   }
-  /// Both sensors see what they need, all through.
+  /// Returns whether both sensors see Sun and Earth during the whole pass.
   bool visible() const {
     for (const double share : {0.0, 0.25, 0.5, 0.75, 1.0}) {
       const SunEarthDirections there = at(share);
@@ -87,7 +87,7 @@ class Passes {
     }
   }
 
-  /// One revolution's pulses, from the angles of the spherical triangles.
+  /// Returns the pulses of one revolution, computed from the spherical triangles.
   Revolution seen(const Pass& pass, int number, const SpinConfig& config, const Flaws& flaws) {
     const SunEarthDirections there = pass.at(static_cast<double>(number) / pass.revolutions);
     const PredictedAngles angles = predict_angles(pass.axis_icrf, there.sun_icrf, there.earth_icrf);
@@ -108,7 +108,7 @@ class Passes {
             std::asin(std::tan(config.sun_sensor.slit_cant_rad) / std::tan(angles.sun_angle_rad)));
     for (const Side side : kSides) {
       const InfraredSensor& sensor = *sensor_of(config, side);
-      // The limb is lowest in the direction of the Earth's poles.
+      // The limb is lowest towards the Earth's poles.
       const double polar = 1.0 - std::pow(there.earth_icrf.z(), 2);
       const double disc_rad =
           there.disc_rad - flaws.limb_rad * polar * (side == Side::North ? 1.0 : 0.4);
@@ -140,7 +140,7 @@ class Passes {
 
 struct Outcome {
   int chosen = 0;  ///< Fixes that are accepted at the end of the pass.
-  int wrong = 0;   ///< Of these, those where another candidate is nearer to the truth.
+  int wrong = 0;   ///< Chosen fixes with another candidate nearer to the truth.
   int resolved_later = 0;
 };
 

@@ -1,5 +1,5 @@
-/// The covariance of the sequential filter is a promise: over many passes the errors divided by it
-/// have the statistics that it claims, and it is as small as the information limit allows.
+/// The errors of the sequential filter over many passes are consistent with its covariance, which
+/// reaches the information limit.
 
 #include <gtest/gtest.h>
 
@@ -32,7 +32,7 @@ constexpr int kPasses = 200;
 constexpr double kRevolutions = 40.0;
 constexpr double kFixSigma_rad = 0.5 * kRadPerDeg;
 
-/// A set of channels that is all there is, from a fix of 0.5 deg on.
+/// Names the channels that are available after an initial fix of 0.5 deg.
 struct Subset {
   std::string name;
   std::vector<PulseChannel> channels;
@@ -102,16 +102,18 @@ TEST(SpinFilterStatistics, ErrorsAreThoseThatTheCovariancePromises) {
           (estimate.spin_rate_rad_s - body.rate_rad_s) / estimate.spin_rate_sigma_rad_s, 2);
     }
   }
-  // Chi-square of 400 degrees of freedom. All edges: its 95 % band. The subsets are nine more
-  // draws: 99.9 % each.
+  // Chi-square with 400 degrees of freedom: the 95 % band for all edges, 99.9 % for each of the
+  // nine subsets.
   EXPECT_GT(sums.front().axis, 346.48);
   EXPECT_LT(sums.front().axis, 457.31);
   for (std::size_t i = 0; i < kSubsets.size(); ++i) {
     SCOPED_TRACE(kSubsets.at(i).name);
     EXPECT_GT(sums.at(i).axis, 313.4);
     EXPECT_LT(sums.at(i).axis, 499.7);
-    // The rate might wander (spin_filter.cpp): as it does not, it is known better than promised.
-    EXPECT_LT(sums.at(i).rate, 272.5);  // 99.95 % of chi-square, 200 degrees of freedom.
+    // The filter allows for a wandering rate (spin_filter.cpp). This rate is constant, so its error
+    // is below its sigma.
+    // The 99.95 % point of chi-square with 200 degrees of freedom.
+    EXPECT_LT(sums.at(i).rate, 272.5);
     RecordProperty(kSubsets.at(i).name, std::to_string(sums.at(i).axis));
   }
 }
@@ -131,13 +133,13 @@ TEST(SpinFilterStatistics, SigmaIsThatOfTheInformationLimit) {
     const SpinEstimate estimate = last_estimate(body.config, revolutions, fix);
     const double limit_rad = std::sqrt(testing::cramer_rao_rad2(body, around, duration_s).trace());
     const double sigma_rad = std::sqrt(estimate.covariance_rad2.trace());
-    // One of 40 revolutions is left to the fix, whose own weight is about as much.
+    // One of 40 revolutions is used up by the initial fix, whose own weight is about as large.
     EXPECT_NEAR(sigma_rad / limit_rad, 1.0, 0.05) << "pass " << pass;
   }
 }
 
-/// Edges of a body whose rate drifts evenly: time is stretched so that the oracle's body, and all
-/// about it, see it turn evenly.
+/// Returns the edges of a body with constant drift: time is stretched so that the oracle's body and
+/// its surroundings turn at a constant rate.
 std::vector<testing::Edge> drifting_edges(const SpinningBody& body, const SunEarthEphemeris& around,
                                           double drift_rad_s2, double revolutions) {
   const double relative = drift_rad_s2 / body.rate_rad_s;
@@ -194,7 +196,7 @@ TEST(SpinFilterStatistics, AnEvenDriftOfTheRateIsFollowed) {
     }
   }
   ASSERT_EQ(passes, 16);
-  EXPECT_LT(axis, 62.5);  // 99.9 % of chi-square (both ends), 32 degrees of freedom.
+  EXPECT_LT(axis, 62.5);  // The 99.9 % point (two-sided) of chi-square with 32 degrees of freedom.
   EXPECT_GT(axis, 12.7);
 }
 

@@ -1,5 +1,3 @@
-/// The axis moves, or the spin rate steps, in mid-pass: estimates must not sit between.
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -38,7 +36,7 @@ struct Scene {
     return testing::pulses_from(testing::edges_between(body, around, from_s, to_s),
                                 testing::kTransferStart, body.config.noise, rng);
   }
-  /// The pass of a body that becomes another one.
+  /// Runs a pass in which the body `before` is replaced by `after` at `kStep_s`.
   SpinOutput run(const testing::SpinningBody& before, const testing::SpinningBody& after,
                  std::mt19937_64& rng) const {
     std::vector<Pulse> pulses = seen(before, 0.0, kStep_s, rng);

@@ -1,6 +1,3 @@
-/// Whatever the geometry, and however few the fixes: no mean that is published as OK is wrong, and
-/// none lies apart from its fixes. Over many passes.
-
 #include <gtest/gtest.h>
 
 #include "tests/support/every_mean.h"

@@ -1,5 +1,4 @@
-/// Whatever the geometry, and however few the fixes: no mean that is published as OK is wrong, and
-/// none lies apart from its fixes.
+/// For any geometry and number of fixes, no OK mean is wrong and none lies apart from its fixes.
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
-/// Passes of satellites that are not what their mission file says: the mean has an error that no
-/// number of fixes reduces, and must not claim to be better than it is.
+/// Satellites that differ from their mission file: the mean has a bias that more fixes do not
+/// reduce, and its sigma must not claim otherwise.
 
 #include <gtest/gtest.h>
 
@@ -20,7 +20,7 @@ namespace spindrift::spin_model_errors_test {
 
 constexpr double kRevolutions = 300.0;
 
-/// What the mission file says differs from the body by so much.
+/// Changes the mission's configuration so that it differs from the body.
 struct Mistake {
   std::string name;
   std::function<void(SpinConfig& said)> make;
@@ -44,14 +44,14 @@ std::vector<Mistake> mistakes(double size_rad) {
 
 struct Outcome {
   std::string mistake;
-  double sigmas;  ///< The error over what the mean says of it.
+  double sigmas;  ///< Error of the mean over its sigma.
   Assessment assessment;
 
   bool model_off() const { return has(assessment, ReasonCode::ModelOff); }
   bool doubtful() const { return assessment.quality == Quality::Doubtful; }
 };
 
-/// Every mistake on every body, whose north chords are too long by `excess_rad`.
+/// Runs every mistake on every body; north chords are too long by `excess_rad`.
 std::vector<Outcome> outcomes_of(const std::vector<Mistake>& mistakes, double excess_rad,
                                  int bodies) {
   const Orbit orbit = testing::transfer_orbit();
@@ -84,8 +84,8 @@ std::vector<Outcome> outcomes_of(const std::vector<Mistake>& mistakes, double ex
   return outcomes;
 }
 
-/// Shares are those of sixty bodies with other seeds (both signs of each mistake); limits lie four
-/// sigmas from them for the bodies of this test.
+/// The expected shares come from sixty bodies with other seeds (both signs of each mistake). The
+/// limits are four sigmas wider for the number of bodies here.
 TEST(SpinModelErrors, OfADegreeAreCoveredWhereverTheyShow) {
   int separations_shown = 0;
   int separations_uncovered = 0;
@@ -99,17 +99,19 @@ TEST(SpinModelErrors, OfADegreeAreCoveredWhereverTheyShow) {
     separations_shown += separation && outcome.model_off() ? 1 : 0;
     separations_uncovered += separation && outcome.model_off() && uncovered ? 1 : 0;
     azimuths_believed += azimuth && !outcome.doubtful() ? 1 : 0;
-    // A mean that has just begun anew has too few fixes to show anything, and says so.
+    // A mean that has just restarted reports too few fixes instead of a wrong model.
     EXPECT_TRUE(outcome.model_off() || has(outcome.assessment, ReasonCode::FewFixes) || !azimuth);
-    // With Sun and Earth both across the axis, the sun angle touches next to nothing that could be
-    // compared: the cant often nothing, the separation so little that noise may hide it.
+    // With Sun and Earth perpendicular to the axis, the sun angle hardly affects anything that can
+    // be compared, so noise may hide a wrong separation.
     mounts_uncovered += outcome.mistake.ends_with("mount") && uncovered ? 1 : 0;
     EXPECT_FALSE(uncovered && outcome.model_off() && !separation);
   }
-  EXPECT_GE(separations_shown, 15);     // Of 32: 50 of 60, both signs of a body alike.
-  EXPECT_LE(separations_uncovered, 4);  // 1 of 50 that show: what noise hides of them.
-  EXPECT_LE(mounts_uncovered, 3);       // Of 64: none of 120, where next to nothing shows it.
-  EXPECT_LE(azimuths_believed, 4);      // Of 64: 1 of 120.
+  // 32 bodies; the share with other seeds was 50 of 60, both signs of a body alike.
+  EXPECT_GE(separations_shown, 15);
+  EXPECT_LE(separations_uncovered, 4);  // Noise hides 1 of 50 that show.
+  // 64 outcomes; none of 120 with other seeds, where hardly anything shows the error.
+  EXPECT_LE(mounts_uncovered, 3);
+  EXPECT_LE(azimuths_believed, 4);  // 64 outcomes; 1 of 120 with other seeds.
 }
 
 TEST(SpinModelErrors, OfThreeTenthsOfADegreeAreCoveredWhereverTheyShow) {
@@ -119,9 +121,10 @@ TEST(SpinModelErrors, OfThreeTenthsOfADegreeAreCoveredWhereverTheyShow) {
     shown += outcome.model_off() ? 1 : 0;
     EXPECT_TRUE(outcome.model_off() || !outcome.mistake.ends_with("azimuth"));
     EXPECT_LT(outcome.model_off() ? outcome.sigmas : 0.0, 3.5);
-    EXPECT_FALSE(outcome.doubtful());  // Two sigmas of what is allowed for.
+    EXPECT_FALSE(outcome.doubtful());  // The error is two sigmas of the allowance for model errors.
   }
-  EXPECT_GT(shown, 90);  // Of 192: 231 of 360, four sigmas of sixteen bodies.
+  EXPECT_GT(shown,
+            90);  // 192 outcomes; 231 of 360 with other seeds, minus four sigmas of sixteen bodies.
 }
 
 TEST(SpinModelErrors, OfAChordAreCovered) {

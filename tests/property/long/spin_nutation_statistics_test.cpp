@@ -1,4 +1,5 @@
-/// The same as spin_nutation_test.cpp in numbers that let the sigmas and chances be judged.
+/// Consistency of sigmas and false-alarm probabilities of the nutation search over many trials; the
+/// single cases are in spin_nutation_test.cpp.
 
 #include <gtest/gtest.h>
 
@@ -26,7 +27,7 @@ TEST(SpinNutationStatistics, PeriodHalfAngleAndLeanAreWithinTheirSigmas) {
     period += std::pow(off.period_sigmas, 2);
     lean += std::pow(off.lean_sigmas, 2);
   }
-  // 99.9 % of the chi-square of 200, over 200: 1 -+ 3.29 sqrt(2 / 200).
+  // The 99.9 % band of chi-square with 200 degrees of freedom over 200: 1 -+ 3.29 sqrt(2 / 200).
   for (const double sum : {half_angle, period, lean}) {
     EXPECT_NEAR(sum / kTrials, 1.0, 0.33);
   }
@@ -41,8 +42,8 @@ TEST(SpinNutationStatistics, NoiseAloneShowsNoneAndItsChancesAreAsStated) {
     EXPECT_FALSE(search.found);
     at_most_a_tenth += search.false_alarm <= 0.1 ? 1 : 0;
   }
-  // Stated is a bound, and a grid finds a little less than the top: 40 expected at most, 6 their
-  // standard deviation.
+  // The stated probability is a bound, and a grid misses the peak slightly: at most 40 are
+  // expected, with a standard deviation of 6.
   EXPECT_LT(at_most_a_tenth, 60);
   EXPECT_GT(at_most_a_tenth, 8);
 }
@@ -57,7 +58,7 @@ TEST(SpinNutationStatistics, AtTheLimitOfDetection95Of100AreFound) {
     found += trials.searched(trials.random_nutation(limit_deg)).found ? 1 : 0;
     found_at_half += trials.searched(trials.random_nutation(0.5 * limit_deg)).found ? 1 : 0;
   }
-  // 190 expected, 3 their standard deviation.
+  // 190 are expected, with a standard deviation of 3.
   EXPECT_GT(found, 180);
   EXPECT_LT(found_at_half, 40);
 }

@@ -1,5 +1,5 @@
-/// Passes that have two axes or four to choose from, because a slit or a beam is dead: over random
-/// orbits and axes no estimate is confidently wrong.
+/// Passes with two or four possible axes because a slit or a beam is dead: over random orbits and
+/// axes no estimate is confidently wrong.
 
 #include <gtest/gtest.h>
 
@@ -49,7 +49,7 @@ const std::array<DeadSensors, 5> kDead = {{{"case 4", {Sun2}},
                                            {"case 7", {Sun1}},
                                            {"case 5 with sun2", {Sun1, SouthIn, SouthOut}}}};
 
-/// Rises or sinks through two to six Earth radii.
+/// Returns an orbit that rises or descends through two to six Earth radii.
 Orbit random_orbit(std::mt19937_64& rng) {
   std::uniform_real_distribution<double> uniform;
   const double inclination_rad = 60.0 * uniform(rng) * kRadPerDeg;
@@ -69,7 +69,7 @@ Orbit random_orbit(std::mt19937_64& rng) {
 
 struct Outcome {
   bool fix_accepted = false;
-  bool sure = false;  ///< `sequential` ends with OK.
+  bool sure = false;  ///< Whether the last row of `sequential` is OK.
 };
 
 Outcome judged(const SpinOutput& output, const Eigen::Vector3d& true_icrf) {
@@ -112,7 +112,7 @@ std::vector<Pulse> without(const std::vector<Pulse>& pulses, const std::set<Puls
   return left;
 }
 
-/// A spurious edge of a dead channel, anywhere, in so many of all turns.
+/// Adds one spurious edge of each dead channel at a random phase in `share` of the turns.
 std::vector<Pulse> with_strays(std::vector<Pulse> pulses, const std::set<PulseChannel>& dead,
                                double share, double period_s, std::mt19937_64& rng) {
   std::uniform_real_distribution<double> uniform;
@@ -179,7 +179,7 @@ TEST(SpinPassDual, APriorChoosesTheAxisNearIt) {
   }
 }
 
-/// The candidate of the pass's first revolutions that is farthest from the truth.
+/// Returns the candidate of the pass's first revolutions that is farthest from the truth.
 std::optional<Eigen::Vector3d> false_axis(const testing::SpinningBody& body, const Orbit& orbit,
                                           const std::vector<Pulse>& pulses) {
   constexpr std::ptrdiff_t kFirstPulses = 120;
@@ -208,8 +208,8 @@ struct PriorOutcome {
   int sure = 0;
 };
 
-/// Passes in which the Earth's direction turns by 10 deg and more, with a prior of 3 deg that is
-/// off by 1 deg, at the truth or at a false candidate.
+/// Runs passes in which the Earth direction turns by at least 10 deg, with a prior of sigma 3 deg
+/// that is about 1 deg off the truth or a false candidate.
 std::map<std::string, PriorOutcome> with_prior(bool at_the_truth) {
   std::mt19937_64 rng{79};
   std::normal_distribution<double> normal{0.0, 1.0 * kRadPerDeg};
@@ -248,7 +248,7 @@ std::map<std::string, PriorOutcome> with_prior(bool at_the_truth) {
           last = estimate;
         }
       }
-      // Of an axis whose fixes all graze no prior makes sure.
+      // No prior makes an axis certain whose fixes are all near tangent.
       outcome.estimated += last && !has(last->assessment, ReasonCode::FixesNearTangent) ? 1 : 0;
       if (last && is_unopposed(last->assessment.quality)) {
         ++outcome.sure;
@@ -284,7 +284,7 @@ TEST(SpinPassDual, ATruePriorStands) {
   EXPECT_GE(sure, 0.95 * estimated);
 }
 
-/// A pass without the north beam's pulses, though the axis lets it see the Earth.
+/// Runs a pass without pulses of the north beam although the beam crosses the Earth.
 SpinOutput without_north(bool said_to_be_healthy) {
   std::mt19937_64 rng{80};
   const Orbit orbit = testing::transfer_orbit();

@@ -1,5 +1,3 @@
-/// Twenty bodies at each rate, where one is looked at in every run of the tests.
-
 #include <gtest/gtest.h>
 
 #include "tests/support/pulse_trains.h"

@@ -1,5 +1,5 @@
-/// Over passes of random geometry, cases and spin rates (tests/support/random_pass.h), the errors
-/// divided by their covariances have the statistics that they claim.
+/// Errors over passes of random geometry, case and spin rate (tests/support/random_pass.h) are
+/// consistent with their covariances.
 
 #include <gtest/gtest.h>
 
@@ -40,12 +40,12 @@ TEST(SpinRandomGeometry, MeansLieWithinWhatTheyPromise) {
       return estimate.estimator != SpinEstimator::Mean;
     });
     if (estimates.empty()) {
-      continue;  // Nothing settled it.
+      continue;  // The ambiguity was not resolved in this pass.
     }
     const SpinEstimate& mean = estimates.back();
     const Eigen::Vector2d error_rad = testing::error_rad(mean.axis_icrf, drawn.body.axis_icrf);
     const double squared = testing::normalised_square(error_rad, mean.covariance_rad2);
-    // One in e^-9 = 1 in 8000 for each.
+    // Each has a probability of e^-9 = 1 in 8000.
     EXPECT_LT(squared, 18.0) << sentence_of(mean.assessment);
     squares += squared;
     worst = std::max(worst, squared);
@@ -61,8 +61,8 @@ TEST(SpinRandomGeometry, MeansLieWithinWhatTheyPromise) {
   RecordProperty("worst", std::to_string(worst));
   EXPECT_GT(means, kPasses * 3 / 4);
   EXPECT_LE(selected, kPasses / 20);
-  // Chi-square with 2 n degrees of freedom: n of two has a mean of 1 and a variance of 1/n. Four
-  // sigmas above; below, where fixes that nothing settles widen the covariance, five.
+  // Chi-square with 2 n degrees of freedom over 2 n has mean 1 and variance 1/n. The limits are
+  // four sigma above and five below, where fixes with unresolved ambiguity widen the covariance.
   EXPECT_LT(squares / (2.0 * means), 1.0 + 4.0 / std::sqrt(means));
   EXPECT_GT(squares / (2.0 * means), 1.0 - 5.0 / std::sqrt(means));
 }

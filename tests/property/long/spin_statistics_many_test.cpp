@@ -1,4 +1,4 @@
-/// Two hundred passes, where forty are looked at in every run of the tests.
+/// Statistics of two hundred passes; the quick test takes forty.
 
 #include <gtest/gtest.h>
 
@@ -14,14 +14,15 @@ TEST(SpinStatisticsMany, ErrorsOfTwoHundredPassesAreThoseThatTheirSigmasPromise)
   RecordProperty("sequential", std::to_string(sums.sequential));
   RecordProperty("rate", std::to_string(sums.rate));
   RecordProperty("model_off", sums.model_off);
-  // One look in ten thousand, and a pass has 150 that depend on each other.
+  // A false alarm occurs once in 10,000 checks, and a pass makes 150 correlated ones.
   EXPECT_LE(sums.model_off, 2);
-  // 2.5 % and 97.5 % points of chi-square.
+  // The 2.5 % and 97.5 % points of chi-square.
   EXPECT_GT(sums.mean, 346.48);  // 400 degrees of freedom.
   EXPECT_LT(sums.mean, 457.31);
   EXPECT_GT(sums.sequential, 346.48);
   EXPECT_LT(sums.sequential, 457.31);
-  EXPECT_GT(sums.rate, 200.0 / 9.0);  // 200 degrees of freedom, as above.
+  // 200 degrees of freedom; the sigma may be three times the error.
+  EXPECT_GT(sums.rate, 200.0 / 9.0);
   EXPECT_LT(sums.rate, 241.06);
 }
 

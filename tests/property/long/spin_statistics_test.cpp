@@ -1,6 +1,3 @@
-/// The covariances of the estimators and the sigma of the spin rate are promises: over many passes
-/// the errors divided by them have the statistics that they claim.
-
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
@@ -25,13 +22,13 @@ TEST(SpinStatistics, ErrorsOfFortyPassesAreThoseThatTheirSigmasPromise) {
   RecordProperty("sequential", std::to_string(sums.sequential));
   RecordProperty("rate", std::to_string(sums.rate));
   RecordProperty("model_off", sums.model_off);
-  // 0.05 % and 99.95 % points of chi-square: 99.9 % of all seeds lie between.
+  // The 0.05 % and 99.95 % points of chi-square.
   EXPECT_GT(sums.mean, 44.79);  // 80 degrees of freedom.
   EXPECT_LT(sums.mean, 128.26);
   EXPECT_GT(sums.sequential, 44.79);
   EXPECT_LT(sums.sequential, 128.26);
-  // The rate's sigma has to allow for one that wanders, which these do not: it may be three times
-  // the errors that they leave, and never less than these. 40 degrees of freedom.
+  // The sigma of the rate allows for a wandering rate, which these passes do not have: it may be up
+  // to three times the actual errors but never below. 40 degrees of freedom.
   EXPECT_GT(sums.rate, 40.0 / 9.0);
   EXPECT_LT(sums.rate, 76.09);
 }

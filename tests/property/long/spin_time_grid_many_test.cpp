@@ -1,5 +1,5 @@
-/// Times cut to a microsecond, a tenth of a millisecond and a millisecond, at rates commensurate
-/// with these and not: every row of `mean` and `sequential`, and `batch` along the pass.
+/// Times truncated to 1 us, 0.1 ms and 1 ms at rates commensurate with these and not: every row of
+/// `mean` and `sequential`, and `batch` along the pass.
 
 #include <gtest/gtest.h>
 
@@ -26,7 +26,7 @@ TEST_P(SpinTimeGridMany, ErrorsAreInsideFourSigmasWhereItIsOk) {
       ++passes;
     }
   }
-  // Of the first thirty revolutions no row is; beyond them most are, and most solutions.
+  // The first thirty revolutions yield no OK row; after them most rows and solutions are OK.
   for (const testing::OnGrid& one : {all.mean, all.sequential, all.batch}) {
     EXPECT_GT(2 * one.ok, one.rows);
   }

@@ -1,5 +1,5 @@
-/// The mission file is wrong about the sensors: over random passes the filter says so, and its
-/// covariance covers what it is wrong by.
+/// With a wrong sensor model in the mission file, the filter reports it and its covariance covers
+/// the error.
 
 #include <gtest/gtest.h>
 
@@ -23,14 +23,14 @@ constexpr double kEnd_s = 400.0;
 
 struct Tally {
   int passes = 0;
-  int doubted = 0;       ///< In the end.
-  int covered = 0;       ///< In the end, within three sigmas.
-  int doubted_ever = 0;  ///< DOUBTFUL or LOST in any revolution.
+  int doubted = 0;       ///< Passes whose last estimate is not trusted.
+  int covered = 0;       ///< Passes whose last error is within three sigmas.
+  int doubted_ever = 0;  ///< Passes with a DOUBTFUL or LOST revolution.
   int estimates = 0;
-  int sure_and_wrong = 0;  ///< Estimates said to be OK, beyond three sigmas.
+  int sure_and_wrong = 0;  ///< OK estimates with an error beyond three sigmas.
 };
 
-/// Passes of a body that differs from what the mission says.
+/// Runs passes of a body that differs from its mission file by `differ`.
 Tally tally_of(int passes, const std::function<void(SpinConfig&)>& differ) {
   const Orbit orbit = testing::transfer_orbit();
   const auto around = testing::seen_from(orbit, testing::spherical_horizon_km(40.0));
@@ -100,7 +100,7 @@ TEST(SpinWrongModel, NoiseBeyondWhatIsStatedIsDoubtedThroughoutAndCovered) {
   }
 }
 
-/// Of seeds 1 to 10, those of whose pass it is said that errors of the model move its axis far.
+/// Returns for how many of the seeds 1 to 10 the pass reports that model errors move its axis far.
 int told_of_poor_leverage(const Orbit& orbit, testing::SpinningBody body) {
   const auto around = testing::seen_from(orbit, testing::spherical_horizon_km(40.0));
   const auto edges = testing::edges_between(body, around, 0.0, kEnd_s);

@@ -1,5 +1,3 @@
-/// A star tracker that is stuck or turned for a while does not make a wrong attitude OK.
-
 #include <gtest/gtest.h>
 
 #include "tests/support/star_fault.h"

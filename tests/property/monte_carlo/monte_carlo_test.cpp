@@ -1,6 +1,3 @@
-// Errors of simulated three-axis passes over what the ordinary pipelines promise, by runs as
-// `simulate --runs` makes them.
-
 #include "services/simulation/monte_carlo.h"
 
 #include <gtest/gtest.h>
@@ -19,7 +16,7 @@ namespace spindrift::monte_carlo_statistics_test {
 
 constexpr std::int64_t kRuns = 100;
 
-/// The scenario that comes with the program, of any attitude and rate.
+/// Runs a delivered scenario with random attitude and rate.
 MonteCarloResult runs_of(const char* name) {
   const TemporaryFolder folder;
   const auto scenario = folder.write("scenario.toml", text_of(scenarios() / name) + R"(
@@ -36,7 +33,7 @@ sigma = 0.1
   return *std::move(result);
 }
 
-/// Of three directions in every run: the band in which 95 of 100 such sums lie.
+/// Expects a sum over three directions in every run to be in its 95 % chi-square band.
 void expect_chi_square(const MonteCarloResult& result, const std::string& measure) {
   const auto& measures = result.runs.front().measures;
   for (std::size_t i = 0; i < measures.size(); ++i) {

@@ -1,5 +1,5 @@
-/// The covariance of the attitude filter is a promise: over many passes errors and innovations
-/// divided by it have the statistics that it claims; and from far off it converges.
+/// Errors and innovations of the attitude filter over many passes are consistent with its
+/// covariance, and the filter converges from a large initial error.
 
 #include <gtest/gtest.h>
 
@@ -29,13 +29,13 @@ const Vector3d kSun = Vector3d{0.3, -0.8, 0.5}.normalized();
 const Vector3d kField = Vector3d{0.9, 0.4, 0.1}.normalized();
 constexpr double kVector_rad = 0.5 * kRadPerDeg;
 
-/// A sum of chi-squares within its central 95 %.
+/// Expects a sum of chi-squares in its central 95 %.
 void expect_in_band(double sum, double freedom, const std::string& what) {
   const double half_width = 1.96 * std::sqrt(2.0 * freedom);
   EXPECT_NEAR(sum, freedom, half_width) << what;
 }
 
-/// Which sensors there are, once a second, behind a first star fix.
+/// Names the sensors that deliver once a second after a first star fix.
 struct Equipment {
   std::string name;
   bool star;
@@ -47,7 +47,7 @@ struct Tally {
   double squared_errors_midway = 0.0;
   double squared_errors = 0.0;
   double squared_innovations = 0.0;
-  double innovations = 0.0;  ///< Degrees of freedom.
+  double innovations = 0.0;  ///< Degrees of freedom of the innovations.
 };
 
 double squared_error(const Mekf& filter, const TurningBody& body, const Sensors& sensors,

@@ -1,5 +1,5 @@
-/// Passes of a spacecraft whose star tracker is silent, in the Earth's real field: what the
-/// magnetometer is worth, and whether sigma is right with it.
+/// Passes with a silent star tracker in the real geomagnetic field: what the magnetometer adds, and
+/// whether sigma is consistent with it.
 
 #include <gtest/gtest.h>
 
@@ -30,7 +30,7 @@ constexpr int kPasses = 200;
 constexpr int kSeconds = 300;
 constexpr double kGyro_hz = 4.0;
 
-/// What comes once a second, behind one star fix or none.
+/// Names the samples that come once a second, with or without a first star fix.
 struct Equipment {
   std::string name;
   bool first_star_fix;
@@ -44,13 +44,13 @@ struct Tally {
   Innovations innovations;
 };
 
-/// A sum of chi-squares within its central 95 %.
+/// Expects a sum of chi-squares in its central 95 %.
 void expect_in_band(double sum, double freedom, const std::string& what) {
   ::testing::Test::RecordProperty(what, std::to_string(sum) + " of " + std::to_string(freedom));
   EXPECT_NEAR(sum, freedom, 1.96 * std::sqrt(2.0 * freedom)) << what;
 }
 
-/// Low, and five minutes from any shadow.
+/// Returns a low orbit that stays at least five minutes away from eclipse.
 Orbit lit_orbit(std::mt19937_64& rng, const Vector3d& sun_icrf) {
   Vector3d up = normal_vector(rng, 1.0).normalized();
   while (up.dot(sun_icrf) < 0.3) {
@@ -150,7 +150,7 @@ TEST_F(MagnetometerPass, HasTheSigmaThatItClaimsAndIsWorthALot) {
     rms_deg.push_back(degrees(std::sqrt(tally.squared_errors_rad2 / kPasses)));
     RecordProperty(equipment.name + ", rms deg", std::to_string(rms_deg.back()));
   }
-  // The field holds the turn about the Sun, along which the bias of the gyro goes for minutes.
+  // The field observes the rotation about the Sun, in which the gyro bias grows for minutes.
   EXPECT_LT(rms_deg[0], 0.12);
   EXPECT_LT(rms_deg[1], 0.05 * rms_deg[2]);
 }

@@ -13,7 +13,7 @@ using testing::separation_flight;
 using testing::SeparationFlight;
 
 constexpr int kFlights = 400;
-// 95 % of chi-square with 1200 degrees of freedom.
+// The 95 % band of chi-square with 1200 degrees of freedom.
 constexpr double kLeast = 1105.9;
 constexpr double kMost = 1297.9;
 
@@ -32,7 +32,7 @@ struct Squares {
   double rms_deg() const { return degrees(std::sqrt(errors_rad2)); }
 };
 
-/// At T1, by the gyro alone from the star fix on.
+/// Returns the attitude at T1 integrated from the star fix with the gyro alone.
 Eigen::Quaterniond integrated(const SeparationFlight& flight) {
   const Observations all = observations_of(flight.request()).value();
   const std::vector<double> ends{0.0, all.stars.front().t_s};

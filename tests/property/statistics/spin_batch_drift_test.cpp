@@ -1,5 +1,3 @@
-/// A spin rate that drifts evenly: by how much is said with an error bar that is a promise.
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -28,10 +26,10 @@ TEST(SpinBatchDrift, ErrorsAreThoseThatItsSigmaPromises) {
         std::pow((solution->drift_rad_s2 - truth.motion.rate_drift_rad_s2) / sigma_rad_s2, 2);
     least_sigmas = std::min(least_sigmas, 1e-5 / sigma_rad_s2);
   }
-  // 95 % of chi-square, 100 degrees of freedom.
+  // The 95 % band of chi-square with 100 degrees of freedom.
   EXPECT_GT(squares, 74.2);
   EXPECT_LT(squares, 129.6);
-  // The drifts are not lost in the noise.
+  // The drifts must exceed the noise.
   EXPECT_GT(least_sigmas, 3.0);
 }
 

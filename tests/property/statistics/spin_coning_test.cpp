@@ -1,6 +1,3 @@
-/// Coning of a simulated body in a least-squares fit of its own, what is made of the result, and
-/// how far it is told from misplaced sensors.
-
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
@@ -21,7 +18,7 @@ constexpr double kDuration_s = 300.0;
 constexpr double kAligned_rad = 1e-7;
 constexpr PulseNoise kNoise = {.sun_s = 1e-4, .infrared_s = 5e-4};
 constexpr int kTrials = 60;
-// 99.9 % of the mean of chi-squares of two degrees of freedom: 3.29 sqrt(4 / 60).
+// The 99.9 % band of a mean of chi-squares with two degrees of freedom: 3.29 sqrt(4 / 60).
 constexpr double kMeanOff = 0.85;
 
 FittedConing fitted(const SpinTruth& truth, double alignment_sigma_rad, std::mt19937_64& rng) {
@@ -29,7 +26,7 @@ FittedConing fitted(const SpinTruth& truth, double alignment_sigma_rad, std::mt1
                                 rng);
 }
 
-/// The rotation that leans the axis so.
+/// Returns the rotation that tilts the axis by this coning.
 Eigen::Vector2d rotation_of(const Coning& coning) {
   return coning.tilt_rad *
          Eigen::Vector2d{std::sin(coning.azimuth_rad), std::cos(coning.azimuth_rad)};
@@ -77,10 +74,11 @@ TEST(SpinConing, IsNotFoundWhereSensorsAreMisplacedAsMuchAsTheyMayBe) {
     sum += chi_square(fit, Eigen::Vector2d::Zero());
     const ConingTest verdict = test_model_errors(fit);
     EXPECT_FALSE(verdict.detected);
-    // Of aligned sensors it would be 0.4 deg.
+    // With aligned sensors it would be 0.4 deg.
     EXPECT_GT(verdict.detectable_rad, 2.0 * kRadPerDeg);
   }
-  // Mounting angles do less here than the limb does, which the fit allows for: 2 at most.
+  // Mounting angles have less effect here than the limb, which the fit allows for, so the mean is
+  // at most 2.
   EXPECT_LT(sum / kTrials, 2.0 + kMeanOff);
   EXPECT_GT(sum / kTrials, 0.5);
 }

@@ -1,5 +1,5 @@
-/// The first answers of a pass have been checked by little data: none of them that is wrong may say
-/// OK, whatever the body does and the mission file has wrong.
+/// The first estimates of a pass rest on little data: no wrong one may be OK, whatever the body
+/// does and whatever the mission file has wrong.
 
 #include <gtest/gtest.h>
 
@@ -21,8 +21,8 @@ constexpr double kMostSigmas = 5.0;
 struct Tally {
   int converging = 0;
   int ok = 0;
-  int ok_and_wrong = 0;  ///< Beyond five sigmas.
-  int passes_wrong = 0;  ///< With such estimates.
+  int ok_and_wrong = 0;  ///< OK estimates beyond five sigmas.
+  int passes_wrong = 0;  ///< Passes with such estimates.
 };
 
 void count(const SpinEstimate& estimate, const SpinTruth& truth, Tally& tally) {
@@ -35,7 +35,7 @@ void count(const SpinEstimate& estimate, const SpinTruth& truth, Tally& tally) {
   }
 }
 
-/// Of passes in which body and mission are changed by `differ`.
+/// Runs passes in which `differ` changes body and mission.
 Tally tally_of(const std::function<void(testing::WobblingPasses&, SpinTruth&)>& differ) {
   testing::WobblingPasses passes{2025, kDuration_s};
   Tally tally;
@@ -90,8 +90,8 @@ TEST(SpinFirstRows, AreNotOkAndWrongWhereSensorsAreGrosslyMisplaced) {
     truth.south->mount_angle_rad += up_to_two_deg();
   });
   EXPECT_GT(tally.converging, 0);
-  // Twenty times what the mission file allows for: once in twenty passes five sigmas are just
-  // passed.
+  // The error is twenty times the allowance of the mission file; one pass in twenty just exceeds
+  // five sigmas.
   EXPECT_LE(tally.passes_wrong, 1);
 }
 

@@ -1,6 +1,5 @@
-/// Where edges are lost, or a channel is dead, noise decides which fixes are left out of the mean.
-/// Its covariance allows for that where it must and nowhere else, and the status says where the
-/// mean rests on what was selected.
+/// With lost edges or a dead channel, noise decides which fixes the mean leaves out. Its covariance
+/// allows for that selection only where it must, and the status reports it.
 
 #include <gtest/gtest.h>
 
@@ -23,9 +22,8 @@
 
 namespace spindrift::spin_mean_selection_test {
 
-/// Sun angle and Earth as deploy/scenarios/gto-nominal.toml has them: where sun2 is missing (case
-/// 4) the two roots of the sun angle come together within the noise, and one fix of a hundred
-/// escapes.
+/// Holds sun angle and Earth of deploy/scenarios/gto-nominal.toml: without sun2 (case 4) the two
+/// roots of the sun angle meet within the noise, and one fix in a hundred escapes.
 struct Scene {
   Orbit orbit = testing::orbit_across_the_earth();
   testing::SpinningBody body = testing::body_across_the_earth();
@@ -63,7 +61,7 @@ TEST(SpinMeanSelection, LostEdgesLeaveTheErrorsWhatTheirSigmasPromise) {
     squares += testing::normalised_square(error_rad, mean.covariance_rad2);
   }
   RecordProperty("mean_square", std::to_string(squares / (2.0 * kPasses)));
-  // 0.05 % and 99.95 % points of chi-square with 80 degrees of freedom.
+  // The 0.05 % and 99.95 % points of chi-square with 80 degrees of freedom.
   EXPECT_GT(squares, 44.79);
   EXPECT_LT(squares, 128.26);
 }
@@ -90,10 +88,10 @@ TEST(SpinMeanSelection, TheFewFixesThatDoNotGrazeMakeNoMeanThatIsOk) {
       ++passes_with_mean;
     }
   }
-  // There are such means, and they are off.
+  // Such means exist and have errors.
   EXPECT_GT(passes_with_mean, kPasses / 2);
   RecordProperty("mean_square", std::to_string(squares_rad2 / passes_with_mean));
-  // The bound is one, and not beyond what a selection does.
+  // The covariance is an upper bound but no more than selection requires.
   EXPECT_LT(squares_rad2, passes_with_mean);
   EXPECT_GT(squares_rad2, 0.2 * passes_with_mean);
 }

@@ -1,7 +1,7 @@
-/// Beams that cross the Earth near its limb: chords of a few degrees, which an axis two tenths of
-/// a degree away does not have, while single fixes are degrees off. `sequential` and `batch` find
-/// the axis of every such pass, and no row of `sequential` is OK that is not near it. Nor where the
-/// chord is nearly the longest there is, and axes on either side of the middle see the same.
+/// Beams near the Earth's limb have chords of a few degrees, which vanish for an axis 0.2 deg away,
+/// while single fixes are degrees off. `sequential` and `batch` must find the axis, and no row of
+/// `sequential` may be OK and wrong. The same holds near the longest chord, where axes on either
+/// side of the middle see the same.
 
 #include <gtest/gtest.h>
 
@@ -30,7 +30,8 @@ namespace spindrift::spin_narrow_chord_test {
 constexpr double kPi = std::numbers::pi;
 constexpr double kSigmas = 5.0;
 
-/// Near its apogee, 42,000 km from the Earth's centre: the disc has a half-angle of 8.8 deg.
+/// Returns an orbit near apogee, 42,000 km from the Earth's centre, where the Earth's half-angle is
+/// 8.8 deg.
 Orbit high_orbit() {
   return Orbit{KeplerOrbit::make({.epoch = testing::kTransferStart,
                                   .semi_major_axis_km = 24400.0,
@@ -47,10 +48,11 @@ struct NarrowPass {
   std::vector<PulseChannel> dead;
   double rate_rpm;
   double turns;
-  bool exchanged = false;  ///< The sensors: north's is at 95 deg.
+  bool exchanged = false;  ///< Whether the beams are exchanged, so that north's is at 95 deg.
 };
 
-/// The beam at 85 deg, north's or south's, has a chord of 3.7 deg; that at 95 deg 17 deg.
+/// Returns a body whose beam at 85 deg has a chord of 3.7 deg and whose beam at 95 deg one of 17
+/// deg.
 testing::SpinningBody body_of(const NarrowPass& pass) {
   testing::SpinningBody body{.axis_icrf = direction_icrf(
                                  {.ra_rad = 196.6782 * kRadPerDeg, .dec_rad = 55.206 * kRadPerDeg}),

@@ -1,5 +1,5 @@
-/// A pass in which nearly all fixes graze, and those that do not lack the true axis: no row of
-/// `sequential` is OK that is not near it.
+/// A pass in which nearly all fixes are near tangent and the others lack the true axis: no row of
+/// `sequential` is OK and wrong.
 
 #include <gtest/gtest.h>
 
@@ -21,7 +21,7 @@ namespace spindrift::spin_near_tangent_test {
 constexpr double kPi = std::numbers::pi;
 constexpr double kSigmas = 5.0;
 
-/// Sun slit 2 does not see the Sun: case 6.
+/// Returns a body whose sun slit 2 does not see the Sun (case 6).
 testing::SpinningBody body_of_the_pass() {
   testing::SpinningBody body{
       .axis_icrf = direction_icrf({.ra_rad = 217.26 * kRadPerDeg, .dec_rad = 15.1292 * kRadPerDeg}),

@@ -1,5 +1,3 @@
-/// Nutation of a simulated body is found, within its sigma, and none where there is none.
-
 #include <gtest/gtest.h>
 
 #include "pipelines/frames/angle.h"
@@ -78,7 +76,7 @@ TEST(SpinNutation, BelowWhatCouldBeDetectedIsSaidToBe) {
 
 TEST(SpinNutation, IsFoundWhereTheRateDrifts) {
   testing::NutationTrials trials{6};
-  trials.truth.motion.rate_drift_rad_s2 = -2e-4;  // A rpm in ten minutes.
+  trials.truth.motion.rate_drift_rad_s2 = -2e-4;  // 1 rpm in ten minutes.
   const Nutation nutation = trials.random_nutation(0.2);
   const auto search = trials.searched(nutation);
   ASSERT_TRUE(search.found);

@@ -1,5 +1,5 @@
-/// Whole passes as bad as they come: the estimates stand, every edge has one fate, and nothing that
-/// is no number is ever a product.
+/// Whole passes with severely disturbed edges: the estimates hold, every edge is used or rejected
+/// exactly once, and no product contains a NaN.
 
 #include <gtest/gtest.h>
 
@@ -57,7 +57,7 @@ void expect_numbers(const SpinOutput& output) {
   }
 }
 
-/// Of all edges that differ.
+/// Expects exactly one use or rejection of each distinct edge.
 void expect_one_fate_each(const SpinOutput& output, const std::vector<Pulse>& pulses) {
   std::vector<Pulse> told;
   for (const PulseUse& use : all_of<PulseUse>(output)) {
@@ -96,7 +96,7 @@ void expect_found(const SpinOutput& output, const SpinningBody& body) {
   EXPECT_NEAR(sequential.spin_rate_rad_s, body.rate_rad_s, 5.0 * sequential.spin_rate_sigma_rad_s);
 }
 
-/// Turns between the first and the last revolution, by their numbers less what the rate says.
+/// Returns the difference between the counted revolutions and those that the rate predicts.
 std::int64_t miscounted(const SpinOutput& output, const SpinningBody& body) {
   const auto revolutions = all_of<RevolutionProduct>(output);
   const double turns = body.rate_rad_s *
@@ -105,8 +105,8 @@ std::int64_t miscounted(const SpinOutput& output, const SpinningBody& body) {
   return revolutions.back().revolution - revolutions.front().revolution - std::llround(turns);
 }
 
-/// What follows the first ten revolutions, few as they are, is not measured by another rule: at 5
-/// rpm one in twenty good sun angles was refused, six in a row, when it was.
+/// The measurements after the first ten revolutions are screened like those before. A different
+/// rule rejected one in twenty good sun angles at 5 rpm, six in a row.
 TEST(SpinPassDirt, GoodMeasurementsAreKeptAtAnyRate) {
   const Scene scene;
   for (const double rpm : {5.0, 20.0, 60.0}) {
@@ -126,7 +126,7 @@ TEST(SpinPassDirt, GoodMeasurementsAreKeptAtAnyRate) {
       }
     }
     ASSERT_GT(angles, 900);
-    // Three sigma refuse 0.27 %; of a mean and scatter of few, somewhat more.
+    // A three-sigma test rejects 0.27 %; with mean and scatter from few samples, somewhat more.
     EXPECT_LT(refused, angles / 50);
   }
 }
@@ -223,7 +223,7 @@ TEST(SpinPassDirt, AfterAnHourOfSilenceTheCountIsRightOrSaidToBeUncertain) {
       }
       const SpinOutput output = scene.run(body, pulses);
       const bool said = testing::has(output.notices, NoticeCode::CountUncertain);
-      // Eight turns leave the drift open, ten minutes do not.
+      // After eight turns the drift is still unknown, after ten minutes it is not.
       EXPECT_EQ(said, heard_s < 60.0);
       if (!said) {
         EXPECT_EQ(miscounted(output, body), 0);
@@ -313,7 +313,7 @@ TEST(SpinPassDirt, SwappedBeamsGiveNoConfidentAxis) {
     }
     std::sort(pulses.begin(), pulses.end());
     for (const SpinEstimate& estimate : all_of<SpinEstimate>(scene.run(body, pulses))) {
-      // The first one is the fix that it starts from, no edge has spoken yet.
+      // The first estimate is the initial fix, before any edge was processed.
       if (estimate.estimator == SpinEstimator::Sequential &&
           is_unopposed(estimate.assessment.quality) &&
           testing::number_of(estimate.assessment.reasons, ReasonCode::Revolutions, "count") !=

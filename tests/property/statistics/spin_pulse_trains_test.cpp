@@ -1,4 +1,4 @@
-/// Doubled and halved pulse trains; twenty times as many in every `long` run.
+/// Doubled and halved pulse trains; property/long runs twenty times as many.
 
 #include <gtest/gtest.h>
 

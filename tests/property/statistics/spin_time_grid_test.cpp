@@ -1,5 +1,5 @@
-/// Times cut to a grid: no estimator is OK and beyond four sigmas. All rates and more passes:
-/// property/long.
+/// With times truncated to a grid, no OK estimate is beyond four sigmas. All rates and more passes
+/// are in property/long.
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-// `spindrift act`: through a running service, over its end by a kill, and without one.
+// `spindrift act`: through a running service, across a kill of the service, and without one.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-// Services that are stopped or killed with most of a long pass stored and not yet computed.
+// Services that are stopped or killed with most of a long pass stored but not yet computed.
 
 #include <gtest/gtest.h>
 
@@ -25,7 +25,7 @@ using namespace std::chrono_literals;
 
 const std::filesystem::path kScenario = scenarios() / "geo-day.toml";
 
-/// Looks every second, for five minutes at most.
+/// Polls the condition every second for up to five minutes.
 template <class Condition>
 bool comes(const Condition& condition) {
   for (int looks = 0; looks < 300; ++looks) {
@@ -73,7 +73,7 @@ TEST(Backlog, IsComputedAtTheNextStartBitForBit) {
   EXPECT_EQ(number_of(served, "SELECT count(*) FROM run WHERE finished_utc IS NULL"), 1);
 
   Program service{serve};
-  // All but what the end of the pass settles.
+  // The last revolutions are computed only at the end of the pass.
   const std::int64_t revolutions = number_of(offline, "SELECT max(revolution) FROM revolution");
   EXPECT_TRUE(comes([&] {
     return number_of(served, "SELECT ifnull(max(revolution), 0) FROM revolution") >
@@ -82,10 +82,10 @@ TEST(Backlog, IsComputedAtTheNextStartBitForBit) {
   service.signal(SIGTERM);
   ASSERT_EQ(service.exit_status(), 0) << service.log();
   EXPECT_EQ(number_of(served, "SELECT count(*) FROM run WHERE finished_utc IS NULL"), 0);
-  EXPECT_TRUE(product_rows(served) == product_rows(offline));  // Too many to print.
+  EXPECT_TRUE(product_rows(served) == product_rows(offline));  // The rows are too many to print.
 }
 
-/// The first two hours of the day.
+/// Simulates the first two hours of the day.
 std::string two_hours_in(const std::filesystem::path& folder) {
   std::string scenario = text_of(kScenario);
   const std::string day = "duration_s = 86400.0";
@@ -105,14 +105,15 @@ class Backlogged {
   void start() { service_.emplace(on_bus({"serve", "--mission", mission_, "--db", db_.string()})); }
   Program& service() { return *service_; }
 
-  /// @return whether it has stored all.
+  /// Replays the pass.
+  /// @return Whether the service has stored all edges.
   bool takes(const std::filesystem::path& pass, std::int64_t edges) {
     Program replay{
         on_bus({"replay", "--mission", mission_, "--telemetry", pass.string(), "--speed", "0"})};
     return replay.exit_status() == 0 && has("pulse", edges);
   }
 
-  /// Stopped when it has so many, and started again while a stop leaves anything to compute.
+  /// Stops the service once it has this many solutions, and restarts it while it leaves work.
   bool computes_all(std::int64_t solutions) {
     for (int stops = 0; stops < 20; ++stops) {
       if (!service().says("ready") || !has("spin_batch", solutions)) {
@@ -175,7 +176,7 @@ TEST(Backlog, KilledAtTwentyRandomInstantsGivesWhatNoKillWouldHave) {
     ASSERT_TRUE(killed.service().says("ready")) << killed.service().log();
   }
   ASSERT_TRUE(killed.computes_all(kSolutions)) << killed.service().log();
-  EXPECT_TRUE(all_rows(killed_db) == all_rows(whole_db));  // Too many to print.
+  EXPECT_TRUE(all_rows(killed_db) == all_rows(whole_db));  // The rows are too many to print.
 }
 
 }  // namespace spindrift::backlog_test

@@ -1,5 +1,3 @@
-// A telemetry file of 1 GB through `spindrift process`.
-
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -13,8 +11,8 @@ namespace spindrift::gigabyte_test {
 
 using ::testing::HasSubstr;
 
-/// Pulses of 100 rpm of another spacecraft, every block of a thousand backwards: what is counted
-/// only takes the program minutes less than what is stored, and is read and sorted alike.
+/// Writes pulses at 100 rpm of another spacecraft, every block of a thousand in reverse order. They
+/// are read and sorted like others but only counted, which saves minutes against storing them.
 void write_gigabyte(const std::filesystem::path& path, std::int64_t rows) {
   std::ofstream file{path, std::ios::binary};
   file << "t_tai_ns,channel,spacecraft\n";

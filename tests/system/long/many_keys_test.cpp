@@ -1,4 +1,4 @@
-// Samples of ever more spacecraft without a mission here.
+// Samples of a growing number of spacecraft that have no mission here.
 
 #include <gtest/gtest.h>
 
@@ -6,8 +6,7 @@
 
 namespace spindrift::many_keys_test {
 
-/// @return memory that a service has at most while samples of so many spacecraft of others come,
-/// KiB.
+/// Returns the peak memory of a service, KiB, that receives samples of this many spacecraft.
 long peak_kib(int spacecraft) {
   Service service{"nominal"};
   EXPECT_TRUE(service.ready()) << service.program().log();
@@ -22,7 +21,7 @@ TEST(ManyKeys, OfOtherSpacecraftCostNoMemory) {
     GTEST_SKIP() << "sanitizers need memory of their own";
   }
   const long few_kib = peak_kib(100);
-  // An instance of Cyclone takes 0.6 KiB: 200,000 KiB.
+  // A DDS instance takes 0.6 KiB in Cyclone, so that keeping all would need 200,000 KiB.
   EXPECT_LT(peak_kib(300'000), few_kib + 40'000);
 }
 

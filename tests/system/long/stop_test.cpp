@@ -1,5 +1,3 @@
-// Twenty stops while senders go on as fast as they can.
-
 #include <gtest/gtest.h>
 
 #include <chrono>
@@ -15,10 +13,10 @@
 namespace spindrift::stop_test {
 
 constexpr int kForEver = 1'000'000'000;
-constexpr int kStops = 5;  // Of each kind.
+constexpr int kStops = 5;  // Number of stops of each kind.
 
-/// When `service` has got some of what is sent. @return Its exit status, after it has told how long
-/// it took.
+/// Stops the service after it has stored some samples and prints how long that took.
+/// @return Exit status.
 int stop_in_the_middle(Service& service) {
   EXPECT_TRUE(
       eventually([&] { return number_of(service.db(), "SELECT count(*) FROM pulse") > 1000; }));

@@ -1,5 +1,3 @@
-// Alerts of `spindrift serve`: on the bus, over a restart, acknowledged through the service.
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <spindrift.h>
@@ -26,7 +24,7 @@ namespace spindrift::serve_alerts_test {
 using ::testing::Each;
 using ::testing::ElementsAre;
 
-/// A pass of which the target is elsewhere.
+/// Holds a pass whose target attitude is far from the actual one.
 struct OffTarget {
   PassCopy copy{"nominal"};
   OffTarget() {
@@ -79,7 +77,8 @@ TEST(ServeAlerts, ArePublishedOnceOverARestartAndAcknowledgedThroughTheService) 
             std::vector<std::string>{"spin.off_target|acknowledged|2|1|"});
 }
 
-/// A service whose link is silent after a second, and all that is published of one key.
+/// Runs a service whose link counts as silent after a second, and collects what is published under
+/// one key.
 struct Watched {
   PassCopy copy{"nominal"};
   std::string key;
@@ -87,8 +86,8 @@ struct Watched {
   std::optional<bus::Participant> participant;
   std::optional<bus::Reader<spindrift_Alert>> reader;
   std::optional<FrontEnd> front_end;
-  std::vector<std::string> changes;  ///< State and revision.
-  std::vector<std::string> ids;      ///< Of those.
+  std::vector<std::string> changes;  ///< State and revision of each change.
+  std::vector<std::string> ids;      ///< Alert ID of each change.
 
   explicit Watched(std::string of_key) : key{std::move(of_key)} {
     std::ofstream{copy.folder.path() / "mission.toml", std::ios::app}
@@ -182,7 +181,7 @@ TEST(ServeAlerts, DoNotTakeARehearsalForLateTelemetry) {
 
 TEST(ServeAlerts, SayThatTheFieldOfAMagnetometerEndsWithinADay) {
   const TemporaryFolder folder;
-  // Noon before 2030, by TAI.
+  // TAI time of a noon before 2030.
   const auto scenario = folder.write(
       "scenario.toml",
       replaced(text_of(scenarios() / "separation.toml"),
@@ -224,7 +223,7 @@ TEST(ServeAlerts, SayThatAnotherServicePublishesTheSameSpacecraft) {
   EXPECT_EQ(twice.service->stop_when_computed(), 0) << twice.service->log();
 }
 
-/// A pass that turns a little faster than the model that its mission names.
+/// Simulates a pass that spins slightly faster than the model named in its mission.
 std::filesystem::path pass_off_its_model(const TemporaryFolder& folder) {
   const auto nominal = scenarios() / "gto-nominal.toml";
   const auto pass = folder.path() / "pass";

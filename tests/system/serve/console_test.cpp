@@ -1,5 +1,3 @@
-// The console of `spindrift serve`, as a browser sees it.
-
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -24,7 +22,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-/// A service with a console, of a pass whose target is elsewhere.
+/// Runs a service with a console on a pass whose target attitude is far from the actual one.
 class ServedConsole : public ::testing::Test {
  protected:
   ServedConsole() {
@@ -104,7 +102,7 @@ TEST_F(ServedConsole, TakesAnAcknowledgementAndKnowsItAfterARestart) {
   viewer->until("event: alert\n");
   EXPECT_EQ(number_of(db(), "SELECT count(*) FROM alert_transition WHERE by = 'night shift'"), 1);
   EXPECT_EQ(stop(), 0) << service_->log();
-  viewer.reset();  // Before its client.
+  viewer.reset();  // The viewer must be destroyed before its client.
   start();
   EXPECT_EQ(client_->get_json("/api/v1/state")["alerts"][0]["state"], "acknowledged");
   EXPECT_EQ(stop(), 0) << service_->log();
@@ -129,7 +127,7 @@ TEST_F(ServedConsole, ShowsTheRunOfBeforeUntilTheNextOneHasTelemetry) {
                    ->get_json("/api/v1/series?spacecraft=SPINNER&quantity=sun_angle&from=0"
                               "&to=9000000000000000000&points=100")["points"]
                    .empty());
-  EXPECT_EQ(stop(), 0) << service_->log();  // An empty run is none.
+  EXPECT_EQ(stop(), 0) << service_->log();  // A run without samples is not stored.
   EXPECT_EQ(number_of(db(), "SELECT count(*) FROM run"), 1);
   start();
   replay();

@@ -40,8 +40,8 @@ std::vector<Value> values_of(const std::filesystem::path& file) {
   return values;
 }
 
-/// Both front-ends send a star fix of each second, by turns the one or the other first; a kill
-/// between them.
+/// Both front-ends send a star fix each second and take turns in being first; the service is killed
+/// between the two.
 TEST(ServeContradiction, NeitherIsUsedBeforeAndBehindAKill) {
   const TemporaryFolder folder;
   const auto db = folder.path() / "served.db";

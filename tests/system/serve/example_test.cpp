@@ -1,5 +1,3 @@
-// The example of a subscriber that clients begin with, beside the real service.
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-// Senders that are wrong without end: neither the disk nor the log fills with it.
+// Senders that publish wrong samples without end fill neither the disk nor the log.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -27,12 +27,12 @@ TEST(HostileSender, OfImpossibleSamplesFillsNoDiskAndIsCountedTruly) {
   EXPECT_EQ(number_of(service.db(), "SELECT sum(samples) FROM rejected_input"), kSent);
   EXPECT_EQ(number_of(service.db(), "SELECT sum(rejected) FROM rejection_summary"), kSent);
   EXPECT_EQ(number_of(service.db(), "SELECT received FROM source_count"), kSent);
-  // A minute has 21; on the slowest of machines it lasts two.
+  // Up to 21 rows are kept a minute, and a slow machine needs two minutes.
   EXPECT_LE(number_of(service.db(), "SELECT count(*) FROM rejected_input"), 63);
   EXPECT_THAT(rows_of(service.db(), "SELECT reason FROM rejected_input WHERE samples > 1").front(),
               HasSubstr("are only counted, the last: pulses: t_tai_ns = -1"));
 
-  // A restarted service goes on counting from there.
+  // A restarted service continues the count.
   service.start();
   ASSERT_TRUE(service.ready()) << service.program().log();
   ASSERT_EQ(service.stop(), 0) << service.program().log();

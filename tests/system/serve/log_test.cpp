@@ -1,5 +1,3 @@
-// `spindrift serve` whose log or results nobody reads.
-
 #include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -22,7 +20,7 @@ namespace spindrift::serve_log_test {
 
 using ::testing::HasSubstr;
 
-/// A pipe with a name, and its reader.
+/// Holds a named pipe and its reader.
 class Pipe {
  public:
   Pipe() : path_{(folder_.path() / "pipe").string()} {
@@ -43,7 +41,7 @@ class Pipe {
     }
   }
 
-  /// Once the program has opened it.
+  /// Closes the reader; call this once the program has opened the pipe.
   void lose_reader() { close(std::exchange(reader_, -1)); }
 
  private:
@@ -52,7 +50,7 @@ class Pipe {
   int reader_ = -1;
 };
 
-/// A service with streams of the test's choice; empty: as usual.
+/// Runs a service with these files for its streams; empty for the default.
 class Listening {
  public:
   Listening(const std::string& out, const std::string& log)
@@ -61,7 +59,8 @@ class Listening {
   Program& program() { return program_; }
   std::filesystem::path db() const { return folder_.path() / "served.db"; }
 
-  /// It takes a whole pass. @return of `replay`.
+  /// Replays a whole pass.
+  /// @return Exit status of `replay`.
   int replay() const {
     Program replay{on_bus({"replay", "--mission", mission(), "--telemetry",
                            (kPasses / "nominal").string(), "--speed", "0"})};

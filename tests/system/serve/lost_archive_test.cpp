@@ -1,5 +1,4 @@
-// `spindrift serve` whose archive is deleted, moved away, replaced or truncated in the midst of a
-// pass.
+// `spindrift serve` whose archive is deleted, moved, replaced or truncated during a pass.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -43,7 +42,7 @@ void put_in_place_of(const fs::path& path, const std::function<void(const fs::pa
   fs::rename(foreign(path), path);
 }
 
-/// Files that the service makes of what it had open.
+/// Returns the files to which the service has copied its open archive.
 std::vector<fs::path> copies_of(const fs::path& db) {
   std::vector<fs::path> copies;
   for (const auto& entry : fs::directory_iterator{db.parent_path()}) {
@@ -55,7 +54,7 @@ std::vector<fs::path> copies_of(const fs::path& db) {
   return copies;
 }
 
-/// Half a pass in a service, and what the whole is when nobody touches the archive.
+/// Runs a service with part of a pass, and holds the expected archive of the undisturbed pass.
 class ServeLostArchive : public ::testing::Test {
  protected:
   static constexpr double kBefore = 0.4;
@@ -73,7 +72,8 @@ class ServeLostArchive : public ::testing::Test {
             .value());
   }
 
-  /// Waits for a heartbeat that does, or does not, say so. @return false when it does not come.
+  /// Waits for a heartbeat that contains `words` (or not).
+  /// @return False if none comes.
   bool health_says(const std::string& words, bool expected = true) const {
     return eventually([&] {
       bool says = !expected;
@@ -86,7 +86,7 @@ class ServeLostArchive : public ::testing::Test {
     });
   }
 
-  /// Of what stands at the path, 0 when that is no archive.
+  /// Returns the number of fixes in the file at the path; 0 if that is not an archive.
   std::int64_t fix_count() const {
     try {
       return number_of(db(), "SELECT count(*) FROM spin_fix");
@@ -95,7 +95,7 @@ class ServeLostArchive : public ::testing::Test {
     }
   }
 
-  /// Whatever no later sample is needed for: a stop computes for some seconds only.
+  /// Waits until all but the last three fixes are computed: a stop computes for a few seconds only.
   bool is_computed() const {
     const std::int64_t fixes = number_of(offline_, "SELECT count(*) FROM spin_fix");
     return eventually([&] { return fix_count() + 3 >= fixes; });
@@ -142,7 +142,7 @@ void PrintTo(const Loss& loss, std::ostream* out) { *out << loss.name; }
 
 std::string name_of(const ::testing::TestParamInfo<Loss>& loss) { return loss.param.name; }
 
-/// Of names that nothing stands at afterwards.
+/// Losses after which no file has the archive's name.
 class ServeArchiveWithoutName : public ServeLostArchive,
                                 public ::testing::WithParamInterface<Loss> {};
 
@@ -173,11 +173,11 @@ INSTANTIATE_TEST_SUITE_P(
                            "served.db was deleted or moved away"}),
     name_of);
 
-/// Something else stands at one of the names.
+/// A loss after which another file has one of the archive's names.
 struct Replacement {
   std::string name;
   std::function<void(const fs::path& db, const fs::path& other)> happens;
-  std::string of;  ///< The name, after that of the archive.
+  std::string of;  ///< Suffix of the replaced file after the archive's name.
 };
 
 void PrintTo(const Replacement& replacement, std::ostream* out) { *out << replacement.name; }
@@ -223,9 +223,9 @@ TEST_P(ServeReplacedArchive, EndsAsACopyWhenTheServiceIsStopped) {
   EXPECT_THAT(log(), HasSubstr(copies[0].string()));
   EXPECT_EQ(text_of(replaced()), content());
   EXPECT_EQ(rows_of(copies[0], "PRAGMA integrity_check"), std::vector<std::string>{"ok|"});
-  // SQLite leaves an empty one when the last reader closes, and the service itself may have looked.
+  // SQLite leaves an empty log when its last reader closes, and the service may have opened it.
   EXPECT_EQ(fs::exists(log_of(db())) && fs::file_size(log_of(db())) > 0, GetParam().of == "-wal");
-  // What was taken last may not have been accepted yet, and is sent again.
+  // The last samples may not have been acknowledged and are sent again.
   fs::rename(replaced(), aside(replaced()));
   fs::rename(copies[0], db());
   service().start();
@@ -263,7 +263,7 @@ TEST_F(ServeLostArchive, GoesOnWhenTheRightFileIsPutBack) {
   send_the_rest_and_expect_the_whole_pass();
 }
 
-/// The file is still the same one, and no longer what it was.
+/// Losses after which the file is the same but its content is damaged.
 class ServeDamagedArchive : public ServeLostArchive, public ::testing::WithParamInterface<Loss> {};
 
 TEST_P(ServeDamagedArchive, StoresNothingMoreAndSaysSoAndTheNextStartHasThePass) {

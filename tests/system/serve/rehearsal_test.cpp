@@ -1,4 +1,4 @@
-// `replay --now` and `simulate --publish --now`: a rehearsal whose clock is that of the pass.
+// `replay --now` and `simulate --publish --now`: rehearsals in which the clock follows the pass.
 
 #include <gtest/gtest.h>
 
@@ -19,10 +19,10 @@
 
 namespace spindrift::rehearsal_test {
 
-/// Beside a sender on an idle machine it is milliseconds.
+/// On an idle machine the difference to the sender's clock is a few milliseconds.
 constexpr double kSlack_s = 30.0;
 
-/// A service beside which the clocks of rehearsals are heard.
+/// Runs a service and observes the clocks of rehearsals on its bus.
 class Rehearsal : public ::testing::Test {
  protected:
   Rehearsal() { EXPECT_TRUE(service_.ready()); }
@@ -35,7 +35,7 @@ class Rehearsal : public ::testing::Test {
     return offset.count();
   }
   std::string domain() const { return std::to_string(service_.bus().domain); }
-  /// Of the service's archive.
+  /// Returns a number from the service's archive.
   std::int64_t number(const std::string& query) { return number_of(service_.db(), query); }
   void stop(Program& sender) {
     sender.signal(SIGINT);

@@ -1,6 +1,3 @@
-// `spindrift replay` and `simulate --publish` as somebody at a terminal has them: how they end, and
-// what they draw.
-
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -26,7 +23,7 @@ const std::string kMission = kPass + "/mission.toml";
 const std::string kScenario =
     (kData / ".." / ".." / "deploy" / "scenarios" / "gto-nominal.toml").string();
 
-/// Ways to put ten minutes of telemetry on the bus in ten minutes.
+/// Commands that publish ten minutes of telemetry in ten minutes.
 const std::vector<std::vector<std::string>> kSenders = {
     {"replay", "--mission", kMission, "--telemetry", kPass, "--json"},
     {"simulate", kScenario, "--publish", "--json"}};
@@ -77,7 +74,7 @@ TEST(Sending, SaysThatItWaitsForASubscriberAndEndsAtOnceWhenToldTo) {
   }
 }
 
-/// Carriage returns and escapes draw on a terminal, and spoil a log.
+/// Expects no carriage returns and escapes, which are for terminals and would corrupt a log.
 void expect_plain(const std::string& text) {
   EXPECT_EQ(text.find_first_of("\r\x1b"), std::string::npos) << text;
 }

@@ -1,5 +1,3 @@
-// `spindrift serve` killed, stopped and started again in the midst of a pass.
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <spindrift.h>
@@ -50,10 +48,10 @@ TEST(Serve, LeavesAWholeArchiveWhenKilled) {
 
   EXPECT_EQ(rows_of(service.db(), "PRAGMA integrity_check"), std::vector<std::string>{"ok|"});
   EXPECT_EQ(rows_of(service.db(), "PRAGMA foreign_key_check"), std::vector<std::string>{});
-  // The edges of these sources are counted in the transaction that stores them.
+  // The edges of a source are counted in the transaction that stores them.
   EXPECT_EQ(number_of(service.db(), "SELECT received FROM source_count"),
             number_of(service.db(), "SELECT count(*) FROM pulse"));
-  // No result without the edges that it rests on.
+  // No result may exist without the edges that it is based on.
   EXPECT_EQ(number_of(service.db(),
                       "SELECT count(*) FROM pulse_use LEFT JOIN pulse USING"
                       " (spacecraft_id, t_tai_ns, channel) WHERE pulse.t_tai_ns IS NULL"),
@@ -90,8 +88,8 @@ TEST(Serve, TellsAfterARestartHowFarTelemetryHadCome) {
   }
 }
 
-/// As they would be sent, but that every 97th comes 50 later: late by seconds, or within the
-/// reorder window.
+/// Returns the pulses with every 97th sent 50 later, either late by seconds or within the reorder
+/// window.
 std::vector<Pulse> disordered_pulses(const std::string& pass) {
   std::vector<Pulse> pulses = pulses_of(pass);
   for (std::size_t i = 0; i + 50 < pulses.size(); i += 97) {
@@ -136,8 +134,8 @@ TEST_P(ServeRestart, IntoARunningPassGivesWhatNoRestartWouldHave) {
             nlohmann::json::parse(whole.program().out())["runs"][0]["revolutions"]);
 }
 
-/// What a subscriber who keeps everything was sent, by kind: of fixes the revolutions, of the
-/// estimates of each estimator the times.
+/// Holds what a KEEP_ALL subscriber received, by kind: revolution numbers of fixes, and times of
+/// the estimates of each estimator.
 using Announced = std::map<std::string, std::vector<std::int64_t>>;
 
 class Listener {
@@ -203,9 +201,9 @@ TEST_P(ServeRestart, AnnouncesNothingTwiceButWhatIsInForce) {
   for (const auto& [kind, times] : announced) {
     const std::set<std::int64_t> different{times.begin(), times.end()};
     if (kind == "batch") {
-      // A start withdraws solutions and makes them again: stopped before it has, the next one
-      // cannot know that they were announced. That of a minute may come after that of an orderly
-      // stop.
+      // A start withdraws batch solutions and computes them again. If it is stopped before, the
+      // next start cannot know that they were announced. The periodic solution may come after
+      // that of an orderly stop.
       EXPECT_LE(most_alike(times), service.starts()) << kind;
     } else {
       EXPECT_LE(std::ssize(times), std::ssize(different) + service.starts() - 1) << kind;
@@ -262,7 +260,7 @@ TEST(Serve, CountsMissingSamplesOnceHoweverOftenTheyAreSentAgain) {
   ASSERT_TRUE(service.ready()) << service.program().log();
   send(0, 200);
   EXPECT_EQ(gaps_when_stopped_after(199), 4);
-  send(200, 300);  // The service is away, and gets it later.
+  send(200, 300);  // The service is not running and receives these later.
   service.start();
   ASSERT_TRUE(service.ready()) << service.program().log();
   send(300, 500);
@@ -294,7 +292,7 @@ TEST(Serve, SaysWhenAChangedMissionFileBeginsANewRun) {
                                             " these have changed: the mission file\n"));
 }
 
-/// Two passes of one second a revolution with just over an hour between them.
+/// Returns two passes with one revolution a second, just over an hour apart.
 std::vector<Pulse> two_passes() {
   const auto pulse_at = [](std::int64_t t_s) {
     return Pulse{.t = tai_from_ns(kTestTime_tai_ns + t_s * 1'000'000'000),
@@ -310,7 +308,7 @@ std::vector<Pulse> two_passes() {
   return pulses;
 }
 
-/// Of a service that is restarted when it has got so much of `two_passes`; 1: that never is.
+/// The parameter is the share of `two_passes` after which the service restarts; 1 for no restart.
 class ServeTwoPasses : public ::testing::TestWithParam<double> {};
 
 TEST_P(ServeTwoPasses, MakesTwoRunsHoweverTheServiceIsRestarted) {
@@ -322,7 +320,8 @@ TEST_P(ServeTwoPasses, MakesTwoRunsHoweverTheServiceIsRestarted) {
   if (GetParam() < 1.0) {
     ASSERT_EQ(service.stop_when_computed(), 0) << service.program().log();
     service.start();
-    // What the front-end still has of the old pass comes again first, and tells nothing.
+    // The front-end sends its last samples of the old pass again first, which must not end the
+    // silence.
     ASSERT_TRUE(front_end.send_until(1.0));
   }
   ASSERT_EQ(service.stop_when_computed(), 0) << service.program().log();
@@ -339,7 +338,7 @@ TEST_P(ServeTwoPasses, MakesTwoRunsHoweverTheServiceIsRestarted) {
   EXPECT_EQ(number_of(service.db(), "SELECT count(*) FROM pulse_use"), 200);
 }
 
-// Before the silence, while the new pass is not believed yet, never.
+// Restart before the silence, before the new pass is confirmed, and never.
 INSTANTIATE_TEST_SUITE_P(After, ServeTwoPasses, ::testing::Values(0.5, 0.515, 1.0));
 
 }  // namespace spindrift::serve_restart_test

@@ -1,5 +1,3 @@
-// `spindrift serve` reconstructs a separation by itself.
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <spindrift.h>
@@ -33,7 +31,7 @@ using ::testing::HasSubstr;
 
 const std::filesystem::path kSeparation = test_data() / "three-axis" / "separation";
 
-/// What was reconstructed, but the names of runs.
+/// Returns the reconstructed rows without the names of runs.
 std::vector<std::string> reconstructed_rows(const std::filesystem::path& db) {
   std::vector<std::string> rows;
   for (const char* query :
@@ -51,7 +49,7 @@ std::vector<std::string> reconstructed_rows(const std::filesystem::path& db) {
   return rows;
 }
 
-/// A subscriber to attitudes who keeps all.
+/// Collects all published attitudes.
 class Listener {
  public:
   explicit Listener(const bus::BusConfig& bus)
@@ -60,7 +58,7 @@ class Listener {
                     participant_, product_topic<AttitudeEstimate>(), bus::telemetry_reader_qos())
                     .value()} {}
 
-  /// Of an estimator, as they came.
+  /// Returns the attitudes of an estimator in the order of arrival.
   std::vector<spindrift_AttitudeEstimate> of(const std::string& estimator) {
     while (reader_
                .take([&](const spindrift_AttitudeEstimate& one) {
@@ -77,7 +75,7 @@ class Listener {
   std::map<std::string, std::vector<spindrift_AttitudeEstimate>> got_;
 };
 
-/// The one that a late joiner is given.
+/// Returns the attitudes that a late subscriber receives.
 std::vector<std::int64_t> kept_on(const bus::BusConfig& bus, const std::string& estimator) {
   const auto participant = bus::Participant::create(bus).value();
   const auto reader = bus::Reader<spindrift_AttitudeEstimate>::create(
@@ -158,7 +156,7 @@ TEST(ServeSeparation, KilledBetweenStarFixesGivesWhatProcessGives) {
                     "--speed", "0", "--domain", std::to_string(service.bus().domain), "--partition",
                     service.bus().partition}};
     ASSERT_EQ(replay.exit_status(), 0) << replay.log();
-    // At 1, 2, 4, 8 and 16 fixes; behind the restart the last of these again, and at 32.
+    // Solutions are made at 1, 2, 4, 8 and 16 fixes; after the restart, at 16 again and at 32.
     for (const char* const method : {"batch", "sequential"}) {
       ASSERT_TRUE(eventually([&, all = first ? 5 : 7] { return solutions(method) == all; }))
           << solutions(method);
@@ -172,7 +170,7 @@ TEST(ServeSeparation, KilledBetweenStarFixesGivesWhatProcessGives) {
   ASSERT_EQ(service.stop(), 0) << service.program().log();
   EXPECT_EQ(reconstructed_rows(service.db()), reconstructed_rows(processed.db));
   EXPECT_EQ(number_of(service.db(), "SELECT count(*) FROM run"), 1);
-  // Of the orbit states, as the mission names no orbit.
+  // The mission names no orbit, so the orbit frame comes from the orbit states.
   EXPECT_EQ(number_of(service.db(), "SELECT count(euler312_orbit_deg_1) FROM reconstruction_event"),
             8);
   EXPECT_TRUE(eventually([&] { return solutions("batch") == 8; })) << solutions("batch");
@@ -198,10 +196,10 @@ TEST(ServeSeparation, TheCommandGoesThroughTheServiceThatHoldsTheArchive) {
   EXPECT_EQ(refused.exit_status(), 2);
   EXPECT_THAT(refused.out(), HasSubstr("/no/such/mission.toml: cannot be read"));
   ASSERT_EQ(service.stop(), 0) << service.program().log();
-  // Nothing of it is announced: what is in force is the pass's own, at the fix, at the end, and
-  // where the machine is slow also when the stream has fallen silent.
+  // The command's solution is not announced. The pass's own solutions stay valid: at the fix, at
+  // the end, and on a slow machine also when the stream has fallen silent.
   EXPECT_TRUE(eventually([&] { return listener.of("batch").size() >= 8; }));
-  EXPECT_EQ(listener.of("batch").size() % 4, 0U);  // T1 to T4 of each.
+  EXPECT_EQ(listener.of("batch").size() % 4, 0U);  // Each solution has T1 to T4.
   const std::string run_of_command = nlohmann::json::parse(held.out()).at("run_id");
   for (const spindrift_AttitudeEstimate& announced : listener.of("batch")) {
     EXPECT_NE(announced.run_id, run_of_command);

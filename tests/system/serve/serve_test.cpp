@@ -1,4 +1,4 @@
-// `spindrift serve` fed by `spindrift replay`: real processes, real DDS, the real archive.
+// `spindrift serve` fed by `spindrift replay`: real processes, DDS and archive.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -39,12 +39,12 @@ TEST(Serve, GivesTheRowsOfProcessBitForBit) {
   EXPECT_GT(rows.size(), 15000U);
   EXPECT_EQ(product_rows(service.db()), rows);
   EXPECT_EQ(last_batch_rows(service.db()), last_batch_rows(offline));
-  // How many of the ten minutes were solved before the stop depends on the machine; the restart
-  // tests see that the next start makes the others.
+  // The number of periodic solutions before the stop depends on the machine; the restart tests
+  // check that the next start makes the others.
   EXPECT_EQ(number_of(offline, "SELECT count(*) FROM spin_batch"), 1);
 }
 
-// Single edges and bursts are computed on different threads, and go to and fro between them.
+// Single edges and bursts are computed on different threads, and processing moves between them.
 TEST(Serve, GivesTheRowsOfProcessWhetherEdgesComeOneByOneOrInBursts) {
   const TemporaryFolder folder;
   const auto offline = folder.path() / "processed.db";
@@ -87,7 +87,7 @@ TEST(Serve, PublishesItsResultsForThoseWhoComeLater) {
       bus::Reader<spindrift_Health>::create(participant, bus::kHealthTopic, bus::results_qos())
           .value();
 
-  // The latest of each estimator; those of `batch` go on coming, as they are solved.
+  // Keep the latest estimate of each estimator; more of `batch` may follow.
   std::map<std::string, spindrift_SpinEstimate> latest;
   ASSERT_TRUE(eventually([&] {
     estimates
@@ -125,7 +125,7 @@ TEST(Serve, PublishesItsResultsForThoseWhoComeLater) {
     EXPECT_EQ(std::vector{std::string{estimate.run_id} + "|"},
               rows_of(service.db(), "SELECT run_id FROM run"));
     EXPECT_THAT(estimate.service, StartsWith("spindrift "));
-    // Announced is what is stored.
+    // The announced values must equal the stored ones.
     EXPECT_EQ(real_of(service.db(), "SELECT ra_deg FROM spin_estimate WHERE estimator = '" +
                                         std::string{estimate.estimator} +
                                         "' AND t_tai_ns = " + std::to_string(estimate.t_tai_ns)),
@@ -136,7 +136,7 @@ TEST(Serve, PublishesItsResultsForThoseWhoComeLater) {
 TEST(Serve, HasAReplayedSampleAsSoonAsItIsDue) {
   Service service{"nominal"};
   ASSERT_TRUE(service.ready()) << service.program().log();
-  // The second edge is due after a minute.
+  // At this speed the second edge is due after a minute.
   Program replay{{"replay", "--mission", service.mission(), "--telemetry",
                   (kPasses / "nominal").string(), "--speed", "0.001", "--domain",
                   std::to_string(service.bus().domain), "--partition", service.bus().partition}};
@@ -256,12 +256,12 @@ TEST(Serve, StopsAcceptingLoudlyWhenTheDiskIsFullAndEndsWithOne) {
                   (kPasses / "gms5").string(), "--speed", "0", "--domain",
                   std::to_string(service.bus().domain), "--partition", service.bus().partition}};
   ASSERT_TRUE(service.program().says("the archive does not store")) << service.program().log();
-  // Who comes later learns it from the bus and from the log.
+  // A late subscriber learns it from the bus, a reader from the log.
   const auto participant = bus::Participant::create(service.bus()).value();
   const auto health =
       bus::Reader<spindrift_Health>::create(participant, bus::kHealthTopic, bus::results_qos())
           .value();
-  // The path of the archive alone fills the status.
+  // The archive's path alone fills the status, so the reason is in the message.
   EXPECT_TRUE(eventually([&] {
     std::string message;
     health.take([&](const spindrift_Health& beat) { message = beat.message; }).value();
@@ -273,7 +273,7 @@ TEST(Serve, StopsAcceptingLoudlyWhenTheDiskIsFullAndEndsWithOne) {
   EXPECT_THAT(service.log(), HasSubstr("rows that were accepted are not in archive"));
   replay.signal(SIGKILL);
 
-  // What is there is whole: samples and products of each batch together.
+  // What is stored is consistent: samples and products of each batch together.
   EXPECT_EQ(rows_of(service.db(), "PRAGMA integrity_check"), std::vector<std::string>{"ok|"});
   EXPECT_EQ(number_of(service.db(),
                       "SELECT count(*) FROM pulse_use LEFT JOIN pulse USING"

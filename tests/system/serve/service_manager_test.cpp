@@ -1,4 +1,4 @@
-// What systemd hears of `serve`: a datagram socket in its place.
+// Notifications of `serve` to systemd, received on a datagram socket.
 
 #include <gtest/gtest.h>
 #include <sys/socket.h>
@@ -30,7 +30,7 @@ class Manager {
   Manager(Manager&&) = delete;
   Manager& operator=(Manager&&) = delete;
 
-  /// Within a while.
+  /// Waits for a notification that contains `word`.
   bool hears(const std::string& word) {
     return eventually([&] {
       std::array<char, 256> message{};

@@ -1,5 +1,3 @@
-// `spindrift serve` when its stream falls silent without the pass ending.
-
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,5 +1,3 @@
-// `spindrift serve` when its senders disagree about the time.
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -38,8 +36,8 @@ std::vector<std::string> sorted(std::vector<std::string> rows) {
   return rows;
 }
 
-/// A pass of one honest source, and what a service makes of it that is not disturbed. Recorded
-/// passes, faster than the clock on the wall.
+/// Runs a service with a pass of one honest source, and holds the undisturbed result. The pass is a
+/// recorded one, sent faster than real time.
 class ServeSources : public ::testing::Test {
  protected:
   explicit ServeSources(const std::string& partition = "replay") : service_{"nominal", partition} {}
@@ -90,7 +88,7 @@ class ServeSources : public ::testing::Test {
     ASSERT_TRUE(service_.ready()) << service_.program().log();
   }
 
-  /// As if there had been the honest source only, in one run.
+  /// Expects the result of the honest source alone, in one run.
   void expect_the_whole_pass() {
     ASSERT_EQ(service_.stop_when_computed(), 0) << service_.program().log();
     const std::vector<std::string> rows = sorted(product_rows(service_.db()));
@@ -112,7 +110,7 @@ class ServeSources : public ::testing::Test {
 
 struct AlienBefore {
   int count;
-  bool computed;  ///< Before the honest source sends anything.
+  bool computed;  ///< Whether the samples are processed before the honest source sends anything.
 };
 
 class ServeAlienBefore : public ServeSources, public ::testing::WithParamInterface<AlienBefore> {};
@@ -146,7 +144,7 @@ struct AlienWithin {
   std::chrono::minutes ahead;
 };
 
-/// Live, where a pause is no silence, however slow the machine is.
+/// Runs a live service, in which a pause in sending is no silence.
 class ServeAlienWithin : public ServeSources, public ::testing::WithParamInterface<AlienWithin> {
  protected:
   ServeAlienWithin() : ServeSources{""} {}
@@ -160,7 +158,7 @@ TEST_P(ServeAlienWithin, IsLeftOutAndNamed) {
   send_alien(whole().pulses.at(half).t + ahead, count);
   ASSERT_TRUE(front_end.send_until(0.75));
   ASSERT_TRUE(has_stored(half + half / 2 + static_cast<std::size_t>(count)));
-  // A kill takes with it what was still to be said.
+  // A kill would lose the message if it was not logged yet.
   EXPECT_TRUE(service_.program().says("SPINNER: the samples of source 'alien' (session "));
   kill_and_restart();
   ASSERT_TRUE(front_end.send_until(1.0));
@@ -226,7 +224,8 @@ TEST(ServeLive, TheClockOfTheHostIsComparedOnce) {
   ASSERT_TRUE((FrontEnd{service.bus(), "SPINNER", pulses_of("nominal")}.send_until(1.0)));
   ASSERT_EQ(service.stop_when_computed(), 0) << service.program().log();
   const std::string whole_log = service.log();
-  const std::string log = whole_log.substr(0, whole_log.find("stopping"));  // Of the first start.
+  // Log of the first start.
+  const std::string log = whole_log.substr(0, whole_log.find("stopping"));
   const std::string said = "and the clock of this host";
   EXPECT_THAT(log, HasSubstr(said));
   EXPECT_EQ(log.find(said, log.find(said) + 1), std::string::npos);

@@ -1,5 +1,3 @@
-// `spindrift serve` that is told to stop while senders go on.
-
 #include <gtest/gtest.h>
 
 #include <csignal>

@@ -1,5 +1,3 @@
-// What `spindrift serve` tells whoever sits before it: a terminal, or a program that reads its log.
-
 #include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -28,7 +26,7 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 using ::testing::StartsWith;
 
-/// Of 80 columns; somebody reads what is written to it.
+/// Holds a pseudo-terminal with 80 columns.
 class Terminal {
  public:
   Terminal() {
@@ -48,7 +46,7 @@ class Terminal {
   Terminal& operator=(Terminal&&) = delete;
 
   const std::string& name() const { return name_; }
-  /// All that was written so far.
+  /// Returns all text written so far.
   const std::string& text() {
     std::array<char, 4096> some{};
     for (ssize_t n = 0; (n = read(ours_, some.data(), some.size())) > 0;) {
@@ -67,7 +65,7 @@ class Terminal {
   std::string text_;
 };
 
-/// A pass whose link is silent after three seconds.
+/// Holds a pass whose link counts as silent after three seconds.
 struct SoonSilent {
   PassCopy copy{"nominal"};
   SoonSilent() {
@@ -106,7 +104,8 @@ TEST(ServeTerminal, RewritesOneLineAndScrollsWhatChanges) {
   service.signal(SIGTERM);
   EXPECT_EQ(service.exit_status(), 0) << terminal.text();
 
-  EXPECT_THAT(terminal.text(), Not(HasSubstr("SPINNER: axis RA ")));  // The status line has it.
+  // The status line shows the axis instead.
+  EXPECT_THAT(terminal.text(), Not(HasSubstr("SPINNER: axis RA ")));
   for (const std::string& drawn : parts_of(terminal.text(), '\r')) {
     if (drawn.starts_with("\x1b[KSPINNER ")) {
       EXPECT_LT(drawn.size(), std::string{"\x1b[K"}.size() + 80U) << drawn;

@@ -1,5 +1,3 @@
-// `serve --webhook`: alerts of a live service, and none of a rehearsal, to an Alertmanager.
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -24,7 +22,7 @@ namespace spindrift::webhook_test {
 namespace http = boost::beast::http;
 using ::testing::HasSubstr;
 
-/// Takes what is posted to it.
+/// Receives HTTP POST requests.
 class Receiver {
  public:
   explicit Receiver(http::status answer = http::status::ok)
@@ -82,7 +80,7 @@ class Receiver {
   std::thread thread_;
 };
 
-/// A service of its own, and a pass of which the target is elsewhere.
+/// Runs a service with a webhook on a pass whose target attitude is far from the actual one.
 struct Told {
   PassCopy pass{"nominal"};
   bus::BusConfig bus{bus_of_its_own()};
@@ -188,7 +186,7 @@ TEST(Webhook, IsNotToldWhatARehearsalHasLeftOpen) {
   ASSERT_TRUE(service.says("ready")) << service.log();
   FrontEnd front_end{rehearsal.bus, "SPINNER", pulses_of("nominal")};
   ASSERT_TRUE(front_end.send_until(1.0));
-  // Its own, raised anew.
+  // The live run raises its own alert anew.
   EXPECT_TRUE(eventually([&] { return tells_off_target(receiver); })) << service.log();
   for (const nlohmann::json& alert : receiver.alerts()) {
     EXPECT_EQ(

@@ -36,7 +36,7 @@ std::vector<std::string> changes_in(const ArchiveBatch& batch) {
   return changes;
 }
 
-/// Of a service that runs.
+/// Holds the alert desk of a running service.
 struct Served {
   AlertDesk desk{{load_mission(recorded_passes() / "nominal" / "mission.toml").value()},
                  RunMode::Live};
@@ -109,7 +109,7 @@ TEST(AlertDesk, GoesOnWithOpenAlertsOfBefore) {
   EXPECT_EQ(changes_in(restarted.silent(-3599.0, 0.1).at(0)), Changes{"link.silent cleared"});
 }
 
-/// Of a three-axis spacecraft: gyro samples once a second, and star fixes until the tenth.
+/// Returns gyro samples once a second and star fixes up to 10 s, of a three-axis spacecraft.
 ArchiveBatch samples_until(int end_s) {
   ArchiveBatch batch{.run_id = "run", .spacecraft_id = "LEOSAT"};
   std::int64_t arrival = 0;
@@ -178,7 +178,7 @@ TEST(AlertDesk, RaisesWhatWasNotStoredBeforeARestartAgainUnderTheSameId) {
   EXPECT_EQ(restarted.desk.open()[0].alert.alert_id, before.desk.open().at(0).alert.alert_id);
 }
 
-/// A pass that turns a little faster than its ground model does.
+/// Holds a pass that spins slightly faster than its ground model.
 class FasterThanItsModel : public ::testing::Test {
  protected:
   FasterThanItsModel() {
@@ -196,7 +196,7 @@ class FasterThanItsModel : public ::testing::Test {
     return {
         {load_mission(folder_.path() / "pass" / "mission.toml").value()}, RunMode::Live, models_};
   }
-  /// Those from one place in the order of arrival up to another, in batches.
+  /// Sends the samples at positions `from` to `to` of the arrival order in batches.
   void send(AlertDesk& desk, std::size_t from, std::size_t to) const {
     constexpr std::size_t kBatch = 100;
     for (; from < to; from += kBatch) {
@@ -210,7 +210,7 @@ class FasterThanItsModel : public ::testing::Test {
       desk.see(batch);
     }
   }
-  /// By key: id and evidence.
+  /// Returns ID and evidence of the open alerts by key.
   static std::map<std::string, std::string> open_in(const AlertDesk& desk) {
     std::map<std::string, std::string> open;
     for (const OpenAlert& one : desk.open()) {
@@ -232,7 +232,7 @@ TEST_F(FasterThanItsModel, IsToldAsADepartureAndTheSameAfterARestart) {
   ASSERT_EQ(open_in(whole).size(), 1U);
   EXPECT_EQ(open_in(whole).begin()->first, "model.departure:period");
 
-  // Before it is raised, and behind.
+  // The service is killed before and after the alert is raised.
   for (const std::size_t killed : {std::size_t{30}, std::size_t{1000}}) {
     AlertDesk restarted = desk();
     ArchiveBatch goes_on = batch_of_run();

@@ -6,7 +6,7 @@ namespace spindrift::firing_alerts_test {
 
 using namespace std::chrono_literals;
 
-constexpr TaiTime kRaised = tai_from_ns(1'795'143'637'000'000'000);  // 2026-11-20T03:00:00Z
+constexpr TaiTime kRaised = tai_from_ns(1'795'143'637'000'000'000);  // 2026-11-20T03:00:00Z.
 
 OpenAlert open_alert(std::int64_t revision = 1, AlertState state = AlertState::Active) {
   return {.spacecraft = "SPINNER",
@@ -20,7 +20,8 @@ OpenAlert open_alert(std::int64_t revision = 1, AlertState state = AlertState::A
                     .evidence = R"({"value":6})"}};
 }
 
-/// Of the state `open` at `after` the raising; told.
+/// Returns the alerts due for the state `open` at `after` since the raising, and marks them as
+/// sent.
 nlohmann::json told(FiringAlerts& firing, const std::vector<OpenAlert>& open,
                     std::chrono::seconds after) {
   nlohmann::json due = firing.due(open, kRaised + after);

@@ -116,7 +116,8 @@ TEST(BatchQueue, GivesAFewDetailsLate) {
   EXPECT_GE(steady_clock::now() - start, std::chrono::seconds{1});
 }
 
-// Details are due after a second, which a busy machine may need to push the samples: then again.
+// Details are due after a second, which a busy machine may need to push the samples; the test is
+// then repeated.
 TEST(BatchQueue, GivesAFewSamplesAtOnceThoughDetailsWait) {
   using std::chrono::steady_clock;
   for (int tries = 0; tries < 20; ++tries) {
@@ -125,7 +126,8 @@ TEST(BatchQueue, GivesAFewSamplesAtOnceThoughDetailsWait) {
     ASSERT_TRUE(queue.push(details(1)));
     std::vector<ArchiveBatch> taken;
     std::thread writer{[&] { taken = queue.take(); }};
-    std::this_thread::sleep_for(std::chrono::milliseconds{50});  // Until it waits for the details.
+    // Let the writer wait for the details.
+    std::this_thread::sleep_for(std::chrono::milliseconds{50});
     ASSERT_TRUE(queue.push(samples(1)));
     writer.join();
     if (steady_clock::now() - start < std::chrono::milliseconds{900}) {
@@ -170,7 +172,7 @@ TEST(BatchQueue, HasOneBoundForResultsAndDetails) {
     std::this_thread::sleep_for(std::chrono::milliseconds{50});
     EXPECT_THAT(names_of(queue.take()), ElementsAre("results"));
   }};
-  ASSERT_TRUE(queue.push(results(1)));  // Waits for the writer.
+  ASSERT_TRUE(queue.push(results(1)));  // This push waits for the writer.
   writer.join();
   EXPECT_EQ(queue.size(), 2U);
 }

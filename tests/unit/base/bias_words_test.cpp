@@ -1,4 +1,4 @@
-/// Directions of the biases that edges leave open as sentences.
+/// Sentences about the directions of biases that edges do not determine.
 
 #include "services/base/bias_words.h"
 

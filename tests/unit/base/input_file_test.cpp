@@ -72,7 +72,7 @@ TEST(InputFile, ThatIsTooLargeIsRefusedBeforeItIsRead) {
 TEST(InputFile, ThatFailsWhileReadingIsAnError) {
   const TemporaryFolder folder;
   const auto path = folder.write("a.txt", "text");
-  // The lowest that is free, which the file gets; then it is taken away.
+  // The file gets the lowest free descriptor, which is then closed.
   const int descriptor = dup(STDIN_FILENO);
   close(descriptor);
   auto file = InputFile::open(path).value();

@@ -1,5 +1,3 @@
-/// Why a revolution gives no axis as a sentence.
-
 #include "services/base/no_fix_words.h"
 
 #include <gtest/gtest.h>

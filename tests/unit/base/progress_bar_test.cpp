@@ -17,7 +17,7 @@ namespace spindrift::progress_bar_test {
 using ::testing::EndsWith;
 using ::testing::HasSubstr;
 
-/// What `work` writes to standard error while that is `descriptor`, read at `reading`.
+/// Returns what `work` writes to standard error when that is `descriptor`, read from `reading`.
 std::string standard_error_of(int descriptor, int reading, const std::function<void()>& work) {
   std::fflush(stderr);
   const int kept = dup(STDERR_FILENO);

@@ -15,7 +15,7 @@ namespace spindrift::standard_error_test {
 
 using ::testing::EndsWith;
 
-/// While it lives, a pipe is standard error.
+/// Replaces standard error by a pipe during its lifetime.
 class Piped {
  public:
   Piped() : before_{dup(STDERR_FILENO)} {
@@ -35,7 +35,7 @@ class Piped {
 
   void restore() const { dup2(before_, STDERR_FILENO); }
 
-  /// Until there is no writer left.
+  /// Reads until all writers have closed the pipe.
   std::string read_all() const {
     std::string all;
     std::array<char, 4096> some{};
@@ -74,7 +74,7 @@ TEST(StandardError, MakesNobodyWaitAndCountsWhatItDrops) {
   const std::string line(99, 'x');
   {
     StandardError standard_error;
-    for (int i = 0; i < kLines; ++i) {  // More than the pipe holds and more than may wait.
+    for (int i = 0; i < kLines; ++i) {  // More than the pipe and the queue hold.
       std::fprintf(stderr, "%s\n", line.c_str());
     }
     std::thread reader{[&] { read = pipe.read_all(); }};
@@ -99,7 +99,7 @@ TEST(StandardError, MakesNobodyWaitAndCountsWhatItDrops) {
 }
 
 TEST(StandardError, IsNotOutWhenNobodyReads) {
-  // In a process of its own: the thread that waits uses it for ever.
+  // The test has a process of its own because the blocked thread uses the object forever.
   EXPECT_EXIT(
       {
         const Piped pipe;

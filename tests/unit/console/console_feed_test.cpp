@@ -19,7 +19,7 @@ using namespace std::chrono_literals;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-// Within the orbit of the recorded pass.
+// A time within the orbit of the recorded pass.
 const TaiTime kT = tai_from_ns(1'795'143'700'000'000'000);
 
 SpinEstimate estimate_at(TaiTime t, SpinEstimator estimator) {

@@ -20,8 +20,8 @@ TEST(EventRing, GivesWhatIsBehindAnId) {
 TEST(EventRing, StartsAgainWhereItCan) {
   EventRing ring{100};
   ring.add("state", {});
-  EXPECT_EQ(ring.nearest(7), 100U);     // Of an earlier start: all there is.
-  EXPECT_EQ(ring.nearest(5000), 101U);  // Of another service: from now on.
+  EXPECT_EQ(ring.nearest(7), 100U);     // Number of an earlier start: all events are returned.
+  EXPECT_EQ(ring.nearest(5000), 101U);  // Number of another service: events from now on.
   EXPECT_TRUE(ring.holds_all_after(100));
 }
 
@@ -34,7 +34,8 @@ TEST(EventRing, ForgetsByBytes) {
   EXPECT_FALSE(ring.holds_all_after(1));
   EXPECT_EQ(ring.nearest(0), 5U);
   EXPECT_TRUE(ring.holds_all_after(5));
-  EXPECT_LT(ring.after(5).text.size(), 2 * mebibyte.size());  // Not all at once.
+  // Large events are not returned all at once.
+  EXPECT_LT(ring.after(5).text.size(), 2 * mebibyte.size());
 }
 
 }  // namespace

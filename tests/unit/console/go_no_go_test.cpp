@@ -20,7 +20,7 @@ Standing good() {
           .to_target_deg = 2.2};
 }
 
-/// "code: text" of what stands against what is good but for a change.
+/// Returns "code: text" of each objection to a good standing after `change`.
 Texts against(const Change& change, const std::string& trouble = "") {
   Standing standing = good();
   change(standing);

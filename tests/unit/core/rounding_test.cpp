@@ -10,7 +10,7 @@ namespace spindrift::rounding_test {
 
 using One = Eigen::Vector<double, 1>;
 
-/// As a sender writes it that has six digits, or float32.
+/// Returns the value as rounded by a sender with six digits or float32.
 double written(double value, const char* format) {
   return std::stod(fmt::format(fmt::runtime(format), value));
 }
@@ -45,13 +45,13 @@ TEST(Rounding, WhatIsRoundedToFourDigitsIsTheSame) {
   EXPECT_TRUE(same_but_for_rounding<3>(
       {0.837182, -0.305838, 0.453475},
       {static_cast<double>(0.8372F), static_cast<double>(-0.3058F), static_cast<double>(0.4535F)}));
-  // Beyond half a unit, of another unit for each component, to three digits.
+  // The differences exceed half a unit (with three digits, of a different unit for each component).
   EXPECT_FALSE(
       same_but_for_rounding<3>({11454.7023, -13003.3937, 10.3712}, {11454.0, -13003.0, 10.0}));
   EXPECT_FALSE(
       same_but_for_rounding<3>({11454.7023, -13003.3937, 10.3712}, {11455.0, -13003.2, 10.0}));
   EXPECT_FALSE(same_but_for_rounding<3>({0.837182, -0.305838, 0.453475}, {0.837, -0.306, 0.453}));
-  // Both are on the grid, and are different.
+  // Both are on the grid but differ.
   EXPECT_FALSE(same_but_for_rounding<3>({11454.0, -13003.0, 10.0}, {11455.0, -13003.0, 10.0}));
 }
 

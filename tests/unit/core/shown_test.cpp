@@ -13,7 +13,7 @@ TEST(Shown, LeavesTextOfAnyScriptAsItIs) {
 TEST(Shown, EscapesWhatATerminalWouldObey) {
   EXPECT_EQ(shown("\x1b[2J\r\n\t\x7f"), "\\x1b[2J\\x0d\\x0a\\x09\\x7f");
   EXPECT_EQ(shown(std::string_view{"a\0b", 3}), "a\\x00b");
-  // CSI as one character, a line separator, right-to-left override.
+  // CSI as one character, a line separator, and a right-to-left override.
   EXPECT_EQ(shown("\u009b2J"), "\\xc2\\x9b2J");
   EXPECT_EQ(shown("a\u2028b"), "a\\xe2\\x80\\xa8b");
   EXPECT_EQ(shown("\u202egnp.exe"), "\\xe2\\x80\\xaegnp.exe");
@@ -23,11 +23,11 @@ TEST(Shown, EscapesWhatIsNoUtf8) {
   EXPECT_EQ(shown("\xff\xfe"), "\\xff\\xfe");
   EXPECT_EQ(shown("caf\xe9"), "caf\\xe9");
   EXPECT_EQ(shown("caf\xe9 au lait"), "caf\\xe9 au lait");
-  EXPECT_EQ(shown("\xc0\xaf"), "\\xc0\\xaf");                    // Overlong.
-  EXPECT_EQ(shown("\xe0\x80\xaf"), "\\xe0\\x80\\xaf");           // Likewise.
-  EXPECT_EQ(shown("\xed\xa0\x80"), "\\xed\\xa0\\x80");           // Half of a pair.
-  EXPECT_EQ(shown("\xf4\x90\x80\x80"), "\\xf4\\x90\\x80\\x80");  // Beyond the last.
-  EXPECT_EQ(shown("\xe2\x82"), "\\xe2\\x82");                    // Cut off.
+  EXPECT_EQ(shown("\xc0\xaf"), "\\xc0\\xaf");                    // Overlong encoding.
+  EXPECT_EQ(shown("\xe0\x80\xaf"), "\\xe0\\x80\\xaf");           // Overlong encoding.
+  EXPECT_EQ(shown("\xed\xa0\x80"), "\\xed\\xa0\\x80");           // Half of a surrogate pair.
+  EXPECT_EQ(shown("\xf4\x90\x80\x80"), "\\xf4\\x90\\x80\\x80");  // Beyond the last code point.
+  EXPECT_EQ(shown("\xe2\x82"), "\\xe2\\x82");                    // Truncated character.
 }
 
 TEST(Shown, IsAtMost200CharactersAndThePlaceOfTheRest) {

@@ -1,5 +1,3 @@
-// The judgements of the doctor on the bus, on facts that are made up.
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -18,7 +16,7 @@ using namespace std::chrono_literals;
 
 // --- network
 
-// As Cyclone DDS 0.10.2 writes it, shortened.
+// Trace as written by Cyclone DDS 0.10.2, shortened.
 constexpr std::string_view kTrace =
     "config: Domain/General/AllowMulticast/#text: false {1}\n"
     "config: Domain/Discovery/Peers/Peer[@Address]: localhost {1}\n"

@@ -1,5 +1,4 @@
-// The judgements of the doctor on the machine, the missions and the archive, on facts that are made
-// up.
+// The checks of `spindrift doctor` on machine, missions and archive with made-up facts.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -70,7 +69,7 @@ TEST(DoctorHost, NamesTheVersionsOfSqliteThatCanDamageAFile) {
 // --- leap seconds
 
 TEST(DoctorLeapSeconds, ReadsTheTableOfTheMachine) {
-  // 3676924800 and 3692217600: 1 July 2016 less leap second, and 1 January 2017. 3991593600:
+  // 3676924800 and 3692217600 are 1 July 2016 less a leap second, and 1 January 2017; 3991593600 is
   // 28 June 2026.
   const auto table = machine_table(
       "#$ 3945196800\n#@ 3991593600\n2272060800\t10\t# 1 Jan 1972\n3692217600\t37\t# 1 Jan 2017\n");
@@ -111,7 +110,7 @@ TEST(DoctorLeapSeconds, FailsWhenTheProgramMissesOne) {
   LeapFacts facts = leaps(2026y / 5 / 1);
   facts.machine->tai_minus_utc_s = 38;
   EXPECT_EQ(check_leap_seconds(facts).verdict, Verdict::Failure);
-  // A newer program on an old machine is right.
+  // A program with a newer table than the machine's is right.
   facts.machine->complete_until = 2016y / 12 / 28;
   facts.machine->tai_minus_utc_s = 36;
   facts.day = 2021y / 6 / 1;
@@ -203,7 +202,7 @@ TEST(DoctorMissions, JudgesTheGroundModelForThePass) {
   facts.ground_model = Coverage{.from = kNow - 1h, .to = kNow + 2h};
   EXPECT_EQ(judged(kNow + 2h).verdict, Verdict::Ok);
   EXPECT_EQ(judged(kNow + 3h).verdict, Verdict::Warning);
-  // That of a pass to come says nothing of now.
+  // The model of a future pass is not checked against the present.
   facts.ground_model = Coverage{.from = kNow + 1h, .to = kNow + 2h};
   EXPECT_EQ(judged(kNow).verdict, Verdict::Ok);
   EXPECT_EQ(judged(kNow + 2h).verdict, Verdict::Warning);
@@ -262,7 +261,7 @@ DiskFacts disk(std::uint64_t free_bytes) {
 }
 
 TEST(DoctorDisk, SaysHowManyHoursItLasts) {
-  // 2300 bytes, 100 rpm: 13.8 MB an hour of one spacecraft.
+  // 2300 bytes a row at 100 rpm are 13.8 MB an hour for one spacecraft.
   EXPECT_EQ(worst_of(check_disk(disk(24 * 13'800'000ULL), 1)), Verdict::Ok);
   const auto checks = check_disk(disk(24 * 13'800'000ULL), 2);
   EXPECT_EQ(named(checks, "disk").verdict, Verdict::Warning);

@@ -11,13 +11,14 @@
 namespace spindrift::earth_orientation_test {
 
 TEST(EarthOrientation, IsThatOfTheSofaCookbook) {
-  // SOFA Tools for Earth Attitude, 5.5: 2007 April 5, 12h UTC; UT1 - UTC is -0.072073685 s, by
-  // which the time is moved here. Its corrections dX and dY (0.3 mas) are left out.
+  // Source: SOFA Tools for Earth Attitude, 5.5, for 2007 April 5, 12h UTC. UT1 - UTC is
+  // -0.072073685 s, by which the time is shifted here. The corrections dX and dY (0.3 mas) are
+  // neglected.
   Eigen::Matrix3d R_itrf_icrf;
   R_itrf_icrf << +0.973104317697535, +0.230363826239128, -0.000703163482198,  //
       -0.230363800455689, +0.973104570632883, +0.000118545366625,             //
       +0.000711560162668, +0.000046626403995, +0.999999745754024;
-  // Its polar motion, to first order.
+  // Polar motion of the example, to first order.
   const double x_rad = 0.0349282 / 3600.0 * kRadPerDeg;
   const double y_rad = 0.4833163 / 3600.0 * kRadPerDeg;
   Eigen::Matrix3d R_itrf_intermediate;
@@ -30,13 +31,14 @@ TEST(EarthOrientation, IsThatOfTheSofaCookbook) {
 }
 
 TEST(EarthOrientation, TurnsOnceASiderealDayAcrossALeapSecond) {
-  // A leap second at the end of 2016: 24 h later by the clock is 86,401 s later, and UT1 a day.
+  // A leap second at the end of 2016 makes 24 h of UTC 86,401 s long, which is one UT1 day.
   const TaiTime before = parse_utc("2016-12-31T12:00:00").value();
   const TaiTime after = parse_utc("2017-01-01T12:00:00").value();
   ASSERT_EQ(seconds_between(before, after), 86401.0);
   const Eigen::Quaterniond turned =
       earth_orientation(before).conjugate() * earth_orientation(after);
-  // Earth rotation angle (IERS Conventions 2010, eq. 5.15) a UT1 day: one turn and so many more.
+  // The Earth rotation angle (IERS Conventions 2010, eq. 5.15) grows by a turn and this much in a
+  // UT1 day.
   constexpr double kMore_rad = 0.00273781191135448 * kTurn_rad;
   EXPECT_NEAR(Eigen::AngleAxisd{turned}.angle(), kMore_rad, 1e-6);
 }

@@ -44,7 +44,7 @@ double mean_from_true_anomaly_rad(double true_rad, double e) {
   return eccentric_rad - e * std::sin(eccentric_rad);
 }
 
-/// Elements of any ellipse outside the Earth, e up to 0.99.
+/// Returns elements of a random ellipse outside the Earth, e up to 0.99.
 KeplerElements random_elements(std::mt19937& rng) {
   std::uniform_real_distribution<double> unit{0.0, 1.0};
   const double e = 0.99 * unit(rng);
@@ -59,9 +59,10 @@ KeplerElements random_elements(std::mt19937& rng) {
 }
 
 TEST(KeplerOrbit, GivesTheStateOfVallado) {
-  // Vallado, Fundamentals of Astrodynamics and Applications, example 2-6: elements to five digits,
-  // which the state follows to about 0.1 km and 1e-4 km/s. Its perigee lies inside the Earth; twice
-  // as large, the same orbit has twice the positions and 1/sqrt(2) of the velocities.
+  // Source: Vallado, Fundamentals of Astrodynamics and Applications, example 2-6. The elements have
+  // five digits, so the state follows to about 0.1 km and 1e-4 km/s. Its perigee lies inside the
+  // Earth; the orbit is therefore doubled, which doubles positions and divides velocities by
+  // sqrt(2).
   constexpr double kEccentricity = 0.83285;
   constexpr double kScale = 2.0;
   const OrbitState at_epoch =
@@ -80,7 +81,7 @@ TEST(KeplerOrbit, GivesTheStateOfVallado) {
 }
 
 TEST(KeplerOrbit, SolvesKeplersEquationAsVallado) {
-  // The same book, example 2-1: M = 235.4 deg, e = 0.4 give E = 220.512074767522 deg.
+  // Source: the same book, example 2-1: M = 235.4 deg and e = 0.4 give E = 220.512074767522 deg.
   KeplerElements elements = kTransfer;
   elements.eccentricity = 0.4;
   elements.mean_anomaly_rad = 235.4 * kRadPerDeg;
@@ -122,7 +123,8 @@ TEST(KeplerOrbit, KeepsEnergyAndAngularMomentum) {
     SCOPED_TRACE(::testing::Message() << "trial " << trial << ", a " << a_km << " km, e " << e);
     const OrbitState now = state(elements, shifted(kEpoch, day_s(rng)));
     const double radius_km = now.position_icrf_km.norm();
-    // Relative to the kinetic term: near perigee of a long ellipse the two terms cancel.
+    // The limit is relative to the kinetic term because both terms cancel near the perigee of a
+    // long ellipse.
     const double kinetic = now.velocity_icrf_km_s.squaredNorm() / 2.0;
     const double energy = kinetic - kEarthMu_km3_s2 / radius_km;
     ASSERT_NEAR(energy, -kEarthMu_km3_s2 / (2.0 * a_km), 1e-13 * kEarthMu_km3_s2 / radius_km);
@@ -133,8 +135,8 @@ TEST(KeplerOrbit, KeepsEnergyAndAngularMomentum) {
 }
 
 TEST(KeplerOrbit, MeanAnomalyOfItsStateGrowsEvenly) {
-  // E and M from the state itself: e cos E = 1 - r/a, e sin E = r.v / sqrt(mu a). Their rounding
-  // (r/a and r.v to about 1e-15) is divided by e when E is formed.
+  // E and M follow from the state: e cos E = 1 - r/a, e sin E = r.v / sqrt(mu a). Rounding (1e-15
+  // of r/a and r.v) is divided by e when E is formed.
   std::mt19937 rng{1609};
   std::uniform_real_distribution<double> turns{-3.0, 3.0};
   for (int trial = 0; trial < 2000; ++trial) {
@@ -164,8 +166,8 @@ TEST(KeplerOrbit, ReturnsAfterOnePeriod) {
 }
 
 TEST(KeplerOrbit, VelocityIsTheSlopeOfPosition) {
-  // Central difference: third derivative times h^2/6, below v n^2 (r_p/a)^-3 h^2 / 6; and rounding
-  // of positions, 1e-12 km / h.
+  // The error of central differences is h^2/6 of the third derivative, below v n^2 (r_p/a)^-3 h^2 /
+  // 6, plus rounding of positions, 1e-12 km / h.
   const KeplerOrbit orbit = KeplerOrbit::make(kTransfer).value();
   constexpr double kStep_s = 0.1;
   for (double t_s = 0.0; t_s < 40'000.0; t_s += 997.0) {

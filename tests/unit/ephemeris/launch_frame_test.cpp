@@ -17,7 +17,7 @@ namespace spindrift::launch_frame_test {
 using Eigen::Vector3d;
 
 constexpr double kRounding = 4e-15;
-// Taiyuan, south-south-west into a sun-synchronous orbit.
+// Taiyuan, with a launch to the south-south-west into a sun-synchronous orbit.
 constexpr LaunchSite kSite{.latitude_rad = 38.849 * kRadPerDeg,
                            .longitude_rad = 111.608 * kRadPerDeg};
 constexpr double kAzimuth_rad = 190.0 * kRadPerDeg;
@@ -37,8 +37,8 @@ TEST(LaunchFrame, LooksAlongTheAzimuthAndDown) {
 }
 
 TEST(LaunchFrame, ALauncherLevelAtTheSiteIsInTheOrbitFrameAsTheOrbitRunsThere) {
-  // An orbit that passes over the site at the epoch, level and along the azimuth as seen from the
-  // stars: the orbit frame differs from the launch frame by the deflection of the vertical alone.
+  // The orbit passes over the site at the epoch, level and along the azimuth in inertial space, so
+  // the orbit frame differs from the launch frame only by the deflection of the vertical.
   const TaiTime epoch = parse_utc("2026-03-01T03:45:00").value();
   const Eigen::Quaterniond q_icrf_launch =
       launch_frame({.site = kSite, .azimuth_rad = kAzimuth_rad, .epoch = epoch});
@@ -51,7 +51,7 @@ TEST(LaunchFrame, ALauncherLevelAtTheSiteIsInTheOrbitFrameAsTheOrbitRunsThere) {
   const double vertical_rad = 11.3 / 60.0 * kRadPerDeg;
   EXPECT_NEAR(angle_between_rad(*q_icrf_orbit, q_icrf_launch), vertical_rad, 0.01 * vertical_rad);
 
-  // A launcher turned by 30 deg to the right there is so in the orbit frame.
+  // A launcher yawed by 30 deg to the right is yawed by as much in the orbit frame.
   const Eigen::Quaterniond q_icrf_body =
       q_icrf_launch * quaternion_of({0.0, 0.0, 30.0 * kRadPerDeg});
   const Euler312 angles = euler312_of(q_icrf_orbit->conjugate() * q_icrf_body).angles;

@@ -20,7 +20,7 @@ using ::testing::HasSubstr;
 
 constexpr TaiTime kPerigee = tai_from_ns(1'795'143'637'000'000'000);
 
-/// Through its perigee at kPerigee, 200 km up.
+/// Has its perigee of 200 km altitude at kPerigee.
 const KeplerOrbit kTransfer = KeplerOrbit::make({.epoch = kPerigee,
                                                  .semi_major_axis_km = 24'400.0,
                                                  .eccentricity = 0.7304,
@@ -30,7 +30,7 @@ const KeplerOrbit kTransfer = KeplerOrbit::make({.epoch = kPerigee,
                                                  .mean_anomaly_rad = 0.0})
                                   .value();
 
-/// Of the transfer orbit, at these seconds from its perigee; lines from 14 on.
+/// Returns states of the transfer orbit at these times from its perigee, s, in lines from 14 on.
 OemSegment states_at(const std::vector<double>& times_s,
                      Interpolation interpolation = Interpolation::Hermite, int degree = 7) {
   std::vector<EphemerisPoint> points;
@@ -44,7 +44,7 @@ OemSegment states_at(const std::vector<double>& times_s,
   return {first, last, interpolation, degree, std::move(points)};
 }
 
-/// Every `step_s`, but for those between.
+/// Returns times every `step_s`, without those in the hole.
 std::vector<double> even_s(double from_s, double to_s, double step_s, double hole_from_s = 0.0,
                            double hole_to_s = 0.0) {
   std::vector<double> times_s;
@@ -80,7 +80,7 @@ TEST(OemHoles, HalfAnHourOfAPerigeeIsCutOut) {
 }
 
 TEST(OemHoles, StepsThatTheInterpolationBridgesStayWhole) {
-  // Denser near perigee, as propagators write them.
+  // The steps are denser near perigee, as propagators write them.
   std::vector<double> adapted_s = even_s(-7200.0, -1200.0, 300.0);
   for (const double dense_s : even_s(-1170.0, 1170.0, 30.0)) {
     adapted_s.push_back(dense_s);
@@ -88,7 +88,7 @@ TEST(OemHoles, StepsThatTheInterpolationBridgesStayWhole) {
   for (const double sparse_s : even_s(1200.0, 7200.0, 300.0)) {
     adapted_s.push_back(sparse_s);
   }
-  // Ten lines left out far from perigee; one anywhere.
+  // Ten lines are missing far from perigee, or one anywhere.
   for (const std::vector<double>& times_s :
        {adapted_s, even_s(7200.0, 14'400.0, 60.0, 9000.0, 9600.0),
         even_s(-7200.0, 7200.0, 60.0, -60.0, 60.0)}) {
@@ -103,7 +103,7 @@ TEST(OemHoles, EvenlySparseStatesAreTakenAtTheirWord) {
 }
 
 TEST(OemHoles, PartsTooShortForTheInterpolationAreLeftOut) {
-  // Three points behind the hole, where Lagrange of degree 5 looks at six.
+  // Three points follow the hole, whereas Lagrange of degree 5 needs six.
   const auto times_s = even_s(-3000.0, 1020.0, 60.0, -900.0, 900.0);
   const OrbitEphemeris orbit = cut(states_at(times_s, Interpolation::Lagrange, 5)).value();
   EXPECT_EQ(orbit.segments().size(), 1U);
@@ -127,7 +127,7 @@ TEST(OemHoles, ASegmentEndsWhereItsUsableTimesEndToo) {
   EXPECT_EQ(orbit.usable_from(), kPerigee - 3600s);
   EXPECT_EQ(orbit.usable_to(), kPerigee + 3600s);
   EXPECT_EQ(orbit_gaps(orbit).size(), 1U);
-  // The hole lies where nothing is usable.
+  // The hole is outside the usable interval.
   segment.usable_from = kPerigee + 3600s;
   segment.usable_to = kPerigee + 7200s;
   EXPECT_TRUE(orbit_gaps(cut(segment).value()).empty());

@@ -51,7 +51,7 @@ std::string with_line(int number, const std::string& line, std::string text) {
   return text.replace(at, text.find('\n', at) - at, line);
 }
 
-/// 21 lines: keys to line 16, data from line 17 on.
+/// Has 21 lines: keys up to line 16, data from line 17 on.
 const std::string kValid =
     "CCSDS_OEM_VERS = 2.0\n"
     "CREATION_DATE = 2026-11-20T00:00:00\n"
@@ -150,7 +150,7 @@ TEST(Oem, IsUsableOnlyAsFarAsItsData) {
 
 TEST(Oem, SaysWhichLineAndKeyIsWrong) {
   const std::vector<std::array<std::string, 4>> cases = {
-      // line, its new text, message names line, message says
+      // Columns: line, its new text, line named in the message, rest of the message.
       {"1", "CCSDS_OPM_VERS = 2.0", "line 1:", "must begin with CCSDS_OEM_VERS"},
       {"1", "CCSDS_OEM_VERS = 4.0", "line 1:", "CCSDS_OEM_VERS = 4.0: must be 1.0 or 2.0 or 3.0"},
       {"2", "CREATION_DATE = yesterday", "line 2:", "CREATION_DATE = yesterday"},
@@ -258,9 +258,9 @@ TEST(Oem, EarthCentredMessagesOfOthersAreRead) {
 }
 
 TEST(Oem, StkMinutesAreInterpolatedToTheirAccuracy) {
-  // STK's own states every minute: leave one out, ask for it. Degree 4 over nodes at 0 1 3 4 5 min:
-  // 2*1*1*2*3 min^5 / 5! times r n^5, with n = 7.73 km/s / 6697 km: 1.07e-3 km; a fifth more for an
-  // orbit that is not quite a circle.
+  // STK's states are a minute apart; one is left out and interpolated. The error of degree 4 over
+  // nodes at 0 1 3 4 5 min is 2*1*1*2*3 min^5 / 5! times r n^5, with n = 7.73 km/s / 6697 km:
+  // 1.07e-3 km. The limit is a fifth larger because the orbit is not exactly circular.
   constexpr double kBound_km = 1.3e-3;
   std::string text = text_of("ccsds/oem/oemLowerCaseValue.oem");
   const std::size_t line = text.find("2015-08-27T00:02:00");
@@ -296,7 +296,7 @@ TEST(Oem, OtherCentresFramesAndTimesAreRefusedByName) {
   }
 }
 
-/// The same message about the Earth, in a frame and a time system that are taken.
+/// Returns the message with the Earth as centre and with a supported frame and time system.
 std::string moved_to_the_earth(const std::string& name) {
   std::string text = replaced(text_of("ccsds/oem/" + name), "MARS BARYCENTER", "EARTH");
   text = replaced(text, "= MARS\n", "= EARTH\n");
@@ -318,12 +318,12 @@ TEST(Oem, FaultsThatFilesWereMadeForAreFound) {
       {"OEM-too-small-covariance-dimension.txt", "line 89:", "'EPOCH' is not a number"},
       {"OEM-wrong-keyword.txt", "line 19:", "WRONG_KEYWORD = 123"},
       {"OEMExample8.txt", "line 16:", "INTERPOLATION = HERMITE: needs INTERPOLATION_DEGREE"},
-      // One data line twice, or out of order.
+      // A data line is duplicated or out of order.
       {"OEMExample1.txt",
        "line 81:", "later than that of the data line before it, 1996-12-30T01:28:02.267000000Z"},
       {"OEMExampleWithHeaderComment.txt", "line 80:", "must be later"},
       {"OEM-Issue839.txt", "line 80:", "must be later"},
-      // The third segment covers the second one's time again.
+      // The third segment overlaps the second.
       {"OEMExample3.txt", "segment 3:", "must not begin before"},
       {"OEMExample6.txt", "segment 3:", "must not begin before"},
   };
@@ -342,7 +342,7 @@ TEST(Oem, NothingElseIsWrongWithTheOthers) {
 TEST(Oem, OrbitsOfThePassesAreRead) {
   const OrbitEphemeris gms5 = parse_oem(text_of("spin/gms5/orbit.oem")).value();
   EXPECT_EQ(gms5.usable_from(), parse_utc("1996-02-17T23:05:00").value());
-  // Geostationary: 42 164 km; the printed drift stays within 40 km of it.
+  // The orbit is geostationary at 42 164 km; the printed drift stays within 40 km of it.
   const OrbitState state = gms5.at(parse_utc("1996-02-17T23:37:12.5").value()).value();
   EXPECT_NEAR(state.position_icrf_km.norm(), 42'164.0, 40.0);
   for (const std::string pass : {"nominal", "north-only"}) {
@@ -366,7 +366,7 @@ TEST(Oem, IsRefusedWithItsTextEscapedAndCut) {
   }
 }
 
-// By UBSan: no difference of two times that are read overflows.
+// Under UBSan this shows that no difference of two input times overflows.
 TEST(Oem, WithEpochsMoreThanThreeCenturiesApartIsRefused) {
   for (const std::string year : {"1677", "1678", "1899", "2190", "2261"}) {
     const std::string text = with_line(10, "START_TIME = " + year + "-01-01T00:00:00", kValid);

@@ -24,7 +24,7 @@ Orbit orbit_of(double a_km, double e) {
 }
 
 TEST(OemWriter, GivesTheOrbitBackWithinAMillimetre) {
-  // A low orbit; a transfer orbit and a moon-bound one through their perigees 200 km up.
+  // A low orbit, and a transfer and a lunar transfer orbit through their perigees at 200 km.
   for (const auto& [a_km, e] :
        {std::pair{6578.0, 0.0}, std::pair{24400.0, 0.7304}, std::pair{200000.0, 0.9671}}) {
     SCOPED_TRACE(a_km);
@@ -44,7 +44,7 @@ TEST(OemWriter, GivesTheOrbitBackWithinAMillimetre) {
 }
 
 TEST(OemWriter, WritesThroughALeapSecond) {
-  const TaiTime before = tai_from_ns(1483228800000000000);  // 2016-12-31T23:59:24 UTC
+  const TaiTime before = tai_from_ns(1483228800000000000);  // 2016-12-31T23:59:24 UTC.
   const Orbit orbit = orbit_of(42164.0, 0.0);
   const auto points = sampled_orbit(orbit, before, before + 5min, 12s).value();
   const std::string text = oem_text("TEST", before, points);

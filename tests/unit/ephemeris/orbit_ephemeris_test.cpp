@@ -17,8 +17,8 @@ using ::testing::HasSubstr;
 
 constexpr TaiTime kStart = tai_from_ns(1'795'143'637'000'000'000);
 
-/// A vector of polynomials of one degree, with its derivative, about kStart; minutes, so that the
-/// powers stay of order one.
+/// Holds a vector of polynomials of one degree about kStart, with derivative. Time is in minutes to
+/// keep the powers of order one.
 struct PolynomialOrbit {
   std::vector<Eigen::Vector3d> coefficients_km;
 
@@ -73,7 +73,7 @@ const KeplerOrbit kTransfer = KeplerOrbit::make({.epoch = kStart,
                                                  .mean_anomaly_rad = 0.2})
                                   .value();
 
-/// Of nodes and times within 4 minutes of kStart.
+/// Checks polynomials with nodes and times within 4 minutes of kStart.
 void expect_polynomials_reproduced(std::mt19937& rng, Interpolation interpolation, int degree,
                                    double step_s, int nodes) {
   SCOPED_TRACE(degree);
@@ -85,8 +85,8 @@ void expect_polynomials_reproduced(std::mt19937& rng, Interpolation interpolatio
   for (int trial = 0; trial < 100; ++trial) {
     const TaiTime t = shifted(kStart, within_s(rng));
     const OrbitState state = ephemeris.at(t).value();
-    // Terms of order 7000 km times (4/4)^k: rounding of 1e-12 km a term, grown by divided
-    // differences over few uneven nodes to below 1e-8 km.
+    // The terms are of order 7000 km times (4/4)^k with rounding of 1e-12 km each, which divided
+    // differences over few uneven nodes increase to below 1e-8 km.
     ASSERT_LT((state.position_icrf_km - orbit.at(t).position_icrf_km).norm(), 1e-8);
     ASSERT_LT((state.velocity_icrf_km_s - orbit.at(t).velocity_icrf_km_s).norm(), 1e-9);
   }
@@ -123,8 +123,8 @@ TEST(OrbitEphemeris, PassesThroughItsNodes) {
 }
 
 TEST(OrbitEphemeris, IsContinuousWhereTheWindowMoves) {
-  // 1 ns of orbit is 1e-8 km. Hermite: the velocity too, against a degree that is far too low to
-  // hide a jump in its own accuracy (3 at 10 minutes: kilometres of error).
+  // 1 ns of motion is 1e-8 km. With Hermite the velocity is also continuous; degree 3 at 10 minutes
+  // is too inaccurate (kilometres) to hide a jump.
   for (const auto interpolation : {Interpolation::Lagrange, Interpolation::Hermite}) {
     const OemSegment segment = sampled([](TaiTime t) { return kTransfer.at(t).value(); }, kStart,
                                        600.0, 12, interpolation, 3);
@@ -140,8 +140,8 @@ TEST(OrbitEphemeris, IsContinuousWhereTheWindowMoves) {
 }
 
 TEST(OrbitEphemeris, HermiteCubicKeepsItsBoundOnAKeplerOrbit) {
-  // |error| <= h^4/384 max|r''''|. On an ellipse |r''''| is greatest at perigee, about
-  // mu (1 + 3e) / r_p^3 times n-like rates; on the circle used here it is exactly a n^4.
+  // |error| <= h^4/384 max|r''''|. On an ellipse |r''''| is largest at perigee, about mu (1 + 3e) /
+  // r_p^3 times n-like rates; on this circle it is exactly a n^4.
   const KeplerOrbit circle = KeplerOrbit::make({kStart, 7'000.0, 0.0, 0.9, 0.1, 0.0, 0.0}).value();
   const double n_rad_s = std::sqrt(kEarthMu_km3_s2 / std::pow(7'000.0, 3));
   constexpr double kStep_s = 60.0;
@@ -161,8 +161,8 @@ TEST(OrbitEphemeris, HermiteCubicKeepsItsBoundOnAKeplerOrbit) {
 }
 
 TEST(OrbitEphemeris, LagrangeKeepsItsBoundOnAKeplerOrbit) {
-  // Degree 7 about the middle of 8 nodes: |prod (t - t_k)| / 8! max|r^(8)|, the product greatest
-  // half way, (1/2 3/2 5/2 7/2)^2 h^8.
+  // With degree 7 in the middle of 8 nodes the error is at most |prod (t - t_k)| / 8! max|r^(8)|;
+  // the product is largest half way, (1/2 3/2 5/2 7/2)^2 h^8.
   const KeplerOrbit circle = KeplerOrbit::make({kStart, 7'000.0, 0.0, 0.9, 0.1, 0.0, 0.0}).value();
   const double n_rad_s = std::sqrt(kEarthMu_km3_s2 / std::pow(7'000.0, 3));
   constexpr double kStep_s = 180.0;
@@ -209,7 +209,7 @@ TEST(OrbitEphemeris, AnswersOnlyWhereItIsUsable) {
 }
 
 TEST(OrbitEphemeris, LaterSegmentAnswersWhereTwoTouch) {
-  // A manoeuvre: the same place, another velocity.
+  // At a manoeuvre the position is continuous and the velocity changes.
   const auto still = [](double speed_km_s) {
     return [speed_km_s](TaiTime t) {
       return OrbitState{{7'000.0, speed_km_s * seconds_between(shifted(kStart, 60.0), t), 0.0},

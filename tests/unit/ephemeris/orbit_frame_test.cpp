@@ -9,7 +9,8 @@ namespace spindrift::orbit_frame_test {
 constexpr double kRounding = 4e-15;
 
 TEST(OrbitFrame, LooksDownAheadAndAgainstTheNormal) {
-  // Over the equator at longitude 90 deg, northwards; the velocity leans up, as behind perigee.
+  // The spacecraft is over the equator at longitude 90 deg and moves north and slightly up, as
+  // after perigee.
   const auto q =
       orbit_frame({.position_icrf_km = {0.0, 7000.0, 0.0}, .velocity_icrf_km_s = {0.0, 0.5, 7.5}});
   ASSERT_TRUE(q);

@@ -18,7 +18,7 @@ using ::testing::SizeIs;
 constexpr TaiTime kStart = tai_from_ns(1'795'143'637'000'000'000);
 const Eigen::Vector3d kNone = Eigen::Vector3d::Zero();
 
-/// Half an hour of a low orbit, a minute a point.
+/// Returns half an hour of a low orbit with a point every minute.
 OemSegment half_an_hour() {
   const auto orbit = KeplerOrbit::make({.epoch = kStart,
                                         .semi_major_axis_km = 7000.0,
@@ -60,12 +60,13 @@ TEST(OrbitSteps, AreThoseOfSegmentsThatDoNotMeet) {
 
 TEST(OrbitSteps, AreNoneWhereSegmentsGoOnOrAreRounded) {
   EXPECT_THAT(orbit_steps(stepped(kNone, kNone)), IsEmpty());
-  // A kilometre and a metre a second.
+  // The limits are 1 km and 1 m/s.
   EXPECT_THAT(orbit_steps(stepped({0.9, 0.0, 0.0}, {0.0, 9e-4, 0.0})), IsEmpty());
   EXPECT_THAT(orbit_steps(OrbitEphemeris::make({half_an_hour()}).value()), IsEmpty());
 }
 
-/// Each has the other's states too, beyond what is usable of it; the joint is between two states.
+/// Each segment also has the other's states outside its usable interval; the joint is between two
+/// states.
 TEST(OrbitSteps, AreThoseAtTheInstantWhereOneSegmentTakesOverFromTheOther) {
   for (const double by_km_s : {0.0, 0.005}) {
     OemSegment before = half_an_hour();

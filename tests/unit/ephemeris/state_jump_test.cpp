@@ -24,7 +24,7 @@ constexpr std::array kSparseSteps_s = {60.0, 300.0, 600.0, 1800.0, 3600.0, 21'60
 
 struct Shape {
   const char* name;
-  double perigee_km;  ///< From the Earth's centre.
+  double perigee_km;  ///< Distance of the perigee from the Earth's centre.
   double eccentricity;
 };
 constexpr std::array kShapes = {
@@ -39,7 +39,7 @@ Eigen::Vector3d random_direction(std::mt19937& rng) {
   return Eigen::Vector3d{x, y, any(rng)}.normalized();
 }
 
-/// Somewhere on an orbit of that shape, whichever way it lies.
+/// Returns a state on an orbit of this shape with random orientation and anomaly.
 OrbitState random_state(std::mt19937& rng, const Shape& shape) {
   std::uniform_real_distribution<double> any_rad{0.0, 2.0 * std::numbers::pi};
   return KeplerOrbit::make({.epoch = kStart,
@@ -54,7 +54,7 @@ OrbitState random_state(std::mt19937& rng, const Shape& shape) {
       .value();
 }
 
-/// Vallado, Fundamentals of Astrodynamics and Applications, on the perturbation by J2.
+/// Source: Vallado, Fundamentals of Astrodynamics and Applications, on the perturbation by J2.
 Eigen::Vector3d acceleration_km_s2(const Eigen::Vector3d& r_km) {
   const double range_km = r_km.norm();
   const double sin2_latitude = std::pow(r_km.z() / range_km, 2);
@@ -65,7 +65,7 @@ Eigen::Vector3d acceleration_km_s2(const Eigen::Vector3d& r_km) {
                          r_km.z() * (1.0 + j2 * (3.0 - 5.0 * sin2_latitude))};
 }
 
-/// Round an Earth with J2, by the leapfrog in steps of a second: good to some metres.
+/// Propagates around an Earth with J2 by leapfrog in steps of a second, accurate to some metres.
 OrbitState flown(OrbitState state, double duration_s) {
   const int steps = static_cast<int>(std::ceil(duration_s));
   const double dt_s = duration_s / std::max(1, steps);
@@ -81,7 +81,8 @@ EphemerisPoint point(double after_s, const OrbitState& state) {
   return {.t = shifted(kStart, after_s), .state = state};
 }
 
-/// Whether any of a hundred steps on orbits of every shape is flagged, as text.
+/// Returns a description of the first flagged step among a hundred on orbits of every shape; empty
+/// if there is none.
 template <class Next>
 std::string flagged(double step_s, Next next) {
   std::mt19937 rng{7};
@@ -111,7 +112,7 @@ TEST(UnexplainedStep, IsOneOf18KmToAnySide) {
         to.position_icrf_km += 18.0 * random_direction(rng);
         const auto off_km = unexplained_km(point(0.0, from), point(step_s, to));
         ASSERT_TRUE(off_km);
-        // J2: half of 3.2e-5 km/s^2 times (240 s)^2, which is 0.92 km.
+        // J2 accounts for half of 3.2e-5 km/s^2 times (240 s)^2, which is 0.92 km.
         EXPECT_NEAR(*off_km, 18.0, 1.0);
       }
     }
@@ -138,7 +139,7 @@ TEST(UnexplainedStep, IsNoneOfTwoBodies) {
     EXPECT_EQ(flagged(step_s,
                       [&](const OrbitState& from, std::mt19937&) {
                         OrbitState state = from;
-                        // As flown(), without J2.
+                        // Propagates like flown() but without J2.
                         const int steps = static_cast<int>(step_s);
                         for (int i = 0; i < steps; ++i) {
                           state.position_icrf_km += 0.5 * state.velocity_icrf_km_s;
@@ -205,7 +206,8 @@ TEST(Departure, IsAManoeuvreOrAStepOfAnySort) {
   }
 }
 
-/// A minute a point, the first of it `line`; usable without the first and the last `margin` points.
+/// Returns a segment with a point every minute, the first in `line`, of which the first and the
+/// last `margin` points are not usable.
 OemSegment segment_of(const std::vector<OrbitState>& states, int first_minute, int line,
                       int margin) {
   std::vector<EphemerisPoint> points;

@@ -43,8 +43,8 @@ TaiTime random_time(std::mt19937_64& rng) {
 }
 
 TEST(Sun, LiesWhereDe441PutsIt) {
-  // eraEpv00, note 4: heliocentric position within 11.2 km of DE405 from 1900 to 2100. DE405 and
-  // DE441 differ by less than 2 km here, TT and TDB by 1.7 ms (0.05 km).
+  // eraEpv00, note 4: the heliocentric position is within 11.2 km of DE405 from 1900 to 2100. DE405
+  // and DE441 differ by less than 2 km here, TT and TDB by 1.7 ms (0.05 km).
   constexpr double kTolerance_km = 11.2 + 2.0;
   std::ifstream file{test_data() / "sun" / "sun_geocentric_geometric_ICRF_DE441.csv"};
   std::string row;
@@ -67,8 +67,8 @@ TEST(Sun, LiesWhereDe441PutsIt) {
 }
 
 TEST(Sun, EarthMovesAsErfasOwnTestSays) {
-  // liberfa 1d9738be, t_epv00 at TDB 2400000.5 + 53411.52501161: its 1e-14 au shrinks to what a
-  // nanosecond of TAI leaves of the instant, 0.5 ns of 30 km/s.
+  // Source: liberfa 1d9738be, t_epv00 at TDB 2400000.5 + 53411.52501161. Its tolerance of 1e-14 au
+  // is replaced by the resolution of TAI, 0.5 ns at 30 km/s.
   const EarthMotion earth = earth_motion(tai_of_jd_tt(53411.52501161 - 40587.0));
   const Eigen::Vector3d position_au{-0.7757238809297706, 0.559805224136334, 0.2426998466481687};
   const Eigen::Vector3d velocity_au_d{-0.010918918241473138, -0.01247187268440845,
@@ -78,9 +78,9 @@ TEST(Sun, EarthMovesAsErfasOwnTestSays) {
 }
 
 TEST(ApparentSun, StandsWhereMeeusPutsIt) {
-  // Meeus, Astronomical Algorithms, example 25: 1992 October 13, 0 h TD, apparent place of date by
-  // the complete VSOP87: 13h13m30.749s, -7 deg 47' 01.74". Rounding of the text: 0.01 s of time is
-  // 0.15 arcsec.
+  // Source: Meeus, Astronomical Algorithms, example 25: 1992 October 13, 0 h TD, apparent place of
+  // date by the complete VSOP87, 13h13m30.749s, -7 deg 47' 01.74". Rounding of the text: 0.01 s of
+  // time is 0.15 arcsec.
   const TaiTime t = shifted(parse_tai("1992-10-13T00:00:00").value(), -kTtMinusTai_s);
   ApparentSun sun;
   Eigen::Vector3d icrf = sun.direction_icrf(t, kEarthCentre);
@@ -97,8 +97,8 @@ TEST(ApparentSun, StandsWhereMeeusPutsIt) {
 }
 
 TEST(ApparentSun, MakesTheSunAngleOfAnIndependentSimulator) {
-  // spin/nominal: the position at 03:00 from its orbit.oem, axis and sun angle from its truth.json.
-  // 1e-8 rad: what is left out to first order in aberration, (v/c)^2.
+  // spin/nominal: the position at 03:00 is from its orbit.oem, axis and sun angle from its
+  // truth.json. First-order aberration neglects (v/c)^2 = 1e-8 rad.
   const OrbitState spacecraft{{9918.094675523, -7288.360032301, -6492.901023684},
                               Eigen::Vector3d::Zero()};
   const double ra_rad = 100.0 * kRadPerDeg;
@@ -111,9 +111,9 @@ TEST(ApparentSun, MakesTheSunAngleOfAnIndependentSimulator) {
 }
 
 TEST(ApparentSun, IsThePlaceOfOneLightTimeAgo) {
-  // Planetary aberration: to first order light time and aberration together show the geometric
-  // place, relative to the Earth, of one light time ago. Left out: (v/c)^2 = 1e-8 rad and half the
-  // square of the Earth's way in that time, 5e-9 rad. The effect itself is 1e-4 rad.
+  // Planetary aberration: to first order, light time and aberration together give the geometric
+  // place relative to the Earth one light time ago. This neglects (v/c)^2 = 1e-8 rad and half the
+  // square of the Earth's motion in that time, 5e-9 rad. The effect itself is 1e-4 rad.
   std::mt19937_64 rng{1725};
   ApparentSun sun;
   for (int trial = 0; trial < 300; ++trial) {
@@ -129,7 +129,8 @@ TEST(ApparentSun, IsThePlaceOfOneLightTimeAgo) {
 }
 
 TEST(ApparentSun, ParallaxIsThatOfTheSpacecraft) {
-  // 42 164 km across 1 au: 2.8e-4 rad. Aberration turns both directions alike, but for 1e-4 of it.
+  // 42 164 km seen over 1 au are 2.8e-4 rad. Aberration rotates both directions alike, up to 1e-4
+  // of it.
   std::mt19937_64 rng{42};
   ApparentSun sun;
   for (int trial = 0; trial < 100; ++trial) {
@@ -145,8 +146,8 @@ TEST(ApparentSun, ParallaxIsThatOfTheSpacecraft) {
 }
 
 TEST(ApparentSun, InterpolationAgreesWithDirectEvaluation) {
-  // The header promises 1 m of the Earth's place. Here: the same light path from eraEpv00 itself
-  // at every instant. 1 m is 7e-12 rad; velocities linear over an hour are good to 7e-12 c.
+  // The header promises 1 m in the Earth's position, 7e-12 rad. The reference computes the light
+  // path with eraEpv00 at every time; velocities linear over an hour are accurate to 7e-12 c.
   std::mt19937_64 rng{3600};
   ApparentSun sun;
   for (int trial = 0; trial < 300; ++trial) {

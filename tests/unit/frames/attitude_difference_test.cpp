@@ -23,7 +23,7 @@ TEST(AttitudeDifference, CovariancesAreOfEachBodysAxes) {
   ASSERT_TRUE(difference);
   EXPECT_NEAR(difference->angle_rad, 0.1, kRounding);
   EXPECT_NEAR(difference->chi_square, 0.01 / (0.0025 + 1e-8), 1e-9);
-  // Half a body's turn away the error about the other's x is about this y.
+  // After half a turn of the body, the error about the other's x is about this y.
   const Eigen::Matrix3d wide_x = Eigen::Vector3d{0.0025, 1e-8, 1e-8}.asDiagonal();
   const auto turned =
       attitude_difference({q_b, wide_x}, {q_b * Eigen::Quaterniond{-1, 0, 0, 0}, small});
@@ -45,7 +45,7 @@ TEST(AttitudeDifference, IsTheSameFromEitherSide) {
 }
 
 TEST(AttitudeDifference, OfThePaperIsNearlyAllYaw) {
-  // Li 2017: separation attitude against the launcher's, 3.9 deg in all.
+  // Source: Li 2017, separation attitude against the launcher's, 3.9 deg in total.
   const auto q = [](double phi_deg, double theta_deg, double psi_deg) {
     return quaternion_of({phi_deg * kRadPerDeg, theta_deg * kRadPerDeg, psi_deg * kRadPerDeg});
   };

@@ -12,7 +12,7 @@
 namespace spindrift::celestial_test {
 
 constexpr double kPi = std::numbers::pi;
-// A few ulps of a number of order 1 to 2 pi.
+// A few ulps of a number between 1 and 2 pi.
 constexpr double kRounding = 4e-15;
 
 Eigen::Vector3d random_direction(std::mt19937& rng) {
@@ -32,7 +32,7 @@ TEST(Celestial, SpinAxisOfGms5IsWhereItsPublishedPlaceSays) {
   const Eigen::Vector3d axis =
       direction_icrf({54.85810921211307 * kRadPerDeg, -89.47037755812647 * kRadPerDeg});
   EXPECT_NEAR(axis.norm(), 1.0, kRounding);
-  // sin(-89.47037755812647 deg) and tan(54.85810921211307 deg) by Python's math module.
+  // sin(-89.47037755812647 deg) and tan(54.85810921211307 deg) from Python's math module.
   EXPECT_NEAR(axis.z(), -0.9999572777215963, kRounding);
   // The quotient of two components of size 0.005 keeps their relative accuracy.
   EXPECT_NEAR(axis.y() / axis.x(), 1.4206470516192753, kRounding);
@@ -91,7 +91,7 @@ TEST(Celestial, TangentBasisIsEastAndNorth) {
     const auto basis = tangent_basis(2.0 * axis);
     ASSERT_NEAR((basis.transpose() * basis - Eigen::Matrix2d::Identity()).norm(), 0.0, kRounding);
     ASSERT_NEAR((basis.transpose() * axis).norm(), 0.0, kRounding);
-    // A small step north raises the declination by itself: second order in the step, times tan dec.
+    // A small step north raises the declination by the step, up to second order times tan dec.
     const RaDec here = ra_dec_of(axis);
     const RaDec north = ra_dec_of(axis + kStep_rad * basis.col(1));
     const double tangent = std::tan(here.dec_rad);

@@ -17,7 +17,7 @@ Euler312 of_degrees(double phi_deg, double theta_deg, double psi_deg) {
   return {phi_deg * kRadPerDeg, theta_deg * kRadPerDeg, psi_deg * kRadPerDeg};
 }
 
-/// By the elements of the matrix (Li 2017, eq. 7 and 9), which are blind near the singularity.
+/// Returns the angles from matrix elements (Li 2017, eq. 7 and 9), which fail near the singularity.
 Euler312 by_matrix_elements(const Eigen::Quaterniond& q) {
   const double q1 = q.x();
   const double q2 = q.y();
@@ -32,17 +32,17 @@ Euler312 by_matrix_elements(const Eigen::Quaterniond& q) {
 }
 
 TEST(Euler312, TurnsAboutZThenXThenY) {
-  // By hand: 90 deg about z, and the body's x is the reference's y.
+  // After 90 deg about z the body's x is the reference's y.
   EXPECT_NEAR(
       (attitude_matrix(of_degrees(0, 0, 90)) * Eigen::Vector3d::UnitY() - Eigen::Vector3d::UnitX())
           .norm(),
       0.0, kRounding);
-  // Then 90 deg about that x, and the body's z is the reference's x.
+  // After 90 deg about that x the body's z is the reference's x.
   EXPECT_NEAR(
       (attitude_matrix(of_degrees(90, 0, 90)) * Eigen::Vector3d::UnitX() - Eigen::Vector3d::UnitZ())
           .norm(),
       0.0, kRounding);
-  // Theta turns about the body's own y.
+  // Theta rotates about the body's own y.
   EXPECT_NEAR((attitude_matrix(of_degrees(90, 30, 90)) * Eigen::Vector3d::UnitX())
                   .dot(Eigen::Vector3d::UnitX()),
               -std::sin(30 * kRadPerDeg), kRounding);
@@ -111,7 +111,7 @@ TEST(Euler312, AtTheSingularityTheAttitudeIsKeptAndTheReadingSaysSo) {
 }
 
 TEST(Euler312, ConstantRateOfThePaperLeadsBackToSeparation) {
-  // Li 2017: T2 back 60 s at the constant rate.
+  // Source: Li 2017, 60 s back from T2 at the constant rate.
   const Eigen::Quaterniond q_t2 = quaternion_of(of_degrees(38.403, 88.224, 118.045));
   const Eigen::Vector3d rate_rad_s = Eigen::Vector3d{0.618844, -0.33139, 0.065912} * kRadPerDeg;
   const Euler312 t1 = euler312_of(q_t2 * quaternion_by(-60.0 * rate_rad_s)).angles;

@@ -34,7 +34,7 @@ TEST(LocalFrame, NorthEastDownAreTheEllipsoidsOwn) {
   EXPECT_NEAR((R.col(0) - north.normalized()).norm(), 0.0, 2e-6);
   EXPECT_NEAR((R.col(1) - east.normalized()).norm(), 0.0, 2e-6);
   EXPECT_NEAR((R.col(2) - north.cross(east).normalized()).norm(), 0.0, 2e-6);
-  // The latitude is not the geocentric one: straight down misses the Earth's centre by 11 arcmin.
+  // The latitude is geodetic, so the vertical misses the Earth's centre by 11 arcmin.
   EXPECT_NEAR(degrees(std::acos(-R.col(2).dot(here.normalized()))) * 60.0, 11.3, 0.2);
 }
 

@@ -45,7 +45,7 @@ TEST(MainFieldModel, KnowsDegrees1To13) {
     EXPECT_EQ(refused.error().code, ErrorCode::InvalidInput);
     EXPECT_THAT(refused.error().message, HasSubstr("must be 1 to 13"));
   }
-  // Up to 1995 the epochs have degrees up to 10.
+  // Epochs up to 1995 have degrees up to 10.
   EXPECT_EQ(field_nt(model, 1990.0, 10), field_nt(model, 1990.0, 13));
   EXPECT_GT((field_nt(model, 2010.0, 10) - field_nt(model, 2010.0, 13)).norm(), 1.0);
 }
@@ -74,7 +74,7 @@ TEST(MainFieldModel, DoesNotJumpAtAnEpoch) {
   const MainFieldModel model = igrf().value();
   for (double epoch = 1905.0; epoch < 2030.0; epoch += 5.0) {
     constexpr double kStep = 1e-7;
-    // At most 300 nT a year anywhere.
+    // The field changes by at most 300 nT a year.
     EXPECT_LT((field_nt(model, epoch + kStep) - field_nt(model, epoch - kStep)).norm(), 6e-5)
         << epoch;
     EXPECT_LT((field_nt(model, epoch) - field_nt(model, epoch - kStep)).norm(), 3e-5) << epoch;

@@ -42,7 +42,7 @@ struct Published {
 
 void expect_published(const Published& is) {
   SCOPED_TRACE(is.year);
-  constexpr double kPrinted_nt = 0.011;  // Two decimals on either side.
+  constexpr double kPrinted_nt = 0.011;  // The reference values have two decimals.
   const Vector3d field_nt =
       geocentric_nt(field_of(is.year), 90.0 - is.colatitude_deg, is.longitude_deg, is.radius_km);
   EXPECT_NEAR(field_nt.x(), is.north_nt, kPrinted_nt);
@@ -51,7 +51,7 @@ void expect_published(const Published& is) {
 }
 
 TEST(MainField, IsThatPublishedByTheBritishGeologicalSurvey) {
-  // Of IGRF-14, with its program pyIGRF (tests/tests_igrf14.py).
+  // Source: IGRF-14 with the program pyIGRF (tests/tests_igrf14.py).
   for (const Published& is : {
            Published{1900.0, 175.0, -150.0, 6300.0, -5072.93, 10620.34, -67233.55},
            Published{1915.0, 155.0, -120.0, 6350.0, 14692.62, 12387.97, -59640.81},
@@ -111,7 +111,7 @@ TEST(MainField, IsThereAtThePolesAndEvenAroundThem) {
     for (const double way_rad : {0.0, 1.0, 2.5, -2.0}) {
       const Vector3d beside_km =
           pole_km + 1e-3 * Vector3d{std::cos(way_rad), std::sin(way_rad), 0.0};
-      // The field changes by some 20 nT a kilometre.
+      // The field changes by about 20 nT a kilometre.
       EXPECT_NEAR((field.at(beside_km).value() - at_pole_nt).norm(), 0.0, 0.05);
     }
   }
@@ -121,7 +121,7 @@ TEST(MainField, TurnsItsNorthWithTheLongitudeAtAPole) {
   const MainField field = field_of(2024.5);
   const Vector3d at_0_nt = geocentric_nt(field, 90.0, 0.0, 6800.0);
   const Vector3d at_90_nt = geocentric_nt(field, 90.0, 90.0, 6800.0);
-  // North at longitude 90 looks where west is at longitude 0.
+  // North at longitude 90 is the direction of west at longitude 0.
   EXPECT_NEAR(at_90_nt.x(), -at_0_nt.y(), 1e-7);
   EXPECT_NEAR(at_90_nt.y(), at_0_nt.x(), 1e-7);
   EXPECT_NEAR(at_90_nt.z(), at_0_nt.z(), 1e-7);

@@ -12,7 +12,7 @@ namespace spindrift::shc_test {
 using ::testing::AllOf;
 using ::testing::HasSubstr;
 
-/// Two epochs; g11 is -2000 nT and -1990 nT, all else 0.
+/// Returns a model with two epochs in which g11 is -2000 nT and -1990 nT and all else is 0.
 std::string small_model() {
   std::string text = "# made\n1 13 2 2 1 2000.0 2005.0\n   2000.0 2005.0\n";
   for (int degree = 1; degree <= kHighestDegree; ++degree) {
@@ -43,7 +43,8 @@ TEST(Shc, IsReadAsItStands) {
   ASSERT_TRUE(model) << model.error().message;
   EXPECT_EQ(model->first_year(), 2000.0);
   EXPECT_EQ(model->last_year(), 2005.0);
-  // On the equator at longitude 180 the dipole along x points as its axis does, twice as strong.
+  // On the equator at longitude 180 the field of a dipole along x is twice as strong and parallel
+  // to it.
   const auto field_nt = model->at(2002.5)->at({-kFieldRadius_km, 0.0, 0.0});
   EXPECT_NEAR(field_nt->x(), 2.0 * -1995.0, 1e-9);
   EXPECT_NEAR(field_nt->y(), 0.0, 1e-9);

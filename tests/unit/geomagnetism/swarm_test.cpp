@@ -1,4 +1,4 @@
-/// What Swarm's magnetometer measured beside the model (tests/data/geomagnetism).
+/// Measurements of Swarm's magnetometer compared with the model (tests/data/geomagnetism).
 
 #include <gtest/gtest.h>
 
@@ -20,7 +20,7 @@ namespace spindrift::swarm_test {
 
 using Eigen::Vector3d;
 
-/// Of a row, by the name of its column; a vector is {x;y;z}.
+/// Gives access to the rows by column name; a vector is written {x;y;z}.
 struct Table {
   std::vector<std::string> names;
   std::vector<std::vector<std::string>> rows;
@@ -59,7 +59,7 @@ Table read(const std::string& name) {
   return table;
 }
 
-/// Root mean square of the angle between what was measured and the model, deg.
+/// Returns the rms angle between the measurements and the model, deg.
 double apart_deg(const Table& table, double year) {
   const MainField field = igrf().value().at(year).value();
   double squares_rad2 = 0.0;

@@ -1,5 +1,3 @@
-// Wheels and thrusters.
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -11,7 +9,7 @@ namespace spindrift::actuators_test {
 using Eigen::Vector3d;
 using ::testing::HasSubstr;
 
-/// Of Zhang 2019: 0.3 N m s at 6000 rpm.
+/// Source: Zhang 2019, 0.3 N m s at 6000 rpm.
 WheelDesign design() {
   return {.axes_body = Eigen::Matrix3d::Identity(),
           .inertia_kg_m2 = 0.3 / 628.3185307,
@@ -96,7 +94,7 @@ TEST(Thrusters, PulseAsLongAsTheImpulseAskedFor) {
     EXPECT_LE(torque_nm.cwiseAbs().maxCoeff(), 0.07 + 1e-15);
     impulse_nms += 0.05 * torque_nm;
   }
-  // The second asks for a pulse of the shortest, the third for one above the longest.
+  // The second axis asks for less than the shortest pulse, the third for more than the longest.
   EXPECT_LT((impulse_nms - 0.07 * Vector3d{1.0, -0.02, -1.0}).norm(), 1e-14);
 }
 

@@ -1,4 +1,4 @@
-// A step of the model takes nothing from the heap: counted by the program's own operator new.
+// A step of the model allocates no heap memory, which a replaced operator new counts.
 
 #include <gtest/gtest.h>
 

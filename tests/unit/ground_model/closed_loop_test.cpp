@@ -1,4 +1,4 @@
-// The figures of Li 2017 and Zhang 2019 that the ground model must reach.
+// Figures of Li 2017 and Zhang 2019 that the ground model must reproduce.
 
 #include "pipelines/ground_model/control/closed_loop.h"
 
@@ -18,7 +18,7 @@ using Eigen::Vector3d;
 using ::testing::HasSubstr;
 
 constexpr double kStep_s = 0.025;
-constexpr int kSteps = 4;  // 10 Hz
+constexpr int kSteps = 4;  // 10 Hz.
 constexpr double kFrequency_rad_s = 0.1;
 constexpr double kDamping = 0.6716;
 const Vector3d kMoments_kg_m2{0.6, 1.2, 1.12};
@@ -52,7 +52,7 @@ SaturatedPd orientation() {
           .error_most = (kGains.kd_nms.cwiseQuotient(kGains.kp_nm)).x() * kSlew_rad_s};
 }
 
-/// 2 s of sliding out, damping to 0.1 deg/s, then orientation.
+/// Returns the sequence of 2 s without control, damping to 0.1 deg/s, and orientation.
 AttitudeControl sequence(const PointingLaw& pointing) {
   return AttitudeControl::make(
              {.control_on_s = 2.0, .damped_rad_s = 0.1 * kRadPerDeg, .pointing_at_s = 100.0},
@@ -61,9 +61,9 @@ AttitudeControl sequence(const PointingLaw& pointing) {
 }
 
 struct Flight {
-  double settled_s = 0.0;   ///< Since when it points within 1 deg.
-  double pointing_s = 0.0;  ///< When orientation began.
-  double most_nms = 0.0;    ///< Of a wheel.
+  double settled_s = 0.0;   ///< Time since which it points within 1 deg.
+  double pointing_s = 0.0;  ///< Time at which orientation began.
+  double most_nms = 0.0;    ///< Largest momentum of a wheel.
   double most_rpm = 0.0;
   Vector3d last_off_rad = Vector3d::Zero();
 };
@@ -72,7 +72,7 @@ double off_rad(const ClosedLoop<SteppedBody>& loop) {
   return angle_between_rad(loop.body().last().q_icrf_body, kTarget);
 }
 
-/// @param late Periods by which a torque comes late.
+/// @param late Whether the torque acts one period late.
 Flight flown(ClosedLoop<SteppedBody> loop, AttitudeControl control, bool late = false) {
   Flight flight;
   Vector3d asked_nm = Vector3d::Zero();
@@ -112,7 +112,7 @@ TEST(ClosedLoop, HoldsItAgainstAConstantTorque) {
   EXPECT_LT(flight.settled_s, 240.0);
   EXPECT_LT(flight.most_nms, 0.17);
   EXPECT_LT(flight.most_rpm, 6000.0);
-  // No integral term: the torque is balanced by the error.
+  // Without an integral term the torque is balanced by an error.
   const Vector3d expected_rad =
       kTorque_nm / (kFrequency_rad_s * kFrequency_rad_s) * kMoments_kg_m2.cwiseInverse();
   EXPECT_LT(degrees((flight.last_off_rad - expected_rad).norm()), 0.01);
@@ -154,7 +154,7 @@ TEST(ClosedLoop, KeepsTheMomentumOfBodyAndWheels) {
   EXPECT_LT((momentum_icrf_nms() - at_first_nms).norm(), 1e-10 * at_first_nms.norm());
 }
 
-/// Of Zhang 2019: its computer knows the attitude from its gyro alone.
+/// In Zhang 2019 the computer knows the attitude from its gyro alone.
 TEST(ClosedLoop, OrientsItByAnAttitudeOfTheGyroAlone) {
   for (const GyroPropagation by : {GyroPropagation::Composition, GyroPropagation::RungeKutta}) {
     ClosedLoop<SteppedBody> loop = loop_of(kMoments_kg_m2, {});
@@ -174,7 +174,7 @@ TEST(ClosedLoop, OrientsItByAnAttitudeOfTheGyroAlone) {
   }
 }
 
-/// Of Li 2017: relays damp its rates, then it looks for the Sun by itself.
+/// In Li 2017 relays damp the rates before the satellite searches for the Sun.
 TEST(ClosedLoop, DampsTheSatelliteOfSeed000In18SecondsAndHoldsMinusZAtTheSun) {
   const Eigen::Matrix3d inertia_kg_m2 = Vector3d{120.0, 100.0, 140.0}.asDiagonal();
   const ThrusterDesign thrusters{.torque_nm = 0.07, .shortest_s = 0.01, .longest_s = 1.0};

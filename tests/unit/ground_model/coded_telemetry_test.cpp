@@ -13,7 +13,7 @@ using ::testing::DoubleNear;
 using ::testing::Optional;
 
 constexpr double kResolution_s = 1e-5;
-// Sums and multiples of the resolution are exact to a few ulp of a second.
+// Sums and multiples of the resolution are exact to a few ulps of a second.
 constexpr double kRounding_s = 1e-14;
 
 ReceivedPulse at(double t_s, PulseChannel channel) {

@@ -79,7 +79,8 @@ TEST(SaturatedPd, FollowsATargetThatTurns) {
   EXPECT_LT(law.torque_body_nm(with).norm(), 1e-15);
 }
 
-// With all the torque it stops within the angle: rate^2 = 2 a angle, the half angle's sine for it.
+// Full torque a stops the body within the angle at rate^2 = 2 a angle, where the sine of the half
+// angle stands for the angle.
 TEST(VariableLimitPd, AsksForNoTorqueWhereTheAxisCanJustBeStopped) {
   const double angle_rad = 1.0;
   const double torque_nm = 1e-4;

@@ -11,7 +11,7 @@ constexpr TaiTime kStart = tai_from_ns(1'772'337'637'000'000'000);
 constexpr double kSigma = 0.002;
 constexpr double kBand = 5.0;
 
-/// Two channels, of which the second has no values; both hold ten seconds.
+/// Watches two channels, of which the second has no values; both hold for ten seconds.
 class DepartureWatchTest : public ::testing::Test {
  protected:
   static constexpr std::size_t kRate = 0;
@@ -43,7 +43,8 @@ TEST_F(DepartureWatchTest, TakesNoOutlierForADeparture) {
   EXPECT_EQ(rate().outside, 10);
 }
 
-/// What bridges a gap is not for so long away: too few samples say so.
+/// Outliers on both sides of a gap do not prove that the channel was away during the gap: there are
+/// too few samples.
 TEST_F(DepartureWatchTest, TakesOutliersOnBothSidesOfAGapForNone) {
   for (const double t_s : {0.0, 1.0, 2.0, 3.0, 61.0, 62.0}) {
     see(t_s, 40.0);
@@ -60,7 +61,7 @@ TEST_F(DepartureWatchTest, FindsTheFirstInstantOfADepartureOnceMostOfTheWindowIs
   for (int t_s = 0; t_s < 50; ++t_s) {
     see(t_s, t_s == 19 || t_s == 46 ? 8.0 : 0.5);
   }
-  // The outlier is within the window, and is not where flight left.
+  // The outlier is within the window but is not the start of the departure.
   for (int t_s = 50; t_s < 59; ++t_s) {
     ASSERT_FALSE(see(t_s, -6.0 - 0.1 * (t_s - 50))) << t_s;
   }
@@ -80,7 +81,7 @@ TEST_F(DepartureWatchTest, FindsTheFirstInstantOfADepartureOnceMostOfTheWindowIs
   }
 }
 
-/// As nutation does: it crosses the model twice a turn.
+/// Nutation, for example, crosses the model twice a turn.
 TEST_F(DepartureWatchTest, FindsFlightThatSwingsAboutTheModel) {
   for (int i = 0; i < 400; ++i) {
     see(0.1 * i, i < 200 ? 0.5 : 12.0 * std::sin(0.5 * i));
@@ -89,7 +90,7 @@ TEST_F(DepartureWatchTest, FindsFlightThatSwingsAboutTheModel) {
   EXPECT_NEAR(seconds_between(kStart, rate().departure->since), 20.0, 1.0);
 }
 
-/// Such as the star fixes at the end of a separation.
+/// The star fixes at the end of a separation are an example.
 TEST_F(DepartureWatchTest, FindsAChannelThatIsAwayAtAllOfItsFewSamples) {
   for (int t_s = 0; t_s < 8; ++t_s) {
     see(t_s, 50.0);
@@ -106,7 +107,7 @@ TEST_F(DepartureWatchTest, KeepsTheFirstDepartureWhenFlightIsBackForAMinuteAndLe
       changes.push_back(change->change);
     }
   }
-  // Away again within the minute, it was never back.
+  // The channel is away again within a minute, so it was never back.
   EXPECT_THAT(changes, ::testing::ElementsAre(Change::Raised, Change::Cleared, Change::Raised));
   EXPECT_EQ(rate().departure->since, shifted(kStart, 20.0));
 }

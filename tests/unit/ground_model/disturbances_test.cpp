@@ -16,7 +16,7 @@ const Eigen::Matrix3d kInertia_kg_m2 = Vector3d{80.0, 100.0, 60.0}.asDiagonal();
 constexpr double kRadius_km = 7000.0;
 const double kRate_rad_s = std::sqrt(kEarthMu_km3_s2 / (kRadius_km * kRadius_km * kRadius_km));
 
-/// Round the equator.
+/// Returns the surroundings in an equatorial orbit.
 Surroundings after(double t_s) {
   const double angle_rad = kRate_rad_s * t_s;
   return {.spacecraft = {.position_icrf_km =
@@ -42,7 +42,7 @@ TEST(Disturbances, TurnTheSlightlyLeaningBodyUprightByGravityGradient) {
   EXPECT_LT((torque_nm - Vector3d{0.0, 0.0, expected_nm}).norm(), 1e-12 * std::abs(expected_nm));
 }
 
-// Pitch: n sqrt(3 (I_roll - I_yaw) / I_pitch), with yaw along the radius.
+// The pitch frequency is n sqrt(3 (I_roll - I_yaw) / I_pitch), with yaw along the radius.
 TEST(Disturbances, LetTheBodyLibrateAsAnOrbitingPendulum) {
   constexpr double kStep_s = 1.0;
   constexpr double kAtFirst_rad = 0.001;

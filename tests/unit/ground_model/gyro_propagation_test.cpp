@@ -8,7 +8,7 @@ namespace spindrift::gyro_propagation_test {
 
 using Eigen::Vector3d;
 
-/// A turn in a turn, so that the axis goes round; attitude and rate are known at any time.
+/// Rotates about an axis that itself rotates; attitude and rate are known in closed form.
 struct Coning {
   Vector3d outer_rad_s;
   Vector3d inner_rad_s;
@@ -57,7 +57,7 @@ TEST(GyroPropagation, ConvergesInSecondOrderWhereTheAxisGoesRound) {
     const double coarse_rad = error_rad(kConing, by, 120);
     const double fine_rad = error_rad(kConing, by, 240);
     EXPECT_NEAR(std::log2(coarse_rad / fine_rad), 2.0, 0.05);
-    // A span is off by h^3 / 12 of the second derivative of the rate, inner^2 outer at most.
+    // The error of a step is h^3 / 12 of the second derivative of the rate, at most inner^2 outer.
     const double step_s = kEnd_s / 240;
     EXPECT_LT(fine_rad, step_s * step_s / 12.0 * kEnd_s * kConing.inner_rad_s.squaredNorm() *
                             kConing.outer_rad_s.norm());

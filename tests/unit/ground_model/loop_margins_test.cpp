@@ -126,7 +126,8 @@ TEST(LoopMargins, RefuseALoopThatIsNone) {
   EXPECT_FALSE(loop_margins(channel(0, 1.0, LoopSampling{0.0, 1})));
   EXPECT_THAT(loop_margins(channel(0, 1.0, LoopSampling{20.0, 1})).error().message,
               HasSubstr("is not closed by a period of 20 s"));
-  // The torque comes 17 s late, and kd leads by 2 kd / kp = 2 * 2 * 0.6716 / 0.1 = 13.4 s at most.
+  // The torque comes 17 s late, whereas kd leads by at most 2 kd / kp = 2 * 2 * 0.6716 / 0.1 = 13.4
+  // s.
   EXPECT_THAT(loop_margins(channel(0, 1.0, LoopSampling{2.0, 8})).error().message,
               HasSubstr("swings with any gain"));
   EXPECT_LT(margins(channel(0, 1.0, LoopSampling{2.0, 4})).phase_rad, 0.0);

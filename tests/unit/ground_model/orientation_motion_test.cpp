@@ -1,4 +1,4 @@
-// The figures of Zhang 2019 that a flight of its sequence must reach.
+// Figures of Zhang 2019 that a flight of its sequence must reproduce.
 
 #include "pipelines/ground_model/flights/orientation_motion.h"
 
@@ -84,7 +84,7 @@ TEST(OrientationMotion, HoldsItAgainstAConstantTorque) {
       outcome_of(flown(disturbed, gyro_with(Vector3d::Zero())), disturbed);
   EXPECT_LT(outcome.settled_s.value_or(800.0), 240.0);
   EXPECT_LT(outcome.most_nms, 0.17);
-  // No integral term: the error balances the torque.
+  // Without an integral term the error balances the torque.
   const double expected_rad = (kTorque_nm / (0.1 * 0.1) * kMoments_kg_m2.cwiseInverse()).norm();
   EXPECT_NEAR(degrees(outcome.last_off_rad), degrees(expected_rad), 0.02);
 }
@@ -94,7 +94,7 @@ TEST(OrientationMotion, DriftsByTheBiasThatItsComputerTakesForARate) {
   const OrientationTruth undisturbed = truth();
   const OrientationOutcome outcome =
       outcome_of(flown(undisturbed, gyro_with({0.0, 0.0, kBias_deg_s})), undisturbed);
-  // In 800 s, less a little for the turn in which the axis lay elsewhere.
+  // The drift of 800 s, slightly reduced by the rotation in which the axis pointed elsewhere.
   EXPECT_NEAR(degrees(outcome.last_off_rad), 800.0 * kBias_deg_s, 0.05);
 
   OrientationTruth knowing = undisturbed;

@@ -13,7 +13,7 @@ using enum PulseChannel;
 constexpr TaiTime kStart = tai_from_ns(1795143637000000000);
 constexpr int kTurns = 20000;
 
-/// One edge a channel and second, a tenth of a second apart.
+/// Returns one edge a second for each channel, a tenth of a second apart.
 std::vector<TrueEdge> regular_edges() {
   std::vector<TrueEdge> edges;
   for (int turn = 0; turn < kTurns; ++turn) {
@@ -38,13 +38,14 @@ std::int64_t count(const ReceivedPass& pass, std::optional<Damage> damage) {
                        [&](const ReceivedPulse& pulse) { return pulse.damage == damage; });
 }
 
-/// Five standard deviations of a binomial count: one test in two million fails by chance.
+/// Expects a binomial count within five standard deviations, which fails by chance once in two
+/// million times.
 void expect_binomial(std::int64_t count, double trials, double probability) {
   EXPECT_NEAR(static_cast<double>(count), trials * probability,
               5.0 * std::sqrt(trials * probability * (1.0 - probability)));
 }
 
-/// Behind the regular time of its channel.
+/// Returns the delay against the regular time of the channel.
 double late_s(const Pulse& pulse) {
   const double t_s =
       seconds_between(kStart, pulse.t) - 0.1 * static_cast<double>(index_of(pulse.channel));
@@ -110,7 +111,7 @@ TEST(PulseLink, HearsNothingOfADeadChannelNorDuringASilence) {
     ASSERT_NE(name_of(pulse.channel), "north_in");
     ASSERT_FALSE(t_s >= 100.0 && t_s < 400.05) << t_s;
   }
-  // 300 s of five channels, sun1 of second 400, and the whole of the sixth.
+  // Five channels lack 300 s, sun1 also second 400, and the sixth channel is missing entirely.
   EXPECT_EQ(pass.missing, 1501 + kTurns);
 }
 

@@ -45,7 +45,7 @@ double energy(const SteppedBody& body) {
   return rate_rad_s.dot(body.body().inertia_kg_m2() * rate_rad_s);
 }
 
-// 5.2 deg/s: it turns by 0.26 deg in a step and 85 times in the orbit.
+// At 5.2 deg/s the body rotates by 0.26 deg in a step and 85 times in the orbit.
 TEST(RigidBody, KeepsMomentumAndEnergyWithoutTorqueOverAnOrbit) {
   SteppedBody body{
       body_of(Vector3d{0.6, 1.2, 1.12}),

@@ -19,14 +19,14 @@ constexpr TaiTime kSeparation = tai_from_ns(1'772'337'637'000'000'000);
 
 const Orbit kOrbit = testing::low_orbit(kSeparation);
 
-/// Seconds behind the start, in order.
+/// Holds the phases in s after the start, in order.
 struct Phases {
   double control_on_s;
   double acquisition_s;
   double end_s;
 };
 
-/// Of Li 2017, which damps from these rates.
+/// Returns the truth of Li 2017, which damps from these rates.
 SeparationTruth truth_at(const Phases& phases) {
   const Vector3d rate_deg_s{0.618844, -0.33139, 0.065912};
   return {.body = {.start = kSeparation,

@@ -24,10 +24,10 @@ using enum PulseChannel;
 constexpr TaiTime kStart = tai_from_ns(1'795'143'637'000'000'000);
 constexpr double kEnd_s = 600.0;
 constexpr double kChange_s = 300.0;
-constexpr double kRate_rad_s = kTurn_rad;  // A turn a second.
+constexpr double kRate_rad_s = kTurn_rad;  // One turn a second.
 constexpr double kResolution_s = 1e-4;
 
-/// The transfer orbit of the scenarios.
+/// The scenarios' transfer orbit.
 const Orbit kOrbit{KeplerOrbit::make({.epoch = kStart,
                                       .semi_major_axis_km = 24'400.0,
                                       .eccentricity = 0.73,
@@ -97,8 +97,8 @@ void expect_only(const ByChannel& all, const std::string& channel, double within
   EXPECT_LE(departed.begin()->second, kChange_s + within_s);
 }
 
-/// In 20 passes of 600 revolutions; each is 12 periods and phases, which share edges of sun1: twice
-/// the variance that independent ones would have.
+/// Each of 20 passes with 600 revolutions has 12 periods and phases that share edges of sun1, which
+/// doubles the variance of independent ones.
 TEST(SpinComparison, IsOfUnitVarianceInTheModelsOwnPasses) {
   std::map<std::string, double> squares;
   std::map<std::string, double> counts;
@@ -136,7 +136,7 @@ TEST(SpinComparison, IsOfUnitVarianceInCodedTelemetry) {
   EXPECT_NEAR(squares / count, 1.0, 5.0 * std::sqrt(4.0 / count));
 }
 
-/// The absolute phase is another one, and nothing else.
+/// Only the absolute phase differs.
 TEST(SpinComparison, DoesNotCompareTheAbsolutePhase) {
   SpinTruth turned = truth();
   turned.motion.first_azimuth_rad = 2.0;

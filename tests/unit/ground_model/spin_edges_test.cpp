@@ -22,7 +22,7 @@ namespace spindrift::spin_edges_test {
 using ::testing::HasSubstr;
 
 constexpr double kRpm = std::numbers::pi / 30.0;
-constexpr TaiTime kStart = tai_from_ns(1795143637000000000);  // 2026-11-20
+constexpr TaiTime kStart = tai_from_ns(1795143637000000000);  // 2026-11-20.
 const Eigen::Vector3d kIcrfPole = Eigen::Vector3d::UnitZ();
 
 Orbit orbit_of(double a_km, double e, double mean_anomaly_rad) {
@@ -62,7 +62,7 @@ std::vector<TrueEdge> edges_of(const SpinTruth& truth, const Orbit& orbit, doubl
   return edges.until(end_s).value();
 }
 
-/// The oracle turns evenly; where the rate drifts its clock is the angle turned, as a time.
+/// Returns the oracle's time: its spin is constant, so a drifting angle is converted to a time.
 double turned_s(const SpinMotion& motion, double t_s) {
   return (motion.azimuth_rad(t_s) - motion.first_azimuth_rad) / motion.rate_rad_s;
 }
@@ -74,7 +74,7 @@ double time_s(const SpinMotion& motion, double turned_s) {
 std::vector<testing::Edge> oracle(const SpinTruth& truth, const Orbit& orbit, double from_s,
                                   double to_s) {
   const SpinMotion& motion = truth.motion;
-  // The oracle's Earth stands upright: everything is turned until it does.
+  // The oracle's Earth has its pole along z, so everything is rotated accordingly.
   const Eigen::Quaterniond upright = frame_about(truth.horizon.pole_icrf).conjugate();
   const Eigen::Vector3d axis = upright * motion.axis_icrf;
   const Eigen::Vector3d zero = upright.conjugate() * (frame_about(axis) * Eigen::Vector3d::UnitX());
@@ -151,7 +151,7 @@ TEST(SpinEdges, AreThoseOfTheOracleOnTheSphereAndOnTheEllipsoid) {
   }
 }
 
-/// Those of a chord or a gap between chords that is wider than `least_s`, by channel.
+/// Returns the edges of chords, or gaps between chords, that are longer than `least_s`.
 std::vector<double> wide_edges_s(const std::vector<testing::Edge>& edges, PulseChannel channel,
                                  PulseChannel opposite, double least_s) {
   std::vector<double> wide_s;
@@ -180,7 +180,7 @@ void expect_the_oracles_wide_edges(const SpinTruth& truth, const Orbit& orbit, d
     found.push_back({.t_s = edge.t_s, .channel = edge.channel});
   }
   const auto expected = oracle(truth, orbit, 0.0, end_s);
-  // A degree: the rule that drops the narrow ones looks at one instant, the oracle at two.
+  // One degree, since the model checks for narrow chords at one time and the oracle at two.
   const double narrow_s = kRadPerDeg / truth.motion.rate_rad_s;
   for (const auto& [channel, opposite] :
        {std::pair{NorthIn, NorthOut}, std::pair{NorthOut, NorthIn}, std::pair{SouthIn, SouthOut},
@@ -193,7 +193,7 @@ void expect_the_oracles_wide_edges(const SpinTruth& truth, const Orbit& orbit, d
   }
 }
 
-/// In a low orbit a chord comes, grows to the whole turn and goes within minutes.
+/// In a low orbit a chord appears, grows to a whole turn and vanishes within minutes.
 TEST(SpinEdges, AreThoseOfTheOracleWhereAChordComesOrGoes) {
   std::mt19937_64 rng{20261123};
   const auto uniform = [&rng](double from, double to) {
@@ -232,7 +232,7 @@ TEST(SpinEdges, FollowADriftOfTheRate) {
 
 TEST(SpinEdges, HaveNoSecondSunEdgeWhereTheSlitMissesTheSun) {
   SpinTruth truth = truth_of(place(100.0, -55.0), 60.0, HorizonModel::Sphere);
-  // The Sun stands 6 deg from this body's equator: only a slit that is all but level misses it.
+  // The Sun is 6 deg from this body's equator: only a nearly level slit misses it.
   truth.sun_sensor.slit_cant_rad = 85.0 * kRadPerDeg;
   const auto edges = edges_of(truth, orbit_of(24400.0, 0.73, 0.5), 10.0);
   EXPECT_EQ(std::count_if(edges.begin(), edges.end(),
@@ -261,8 +261,8 @@ TEST(SpinEdges, DoNotDependOnTheSlices) {
   EXPECT_EQ(sliced.revolutions(), 20);
 }
 
-/// By how much the sensor misses what its edge is of, rad: the Sun off the slit's plane, the beam
-/// off the limb of a spherical Earth.
+/// Returns how far the Sun is off the plane of the slit, or the beam off the limb of a spherical
+/// Earth, at the time of the edge, rad.
 double missed_rad(const SpinTruth& truth, const OrbitState& state, const TrueEdge& edge) {
   const Eigen::Vector3d& axis = truth.motion.axis_icrf;
   Eigen::Matrix3d R_icrf_axes;
@@ -306,7 +306,7 @@ TEST(SpinEdges, OfABodyThatNutatesAndConesAreWhereItsSensorsMeetSunAndEarth) {
     for (const TrueEdge& edge : edges) {
       ++count.at(index_of(edge.channel));
       const OrbitState state = orbit.at(shifted(truth.start, edge.t_s)).value();
-      // A nanosecond's turn.
+      // The rotation in a nanosecond.
       EXPECT_LT(std::abs(missed_rad(truth, state, edge)), 7e-9) << name_of(edge.channel);
     }
     for (const int edges_of_channel : count) {
@@ -339,7 +339,7 @@ TEST(SpinEdges, AreThoseOfTheOracleWhereverThePoleStands) {
 }
 
 TEST(SpinEdges, EndWhereTheEarthHidesTheSun) {
-  // Opposite to the Sun, 7000 km from the Earth's centre.
+  // The spacecraft is opposite to the Sun, 7000 km from the Earth's centre.
   ApparentSun sun;
   const Eigen::Vector3d away = -sun.direction_icrf(
       kStart, {.position_icrf_km = {7000.0, 0.0, 0.0}, .velocity_icrf_km_s = {0.0, 0.0, 0.0}});
@@ -383,7 +383,7 @@ TEST(SpinEdges, SayWhereTheOrbitEnds) {
   EXPECT_EQ(seen.error().code, ErrorCode::NoCoverage);
 }
 
-/// The same motion, integrated: a body without torque that is symmetric about its third axis.
+/// Integrates the same motion of a torque-free body that is symmetric about its third axis.
 BodyMotion integrated(const SpinMotion& motion, double end_s) {
   constexpr double kStep_s = 2.5e-3;
   const double ratio = motion.nutation.inertia_ratio;
@@ -395,7 +395,7 @@ BodyMotion integrated(const SpinMotion& motion, double end_s) {
   const Eigen::Matrix3d R_icrf_body =
       R_icrf_axes * body.R_axes_tipped(0.0) *
       Eigen::AngleAxisd{body.azimuth_rad(0.0), Eigen::Vector3d::UnitZ()};
-  // As large as turns the body as fast as said: spin_motion.h, with 1 kg m2 across the axis.
+  // The momentum gives the stated rate: spin_motion.h with 1 kg m2 across the axis.
   const double momentum_nms = motion.rate_rad_s / (1.0 + cosine / ratio - cosine);
   const Eigen::Vector3d inertia_kg_m2{1.0, 1.0, ratio};
   const Eigen::Vector3d rate_rad_s =

@@ -1,4 +1,4 @@
-/// How the body turns, against Euler's equations integrated in small steps.
+/// The closed-form rotation of the body, compared with Euler's equations integrated in small steps.
 
 #include "pipelines/ground_model/dynamics/spin_motion.h"
 
@@ -26,9 +26,9 @@ Eigen::Matrix3d R_axes_body(const SpinMotion& motion, double t_s) {
          Eigen::AngleAxisd{motion.azimuth_rad(t_s), Eigen::Vector3d::UnitZ()};
 }
 
-/// Attitude and angular velocity of a rigid body without torque, I_t = 1.
+/// Holds attitude and angular velocity of a torque-free rigid body with I_t = 1.
 struct RigidBody {
-  Eigen::Vector4d q_axes_body;  ///< x, y, z, w.
+  Eigen::Vector4d q_axes_body;  ///< Order x, y, z, w.
   Eigen::Vector3d omega_body;
 
   RigidBody changed(const RigidBody& rate, double dt_s) const {
@@ -60,9 +60,9 @@ TEST(SpinMotion, IsThatOfEulersEquations) {
                                  .first_azimuth_rad = 2.0};
       const SpinMotion motion = motion_of(nutation, {});
       const Eigen::Vector3d inertia{1.0, 1.0, inertia_ratio};
-      // The angular momentum lies along the third axis. Its size is the one unknown: such that the
-      // body turns as fast as said, I_s w_z = H cos h and w_z = rate of phi + cos h times that of
-      // psi, with the sum of both rates given.
+      // The angular momentum is along the third axis. Its size follows from the stated rate: I_s
+      // w_z = H cos h, and w_z = rate of phi + cos h times that of psi, with the sum of both rates
+      // given.
       const Eigen::Matrix3d R_axes_body_0 = R_axes_body(motion, 0.0);
       const double cosine = std::cos(nutation.half_angle_rad);
       const double momentum = kRate_rad_s / (1.0 + cosine / inertia_ratio - cosine);
@@ -93,7 +93,7 @@ TEST(SpinMotion, ConesAboutAnAxisFixedInTheBody) {
   const Nutation nutation = {.half_angle_rad = 0.05, .inertia_ratio = 0.4};
   const SpinMotion nutating = motion_of(nutation, {});
   const SpinMotion both = motion_of(nutation, {.tilt_rad = 0.02, .azimuth_rad = 0.3});
-  // Behind slit 1 is to the right.
+  // Positive azimuth behind slit 1 is to the right.
   const Eigen::Vector3d sensors_axis_body{std::sin(0.02) * std::cos(-0.3),
                                           std::sin(0.02) * std::sin(-0.3), std::cos(0.02)};
   for (const double t_s : {0.0, 0.13, 7.7}) {

@@ -25,7 +25,7 @@ constexpr double kEnd_s = 400.0;
 constexpr double kChange_s = 200.0;
 constexpr double kGyro_deg_s = 0.002;
 
-/// In the Sun for all of the motion.
+/// Stays in sunlight during the motion.
 const Orbit kOrbit = testing::low_orbit(kStart);
 
 TumblingScenario scenario(std::uint64_t seed) {
@@ -61,7 +61,7 @@ ThreeAxisTelemetry flight(std::uint64_t seed = 1) {
   return flown(scenario(seed), kOrbit).value().telemetry;
 }
 
-/// Kind by kind: no kind ends before another begins, as in the order of their times.
+/// Compares the samples kind by kind; the kinds overlap in time.
 ByChannel compared(const ThreeAxisTelemetry& flight) {
   static const auto model =
       std::make_shared<const GroundModel>(three_axis_model(scenario(99), kOrbit).value());
@@ -135,8 +135,8 @@ TEST(ThreeAxisComparison, FindsABiasOfTheMagnetometer) {
   expect_only(biased, "magnetometer_z", 1.0);
 }
 
-/// A thruster that is stuck gives a torque about X: the rate leaves the band when the torque has
-/// changed it by five sigma, the attitude when it has turned the body by five of the tracker's.
+/// A stuck thruster gives a torque about X: the rate leaves its band when the torque has changed it
+/// by five sigma, the attitude when the body has rotated by five sigma of the tracker.
 TEST(ThreeAxisComparison, FindsAThrusterThatIsStuck) {
   constexpr double kTorque_nm = 2e-5;
   const double acceleration_deg_s2 = kDegPerRad * kTorque_nm / 16.0;
@@ -177,7 +177,7 @@ TEST(ThreeAxisComparison, FindsASensorThatNeverCame) {
   EXPECT_LT(departed.at("sun"), 3.0);
 }
 
-/// Nothing is missed of a Sun that the sensor does not see, nor in a gap of the gyro.
+/// Samples are not missing while the sensor cannot see the Sun or in a gap of the gyro.
 TEST(ThreeAxisComparison, MissesNothingThatTheModelDoesNotSend) {
   TumblingScenario plan = scenario(4);
   plan.view.sensors.sun_sensor->half_cone_rad = 40.0 * kRadPerDeg;

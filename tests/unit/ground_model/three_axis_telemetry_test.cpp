@@ -20,10 +20,10 @@ using Eigen::Vector3d;
 constexpr TaiTime kStart = tai_from_ns(1'772'337'637'000'000'000);
 constexpr double kNoise = 0.002;
 
-/// In the Sun for all of the motion.
+/// Stays in sunlight during the motion.
 const Orbit kOrbit = testing::low_orbit(kStart);
 
-/// Turns once in ten minutes, for five hundred seconds.
+/// Returns a motion of one turn in ten minutes that lasts 500 s.
 BodyMotion turning() {
   const BodyState start{.q_icrf_body = quaternion_by({1.0, 0.4, -2.0}),
                         .rate_body_rad_s = {0.01, 0.0, 0.0}};
@@ -54,7 +54,8 @@ ThreeAxisTelemetry sent(const ThreeAxisSensors& sensors, const ThreeAxisFaults& 
   return three_axis_telemetry(turning(), kStart, sensors, faults, orbit, chance).value();
 }
 
-/// Of squares over their variance, whose expectation is 1: five standard deviations.
+/// Expects a sum of squares over their variance to be its degrees of freedom within five standard
+/// deviations.
 void expect_one(double squares, double degrees_of_freedom) {
   EXPECT_NEAR(squares / degrees_of_freedom, 1.0, 5.0 * std::sqrt(2.0 / degrees_of_freedom));
 }
@@ -118,7 +119,7 @@ TEST(ThreeAxisTelemetry, OfAMagnetometerIsTheFieldWithBiasAndNoise) {
     squares += ((sample.field_body_nt - bias_nt - truth) / kNoise_nt).squaredNorm();
   }
   expect_one(squares, 3.0 * 3501.0);
-  // The others are as without it.
+  // The other samples must not depend on the magnetometer.
   const ThreeAxisTelemetry without = sent(sensors(), {});
   EXPECT_TRUE(without.fields.empty());
   EXPECT_EQ(telemetry.sun.back().sun_body, without.sun.back().sun_body);
@@ -147,7 +148,7 @@ TEST(ThreeAxisTelemetry, OfAGyroStopsAtItsRange) {
         EXPECT_LE(sample.rate_body_rad_s.cwiseAbs().maxCoeff(), 0.012);
         return sample.rate_body_rad_s.x() == 0.012;
       });
-  // The bias alone takes it there.
+  // The bias alone reaches the range limit.
   EXPECT_GT(stopped, 2000);
 }
 

@@ -29,7 +29,7 @@ TumblingTruth truth_at(const Vector3d& rate_deg_s) {
                    .end_s = kEnd_s}};
 }
 
-/// A field of the Earth's centre alone, along its axis.
+/// Returns a dipole field at the Earth's centre along its axis.
 MainFieldModel dipole_field() {
   GaussCoefficients coefficients;
   coefficients.g_nt.at(GaussCoefficients::index(1, 0)) = -30'000.0;
@@ -62,7 +62,7 @@ TEST(TumblingMotion, KeepsTheMomentumOfBodyAndWheelsInSpace) {
   const Vector3d at_first_nms = momentum_icrf_nms(truth, truth.body.at_start);
   EXPECT_LT((momentum_icrf_nms(truth, motion.last()) - at_first_nms).norm(),
             1e-9 * at_first_nms.norm());
-  // The wheels do turn it: without them it ends elsewhere.
+  // Without the wheels the motion ends differently.
   truth.wheels_body_nms.setZero();
   EXPECT_GT(angle_between_rad(motion.last().q_icrf_body,
                               tumbling_motion(truth, kOrbit).value().last().q_icrf_body),
@@ -88,7 +88,7 @@ TEST(TumblingMotion, KeepsEnergyAndMomentumHoweverFastTheWheelsMakeItSwing) {
 }
 
 TEST(TumblingMotion, GainsTheMomentumThatTheSurroundingsGive) {
-  // At rest, so that a constant torque stays where it is in space: about one axis.
+  // The body is at rest, so that a constant torque in body axes is constant in space.
   constexpr double kTorque_nm = 1e-5;
   TumblingTruth truth = truth_at(Vector3d::Zero());
   truth.body.disturbances.constant_body_nm = {0.0, 0.0, kTorque_nm};
@@ -105,7 +105,7 @@ TEST(TumblingMotion, FeelsTheFieldByItsDipoleOnly) {
   truth.body.disturbances.dipole_body_a_m2 = {0.0, 0.0, 1.0};
   const BodyMotion turned = tumbling_motion(truth, kOrbit).value();
   EXPECT_GT(angle_between_rad(turned.last().q_icrf_body, free), 0.01);
-  // By some 2e-5 T on 1 A m2, across the dipole.
+  // The torque is about 2e-5 T on 1 A m2, perpendicular to the dipole.
   const Vector3d gained_nms =
       momentum_icrf_nms(truth, turned.last()) - momentum_icrf_nms(truth, truth.body.at_start);
   EXPECT_LT(gained_nms.norm(), 5e-5 * kEnd_s);

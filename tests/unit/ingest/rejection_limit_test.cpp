@@ -17,7 +17,7 @@ RejectedInput impossible(std::int64_t seq, const std::string& source = "front-en
   return {.source = source, .line = seq, .reason = "t_tai_ns = -1", .session = 5};
 }
 
-/// @return how many of `count` are kept.
+/// Returns how many of `count` rejections are kept.
 int kept_of(RejectionLimit& limit, int count, TaiTime now) {
   int kept = 0;
   for (int seq = 0; seq < count; ++seq) {

@@ -83,7 +83,7 @@ TEST(SequenceTracker, TakesNoGapBetweenWhatIsKnownAndWhatIsSentSince) {
   SequenceTracker tracker;
   tracker.go_on(origin(20));
   EXPECT_EQ(counts_after(tracker, {500, 502}), (SequenceCounts{.received = 2, .missing = 1}));
-  // Of another session nothing is known.
+  // The new session has no known predecessor.
   tracker.record(origin(3, 2), kSpacecraft);
   tracker.record(origin(5, 2), kSpacecraft);
   EXPECT_EQ(tracker.by_source().at("front-end"), (SequenceCounts{.received = 4, .missing = 2}));
@@ -192,7 +192,7 @@ TEST(SequenceTracker, TakesTooManySpacecraftForOne) {
   EXPECT_EQ(tracker.by_source().at("front-end").disordered, 1U);
 }
 
-/// The same by definition: a set of all that arrived.
+/// Counts by definition: from the set of all numbers that arrived.
 struct Definition {
   std::set<std::uint64_t> seen;
   SequenceCounts counts;

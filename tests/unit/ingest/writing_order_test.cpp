@@ -12,7 +12,8 @@ using namespace std::chrono_literals;
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 
-/// What a look at all topics has found: gyro samples and star fixes, by when they were written.
+/// Returns gyro samples and star fixes with these writing times, as taken in one look at all
+/// topics.
 SampleBatch look(const std::vector<std::int64_t>& gyro, const std::vector<std::int64_t>& star,
                  const std::string& source = "station") {
   SampleBatch taken;
@@ -29,7 +30,7 @@ SampleBatch look(const std::vector<std::int64_t>& gyro, const std::vector<std::i
   return taken;
 }
 
-/// In the order in which they are worked on.
+/// Returns the writing times in the order of processing.
 std::vector<std::int64_t> written(const SampleBatch& batch) {
   std::vector<std::int64_t> order;
   in_order_of_arrival(batch.samples, [&](const auto& sample) { order.push_back(sample.arrival); });
@@ -38,7 +39,7 @@ std::vector<std::int64_t> written(const SampleBatch& batch) {
 
 class WritingOrderTest : public ::testing::Test {
  protected:
-  /// Its session is not new any more.
+  /// Ends the initial period of the session.
   void SetUp() override {
     pass_on(look({1}, {}));
     now_ += WritingOrder::kLastMinutes;
@@ -62,7 +63,7 @@ TEST_F(WritingOrderTest, ASampleWaitsForOneLookAtAllTopics) {
 
 TEST_F(WritingOrderTest, WhatWasWrittenBeforeOnAnotherTopicComesBefore) {
   EXPECT_THAT(pass_on(look({4, 6, 8}, {})), IsEmpty());
-  // Star fixes that were on their way, and what has been written since.
+  // Star fixes that were in transit, and samples written since.
   EXPECT_THAT(pass_on(look({9}, {5, 7, 10})), ElementsAre(4, 5, 6, 7, 8));
   EXPECT_THAT(pass_on(look({}, {})), ElementsAre(9, 10));
 }

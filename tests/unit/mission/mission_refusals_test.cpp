@@ -213,7 +213,7 @@ TEST(MissionRefusals, HasItsEventsInOrder) {
       problems_of("[spacecraft]\nid = \"A\"\nkind = \"three_axis\"\n[reconstruction]\n"
                   "t1_tai_ns = 3\nt4_tai_ns = 2\n"),
       ElementsAre("mission.toml:6: reconstruction.t4_tai_ns = 2: must not be below t1_tai_ns = 3"));
-  // One nanosecond, which a double of this size cannot hold.
+  // The difference is 1 ns, which a double of this size cannot resolve.
   EXPECT_THAT(problems_of(at("1772337637000000000", "1772337637000000000", "1772337637000000001",
                              "1772337637000000000")),
               ElementsAre(HasSubstr("reconstruction.t4_tai_ns = 1772337637000000000: must not be "

@@ -175,7 +175,7 @@ TEST(Mission, TakesItsOrbitFromElements) {
   const auto state = mission->orbit->at(tai_from_ns(1795143637000000000));
   ASSERT_TRUE(state);
   EXPECT_NEAR(state->position_icrf_km.norm(), 7000.0, 7000.0 * 0.001);
-  // Inclination: the orbit normal from the pole.
+  // The inclination is the angle of the orbit normal from the pole.
   const auto normal = state->position_icrf_km.cross(state->velocity_icrf_km_s).normalized();
   EXPECT_NEAR(normal.z(), std::cos(98.0 * kRadPerDeg), 1e-12);
 }
@@ -190,12 +190,13 @@ TEST(Mission, FindsItsOrbitBesideIt) {
   const auto mission = load_mission(path);
   ASSERT_TRUE(mission) << mission.error().message;
   EXPECT_TRUE(mission->orbit);
-  // By sha256sum.
+  // Computed with sha256sum.
   EXPECT_EQ(mission->orbit_sha256,
             "fa12bab2701921c14d404592742de10c1b9252419573b8ee588436c30390c9c1");
 }
 
-/// Of the contract's mission under another name. The orbit is that of LEOSAT, 2026-999A.
+/// Returns the orbit doubts of the contract's mission for another spacecraft name. The orbit is
+/// that of LEOSAT, 2026-999A.
 std::vector<std::string> orbit_doubts_of(const char* spacecraft) {
   return load(contract_with("spacecraft.id", spacecraft)).value().orbit_doubts;
 }
@@ -216,7 +217,7 @@ TEST(Mission, DoubtsAnOrbitThatJumps) {
   const auto mission =
       load_mission(folder.write("mission.toml", contract_with("spacecraft.id", "'LEOSAT'")));
   ASSERT_TRUE(mission) << mission.error().message;
-  // 7037 km from the Earth's centre.
+  // The distance to the Earth's centre is 7037 km.
   EXPECT_THAT(
       mission->orbit_doubts,
       ElementsAre(AllOf(
@@ -228,7 +229,7 @@ TEST(Mission, DoubtsAnOrbitThatJumps) {
 TEST(Mission, DoubtsAnOrbitWhoseSegmentsDoNotMeet) {
   const std::string orbit = text_of(kData / "mission" / "orbit.oem");
   const std::string head = orbit.substr(0, orbit.find("2026-03-01T03:58:00.000 "));
-  // The state that both segments have.
+  // Both segments contain this state.
   const std::size_t joint = orbit.find("2026-03-01T04:02:00.000 ");
   const std::size_t behind = orbit.find("2026-03-01T04:02:30.000 ");
   const std::string two =

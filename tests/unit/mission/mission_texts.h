@@ -1,5 +1,5 @@
 /// @file
-/// Texts of mission files, the contract's example and others, and what becomes of them.
+/// Texts of mission files, among them the contract's example, and functions that load them.
 
 #pragma once
 
@@ -29,14 +29,14 @@ inline std::string text_of(const std::filesystem::path& path) {
   return {std::istreambuf_iterator<char>{file}, {}};
 }
 
-/// Loads a text as mission.toml beside an orbit.oem.
+/// Loads a text as mission.toml next to an orbit.oem.
 inline Expected<Mission> load(std::string_view toml) {
   const TemporaryFolder folder;
   folder.write("orbit.oem", text_of(kData / "mission" / "orbit.oem"));
   return load_mission(folder.write("mission.toml", toml));
 }
 
-/// One string a problem, without the folder; empty when there is none.
+/// Returns one string for each problem, without the folder; empty if there is none.
 inline std::vector<std::string> problems_of(std::string_view toml) {
   const auto mission = load(toml);
   if (mission) {
@@ -53,7 +53,7 @@ inline std::vector<std::string> problems_of(std::string_view toml) {
 
 inline std::string contract() { return text_of(kData / "mission" / "contract.toml"); }
 
-/// `toml` with the one place where `pattern` stands replaced.
+/// Replaces the only match of `pattern`.
 inline std::string replaced(const std::string& toml, const std::string& pattern,
                             const std::string& by) {
   const std::regex regex{pattern};
@@ -61,7 +61,7 @@ inline std::string replaced(const std::string& toml, const std::string& pattern,
   return std::regex_replace(toml, regex, by, std::regex_constants::format_first_only);
 }
 
-/// The contract's example with one value set, lines lost.
+/// Returns the contract's example with one value set; line numbers are lost.
 inline std::string contract_with(const std::string& path, const std::string& value) {
   toml::table document = toml::parse(contract());
   const auto dot = path.rfind('.');

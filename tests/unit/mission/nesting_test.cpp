@@ -35,7 +35,7 @@ TEST(Nesting, IsFoundTooDeepWithItsLine) {
   EXPECT_EQ(line_nested_too_deep("k = [\n" + times(17, "[\n")), 17U);
   EXPECT_EQ(line_nested_too_deep(times(100'000, "{a=")), 1U);
   EXPECT_EQ(line_nested_too_deep(times(17, "\"=\".'#'.") + "a = 1"), 1U);
-  // What looks like the beginning of a text is the end of one.
+  // The quotes look like the beginning of a string but end one.
   EXPECT_EQ(line_nested_too_deep("k = [\"\"\"x\"\"\"\"\", " + times(17, "[")), 1U);
   EXPECT_EQ(line_nested_too_deep("k = ['''x'''', " + times(17, "[")), 1U);
   EXPECT_EQ(line_nested_too_deep("k = [\"\", " + times(17, "[")), 1U);

@@ -14,7 +14,7 @@ constexpr RecordRules kRules{
     .recent = 60.0, .fewest_freedoms = 15.0, .most_freedoms = 300.0, .noise_from_share = 0.2};
 const std::vector<SampleSource> kEdges{Sun1, Sun2, NorthIn, NorthOut, SouthIn, SouthOut};
 
-/// A turn of six edges, some of which are left out.
+/// Returns a turn of six edges of which `left_out` are left out.
 std::vector<Observation> turn(const std::set<SampleSource>& left_out) {
   std::vector<Observation> edges;
   for (const SampleSource source : kEdges) {
@@ -63,7 +63,7 @@ TEST(Ledger, CountsTurnsAndWhatIsLeftOut) {
   EXPECT_EQ(ledger.of(Sun2).left_out(), 0);
 }
 
-/// Weights fall by an e-th in sixty edges: by half in 60 ln 2 = 42.
+/// Weights decay by 1/e in sixty edges, so by half in 60 ln 2 = 42.
 TEST(Ledger, HalfOfTheRecentAreLeftOutOnceAllOfFortyTwoAre) {
   EXPECT_LT(after(6, kAll).all().recent_share_left_out(), 0.5);
   EXPECT_GT(after(8, kAll).all().recent_share_left_out(), 0.5);
@@ -80,7 +80,7 @@ TEST(Ledger, WhatStartsWrongSaysSoAtOnce) {
   }
 }
 
-/// Of the first sixty edges the plain mean, whatever their order.
+/// The first sixty edges have equal weights, whatever their order.
 TEST(Ledger, OfTheFirstSixtyEdgesTheShareIsPlain) {
   Ledger ledger = after(4, kAll);
   EXPECT_NEAR(add(ledger, 6, {}).all().share_left_out(), 24.0 / 60.0, 1e-12);
@@ -107,7 +107,7 @@ TEST(Ledger, NamesTheSourceThatIsNotWhereItIsPredicted) {
   for (const SampleSource wrong : kEdges) {
     EXPECT_EQ(after(1, {wrong}).mostly_left_out(), wrong);
     Ledger ledger = after(100, {});
-    // A tenth of the weight is of the last turn: half of it of seven.
+    // The last turn has a tenth of the weight; half of it is that of one edge in seven.
     EXPECT_FALSE(add(ledger, 6, {wrong}).mostly_left_out());
     EXPECT_EQ(add(ledger, 1, {wrong}).mostly_left_out(), wrong);
     EXPECT_FALSE(add(ledger, 7, {}).mostly_left_out());

@@ -11,7 +11,7 @@
 
 namespace spindrift::observation_record_test {
 
-// Of a normal variable beyond five standard deviations, either way.
+// Two-sided probability of five standard deviations.
 const double kChance = std::erfc(5.0 / std::numbers::sqrt2);
 
 /// Tails of chi-square in closed form.
@@ -28,10 +28,10 @@ TEST(InnovationGate, IsWhatNoiseReachesAsRarelyAsFiveSigmas) {
   EXPECT_NEAR(tail_of_three(innovation_gate(3)) / kChance, 1.0, 1e-3);
 }
 
-/// As those of the samples of a three-axis spacecraft.
+/// The rules of three-axis samples.
 constexpr RecordRules kRules{
     .recent = 20.0, .fewest_freedoms = 30.0, .most_freedoms = 900.0, .noise_from_share = 1.0};
-/// As those of edges.
+/// The rules of edges.
 constexpr RecordRules kOfEdges{
     .recent = 60.0, .fewest_freedoms = 15.0, .most_freedoms = 300.0, .noise_from_share = 0.2};
 constexpr double kGate = 4.1 * 4.1;
@@ -69,7 +69,7 @@ void accept(ObservationRecord& record, int samples, double square = 3.0, int fre
 
 bool many_left_out(const ObservationRecord& record) { return record.share_left_out() > 0.4; }
 
-/// So many turns of six edges, some of which are left out.
+/// Adds turns of six edges of which `gated` are left out.
 void add_turns(ObservationRecord& record, int turns, double square, std::size_t gated = 0) {
   std::vector<Observation> turn(gated, left_out(kGate, 1));
   turn.resize(6, used(square, 1));
@@ -95,7 +95,7 @@ TEST(ObservationRecord, OfWhichNoneFitsIsRejectedAltogether) {
   EXPECT_LT(record.share_left_out(), 1.0);
 }
 
-/// Of the first twenty the plain share.
+/// The first twenty samples have equal weights.
 TEST(ObservationRecord, TwoFifthsOfTheFirstSamplesAreNotYetMany) {
   for (const int rejected : {8, 9}) {
     ObservationRecord record{kRules};
@@ -181,7 +181,7 @@ TEST(ObservationRecord, ForgetsNoiseThatIsOver) {
   ObservationRecord record{kRules};
   accept(record, 1000, 4.0 * 3.0);
   accept(record, 300, 3.0);
-  // Nine hundred degrees of freedom on, an e-th of it.
+  // After another nine hundred degrees of freedom the excess has decayed by 1/e.
   EXPECT_NEAR(record.excess_noise(), 1.0 + 3.0 / std::numbers::e, 0.01);
   accept(record, 1000, 3.0);
   EXPECT_EQ(record.excess_noise(), 1.0);
@@ -209,7 +209,7 @@ TEST(ObservationRecord, BegunAnewThePastSpeaksLikeTheFewest) {
   add_turns(record, 5, 2.0);
   EXPECT_EQ(record.excess_noise(), 1.0);
   add_turns(record, 10, 4.0);
-  // 15 edges of 2, 30 of 2, 60 of 4.
+  // The record has 45 edges with a square of 2 and 60 with a square of 4.
   EXPECT_NEAR(record.excess_noise(), (45.0 * 2.0 + 60.0 * 4.0) / 105.0, 1e-9);
 }
 

@@ -9,7 +9,7 @@
 
 namespace spindrift::oscillation_test {
 
-/// Of residuals that are this, beside noise as stated.
+/// Returns the noise factor after residuals of `innovation` plus the stated noise.
 double noise_after(int revolutions, const std::function<double(int revolution)>& innovation) {
   std::mt19937_64 rng{7};
   std::normal_distribution<double> normal;
@@ -30,7 +30,7 @@ TEST(Oscillation, WhatScattersAsStatedIsSteady) {
 
 TEST(Oscillation, OneThatSwingsIsNotWhateverItsPeriod) {
   for (const double period : {2.3, 5.7, 20.0, 35.0}) {
-    // The median size of a sine is 0.71 of its amplitude.
+    // The median magnitude of a sine is 0.71 of its amplitude.
     EXPECT_NEAR(noise_after(200, [&](int i) { return swing(12.0, period, i); }),
                 std::pow(1.05 * 12.0, 2), 45.0)
         << period;

@@ -32,7 +32,7 @@ class Requests : public ::testing::Test {
 
 TEST_F(Requests, AreAnsweredOneAfterTheOther) {
   const auto server = RequestServer::start(archive(), kAnswers).value();
-  // More than one part of what the kernel hands over at once.
+  // The second text is more than the kernel transfers at once.
   for (const std::string& text : {std::string{"ab\n\"c"}, std::string(500'000, 'x')}) {
     const auto answer = ask_holder(archive(), {{"do", "twice"}, {"text", text}});
     ASSERT_TRUE(answer) << answer.error().message;
@@ -51,7 +51,7 @@ TEST_F(Requests, AreForTheUserOfTheServiceOnly) {
 TEST_F(Requests, NobodyAnswersWhereThereIsNoServiceOrItWasKilled) {
   EXPECT_EQ(ask_holder(archive(), json::object()).value(), std::nullopt);
   {
-    // As a killed one leaves it.
+    // The socket is left as by a killed process.
     const auto address = address_of(socket_of(archive())).value();
     const Descriptor socket{::socket(AF_UNIX, SOCK_STREAM, 0)};
     ASSERT_EQ(::bind(socket.number(), reinterpret_cast<const sockaddr*>(&address.name),
@@ -115,7 +115,7 @@ TEST_F(Requests, OneThatIsNoJsonOrTooLongIsRefused) {
     ASSERT_EQ(::connect(caller.number(), reinterpret_cast<const sockaddr*>(&address.name),
                         sizeof(address.name)),
               0);
-    // Who says too much may be let go before the end of it.
+    // The server may close the connection before the end of an oversized request.
     static_cast<void>(send_all(caller, line + "\n"));
     const auto answer = receive_line(caller, 0);
     EXPECT_TRUE(!answer || answer->find("error") != std::string::npos) << *answer;

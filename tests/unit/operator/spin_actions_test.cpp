@@ -1,5 +1,3 @@
-// What a pass of a spinner makes of an operator's actions.
-
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -24,7 +22,7 @@ using testing::all_of;
 
 TaiTime at(double t_s) { return shifted(testing::kTransferStart, t_s); }
 
-/// Said before the edges of `said_s` come.
+/// Holds an action that is taken before the edges of `said_s` arrive.
 struct Said {
   double said_s;
   double from_s;
@@ -107,7 +105,7 @@ TEST(SpinActions, LeaveOutASegmentOfAllChannelsAndForgetItsEdges) {
     if (use.pulse.t >= at(60.0)) {
       EXPECT_EQ(is_left_out(use), use.pulse.t < at(90.0));
     } else if (use.pulse.t < at(58.0)) {
-      EXPECT_FALSE(is_left_out(use));  // What is computed stays.
+      EXPECT_FALSE(is_left_out(use));  // Computed results stay.
     }
   }
   PassEdges edges = passed.edges;
@@ -118,7 +116,7 @@ TEST(SpinActions, LeaveOutASegmentOfAllChannelsAndForgetItsEdges) {
   }));
 }
 
-/// Those from some revolutions behind the instant at which a beam is heard no more.
+/// Returns the fixes from some revolutions after the loss of a beam.
 std::vector<SpinFix> fixes_without_a_beam(const Passed& passed) {
   std::vector<SpinFix> fixes = all_of<SpinFix>(passed.output);
   std::erase_if(fixes, [](const SpinFix& fix) { return fix.t < at(40.0); });
@@ -143,7 +141,7 @@ TEST(SpinActions, ABeamThatIsLeftOutIsNotSilent) {
     accepted += fix.accepted ? 1 : 0;
   }
   EXPECT_GT(accepted, 50);
-  // Nobody has left it out: it is silent, though it should see the Earth.
+  // The beam is not excluded but silent, although it should see the Earth.
   std::erase_if(pulses, [](const Pulse& pulse) {
     return pulse.t >= at(30.0) &&
            (pulse.channel == PulseChannel::NorthIn || pulse.channel == PulseChannel::NorthOut);
@@ -153,7 +151,7 @@ TEST(SpinActions, ABeamThatIsLeftOutIsNotSilent) {
   }
 }
 
-/// Of sun slit 1 and the south beam: two axes keep fitting all edges alike.
+/// Holds a pass with sun slit 1 and the south beam only, where two axes fit all edges alike.
 struct TwoRoots {
   Orbit orbit = testing::transfer_orbit();
   testing::SpinningBody body;
@@ -171,7 +169,7 @@ struct TwoRoots {
     pulses = testing::pulses_from(edges, testing::kTransferStart, body.config.noise, rng);
   }
 
-  /// The one that the true axis is not.
+  /// Returns the root that is not the true axis.
   Eigen::Vector3d false_root() const {
     const SpinFix fix = all_of<SpinFix>(run(body.config, orbit, pulses, {}).output).back();
     std::vector<Eigen::Vector3d> roots{fix.axis_icrf};
@@ -189,7 +187,7 @@ double error_deg(const SpinEstimate& estimate, const Eigen::Vector3d& axis_icrf)
 }
 
 Passed with_root(const TwoRoots& pass, const Eigen::Vector3d& root) {
-  // Some degrees beside it: only which of the two is nearer counts.
+  // The chosen axis is some degrees off, because only the nearer root counts.
   const Eigen::Vector3d near = Eigen::AngleAxisd{2.0 * kRadPerDeg, root.unitOrthogonal()} * root;
   return run(pass.body.config, pass.orbit, pass.pulses,
              {{.said_s = 100.0, .from_s = 100.0, .action = ChooseRoot{near}}});
@@ -215,7 +213,7 @@ TEST(SpinActions, AChosenRootSettlesAnAmbiguousPassForAllEstimators) {
   const auto batch = solve_batch(config, pass.orbit, edges, starts).value();
   EXPECT_LT(error_deg(batch.estimate, pass.body.axis_icrf), 1.0);
   EXPECT_NE(batch.estimate.assessment.quality, Quality::Ambiguous);
-  // What the pass chose by itself behind the first ten rests on the operator's word as they do.
+  // What the pass settled after the first ten fixes depends on the operator's choice as they do.
   EXPECT_EQ(said_resolution(fixes.back()), Resolution::Prior);
   EXPECT_EQ(batch.choice.settled_by, SettledBy::Prior);
   EXPECT_GT(angle_between_rad(batch.choice.other_icrf.value(), pass.body.axis_icrf),
@@ -241,7 +239,7 @@ TEST(SpinActions, AChosenRootThatTheEdgesContradictIsGivenUp) {
   const auto fixes = all_of<SpinFix>(passed.output);
   EXPECT_TRUE(std::any_of(fixes.begin(), fixes.end(),
                           [](const SpinFix& fix) { return fix.resolution == Resolution::Prior; }));
-  EXPECT_TRUE(passed.prior);  // For `batch`, which judges it anew.
+  EXPECT_TRUE(passed.prior);  // The prior is passed to `batch`, which evaluates it again.
   EXPECT_EQ(fixes.back().resolution, Resolution::Ambiguous);
 }
 

@@ -14,8 +14,8 @@ using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 using ::testing::SizeIs;
 
-/// Gives one product a sample, of its time, an attitude where the rate about z is not zero, one
-/// more product at each silence and in the end, and throws where it is told to.
+/// Makes a product for each sample at its time, an attitude if the rate about z is not zero,
+/// another product at each silence and at the end, and throws at `throws_at`.
 class FakePass {
  public:
   explicit FakePass(std::optional<TaiTime> throws_at = {}) : throws_at_{throws_at} {}

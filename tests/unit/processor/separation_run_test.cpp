@@ -1,5 +1,3 @@
-// Runs whose mission tells of a separation.
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -54,7 +52,7 @@ class SeparationRunTest : public ::testing::Test {
       input.values.of<Value>().push_back({.arrival = place, .value = value});
     }
   }
-  /// The star fix last.
+  /// Returns the whole pass with the star fix last.
   PassInput whole_pass() const {
     PassInput input{.spacecraft = 0, .run_id = "run-1"};
     add(flight_.gyro, input);

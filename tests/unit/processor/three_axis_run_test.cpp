@@ -41,7 +41,7 @@ class ThreeAxisRunTest : public ::testing::Test {
       add(sensors_.gyro(from_s + 0.25 * i));
     }
   }
-  /// Of what was added since.
+  /// Computes the input added since the last call.
   std::vector<ArchiveBatch> compute() {
     return run_.compute(std::exchange(input_, PassInput{.spacecraft = 0, .run_id = input_.run_id}));
   }

@@ -80,7 +80,7 @@ TEST(NotFinite, LooksAtTheValuesOfReasons) {
   SpinEstimate estimate = an_estimate();
   estimate.assessment.reasons = {{ReasonCode::Noise, {{"factor", 1.5}}}};
   EXPECT_EQ(place_in(estimate), "");
-  // As JSON it would be null.
+  // NaN would be null in JSON.
   estimate.assessment.reasons.push_back({ReasonCode::ModelOff, {{"deg", kNone}}});
   EXPECT_EQ(place_in(estimate), "spin_estimate.reasons");
 }
@@ -96,7 +96,7 @@ TEST(NotFinite, LooksAtEveryTableAndRowOfAProduct) {
   solution.coning.verdict.detected = true;
   solution.coning.tilt_sigma_rad = kNone;
   EXPECT_EQ(place_in(shared(solution)), "spin_coning.tilt_sigma_deg");
-  // What was not found is not looked at.
+  // Values of a coning that was not detected are not checked.
   solution.coning.verdict.detected = false;
   EXPECT_EQ(place_in(shared(solution)), "");
 }

@@ -1,5 +1,3 @@
-// What the archive has of a reconstructed separation.
-
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -15,7 +13,7 @@ using enum ReconstructionMethod;
 using testing::made_product;
 using testing::made_separation;
 
-/// Rows of a table that has several, as objects.
+/// Returns the rows of a table as objects.
 template <class Table>
 std::vector<nlohmann::json> rows_of(const ReconstructionProduct& product) {
   std::vector<nlohmann::json> rows;

@@ -53,7 +53,7 @@ TEST(ArrivalTally, CountsTheRevolutionsOfARun) {
   EXPECT_EQ(tally.of("SPINNER").revolution, 7);
   batch.start.reset();
   tally.note({.run_id = "next", .spacecraft_id = "SPINNER", .start = RunStart{}});
-  tally.note(batch);  // Comes late.
+  tally.note(batch);  // The batch belongs to the earlier run.
   EXPECT_FALSE(tally.of("SPINNER").revolution);
 }
 

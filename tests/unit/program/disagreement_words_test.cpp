@@ -1,5 +1,3 @@
-/// Two estimators that disagree as a sentence.
-
 #include "services/program/disagreement_words.h"
 
 #include <gtest/gtest.h>

@@ -11,7 +11,7 @@
 
 namespace spindrift::service_terminal_test {
 
-/// What a service says that has no terminal.
+/// Collects the messages of a service without a terminal.
 class Told : public ::testing::Test {
  protected:
   Told() {
@@ -21,7 +21,7 @@ class Told : public ::testing::Test {
   }
   ~Told() override { spdlog::set_default_logger(std::move(before_)); }
 
-  /// Since it was asked last.
+  /// Returns the messages since the last call.
   std::string said() { return std::exchange(log_, std::ostringstream{}).str(); }
   void show_silence_of(double age_s) {
     Health health{};
@@ -69,7 +69,7 @@ TEST_F(Told, DoesNotSayThatAnEventIsOver) {
 
 TEST_F(Told, SaysASilenceAgainAfterOneMinuteAndFiveUntilItsEnd) {
   show_silence_of(100.0);
-  EXPECT_EQ(said(), "");  // It is no alert.
+  EXPECT_EQ(said(), "");  // This silence raises no alert.
   silence_.severity = AlertSeverity::Critical;
   terminal_.tell("SPINNER", "run", silence_);
   said();

@@ -16,7 +16,7 @@ Product fix(std::int64_t revolution, bool accepted, Resolution resolution) {
                  .accepted = accepted};
 }
 
-/// Told apart by how many fixes it rests on.
+/// Returns an estimate that is identified by its number of fixes.
 Product estimate(std::int64_t fixes) {
   return SpinEstimate{.t = {},
                       .estimator = SpinEstimator::Mean,
@@ -27,7 +27,7 @@ Product estimate(std::int64_t fixes) {
                       .assessment = {Quality::Ok, {{ReasonCode::Fixes, {{"count", fixes}}}}}};
 }
 
-/// Spacecraft, and revolution of a fix or number of fixes of an estimate.
+/// Returns spacecraft and the revolution of a fix or the number of fixes of an estimate.
 std::vector<std::string> shown(const std::vector<Announcement>& announcements) {
   std::vector<std::string> texts;
   for (const Announcement& announcement : announcements) {

@@ -17,7 +17,8 @@ using Eigen::VectorXd;
 constexpr ChainNoise kNoise{
     .sun_rad = 0.01, .star_rad = 1e-4, .bias_rad_s = 1e-3, .misalignment_rad = 0.02};
 
-/// A body that turns by a radian in ten seconds, sun vectors and two star fixes without noise.
+/// Returns noise-free observations of a body that rotates by a radian in ten seconds: sun vectors
+/// and two star fixes.
 Chain chain_with(const ChainNoise& noise, const Vector3d& bias_rad_s = Vector3d::Zero(),
                  const std::vector<double>& sun_times_s = {2.0, 3.0, 5.5, 8.0}) {
   std::vector<TimedRate> samples;
@@ -39,8 +40,8 @@ Chain chain_with(const ChainNoise& noise, const Vector3d& bias_rad_s = Vector3d:
   return chain_of(rates, {0.0, 10.0}, sun, stars, Vector3d::Zero(), noise);
 }
 
-/// Whitened residuals of the whole problem where every unknown has moved: three of every node, then
-/// bias and misalignment.
+/// Returns the whitened residuals of the problem after a change of all unknowns: three for each
+/// node, then bias and misalignment.
 VectorXd residuals_at(const Chain& chain, const ChainState& state, const VectorXd& moved) {
   const auto nodes = static_cast<Eigen::Index>(state.q_icrf_body.size());
   const auto q = [&](std::size_t node) {
@@ -121,14 +122,14 @@ TEST(Chain, FitFindsAttitudesAndBiasFromFarOff) {
   }
   const auto found = fit(chain, start, SunLoss::Far);
   ASSERT_TRUE(found) << found.error().message;
-  // The prior holds the bias back a little.
+  // The prior pulls the bias slightly towards zero.
   EXPECT_LT((found->state.bias_rad_s - bias_rad_s).norm(), 0.02 * bias_rad_s.norm());
   const ChainStar& star = chain.stars.front();
   EXPECT_LT(angle_between_rad(found->state.q_icrf_body[star.node], star.of.q_icrf_body),
             0.2 * noise.star_rad);
 }
 
-/// Rounding of times is shorter than any gyro's noise can be told in.
+/// Intervals may be as short as the rounding of times, too short to determine gyro noise.
 TEST(Chain, FitConvergesWhateverTheTimeBetweenSamples) {
   const Vector3d bias_rad_s{2e-3, -1e-3, 1.5e-3};
   const auto bias_of = [&](const std::vector<double>& sun_times_s) -> Vector3d {

@@ -24,14 +24,14 @@ const Vector3d kBias_rad_s{1e-3, -2e-3, 5e-4};
 const Quaterniond kFirst = Quaterniond{0.3, -0.5, 0.7, 0.4}.normalized();
 
 struct Flight {
-  double arc_s = 30.0;  ///< From T1 to T2.
+  double arc_s = 30.0;  ///< Time from T1 to T2.
   Vector3d rate_rad_s{0.01, -0.02, 0.005};
   std::optional<Inertia> inertia =
       Inertia{.kg_m2 = Vector3d{100.0, 100.0, 140.0}.asDiagonal(), .sigma_fraction = 0.0};
   double disturbance_rad_s2 = 0.0;
   double first_sample_s = 0.0;
 
-  /// T1 to T4, with nodes every two seconds and at T3.
+  /// Returns observations of T1 to T4 with nodes every two seconds and at T3.
   Observations observed() const {
     std::vector<TimedRate> samples;
     for (double t_s = first_sample_s; t_s <= 20.0; t_s += 1.0) {
@@ -137,7 +137,7 @@ TEST(History, ItsEventsAreTheAttitudesOfTheirTimes) {
   }
 }
 
-/// About a principal axis the rate stays as it is, and the body turns back by rate and time.
+/// About a principal axis the rate is constant, so the body rotates back by rate times time.
 TEST(History, AboutAPrincipalAxisTheBodyTurnsBackEvenly) {
   Flight flight;
   flight.rate_rad_s = {0.0, 0.0, 0.03};
@@ -167,7 +167,7 @@ TEST(History, WithoutTorquesMomentumAndEnergyStay) {
                 flight.rate_rad_s.dot(inertia * flight.rate_rad_s), 1e-7);
     farthest = std::max(farthest, (one.rate_body_rad_s - flight.rate_rad_s).norm());
   }
-  EXPECT_GT(farthest, 0.05);  // It nutates.
+  EXPECT_GT(farthest, 0.05);  // The body nutates.
 }
 
 TEST(History, OfUnknownInertiaTheRateIsConstantAndItsErrorGrows) {
@@ -183,9 +183,9 @@ TEST(History, OfUnknownInertiaTheRateIsConstantAndItsErrorGrows) {
   EXPECT_GT(attitudes.front().sigma_rad(), 10.0 * known.history().attitudes.front().sigma_rad());
 }
 
-/// Of a body nearly at rest errors of the rate turn it by their size and the time, and an even
-/// acceleration by half of the time squared. The rate is the measured one less the bias: what the
-/// attitude has to do with the bias it has to do with the rate the other way round.
+/// For a body nearly at rest a rate error rotates it by the error times the time, and a constant
+/// acceleration by half the time squared. The rate is the measured one minus the bias, so the
+/// attitude is correlated with the rate as with the bias, with the opposite sign.
 TEST(History, ErrorsGrowBackToT1AsTheyDoForABodyAtRest) {
   Flight flight;
   flight.rate_rad_s = 1e-9 * Vector3d::UnitX();

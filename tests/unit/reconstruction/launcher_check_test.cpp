@@ -30,7 +30,7 @@ Euler312 euler312_of_deg(double phi, double theta, double psi) {
   return {phi * kRadPerDeg, theta * kRadPerDeg, psi * kRadPerDeg};
 }
 
-// Li 2017: the launcher's figure, and that of the reconstruction.
+// Source: Li 2017, the launcher's attitude and the reconstructed one.
 const Euler312 kTold = euler312_of_deg(0.229, 0.2869, 179.72);
 const Euler312 kFound = euler312_of_deg(-0.5155, 1.3194, 176.0337);
 
@@ -51,7 +51,7 @@ TEST(LauncherCheck, GivesTheDifferenceOfThePaper) {
       launcher_check({InOrbitFrame{kTold}, 0.5 * kRadPerDeg}, found(in_icrf(kFound), 1.2), kOrbit);
   ASSERT_TRUE(check) << check.error().message;
   EXPECT_NEAR(degrees(check->difference.angle_rad), 3.9, 0.05);
-  // 0.5 and 1.2 deg are 1.3 deg together.
+  // Sigmas of 0.5 and 1.2 deg combine to 1.3 deg.
   const double sigmas = degrees(check->difference.angle_rad) / 1.3;
   EXPECT_NEAR(check->difference.chi_square, sigmas * sigmas, 1e-9);
   EXPECT_NEAR(check->chance, 0.029, 0.001);
@@ -65,7 +65,7 @@ TEST(LauncherCheck, SaysThatTheSameIsTheSame) {
   EXPECT_NEAR(check.chance, 1.0, 1e-9);
 }
 
-/// The launch inertial frame rests among the stars: half an hour of flight changes nothing.
+/// The launch inertial frame is fixed in inertial space, so half an hour of flight changes nothing.
 TEST(LauncherCheck, GoesTheChainOfALaunchWithoutAnOrbit) {
   const Launch launch{{5.2 * kRadPerDeg, -52.8 * kRadPerDeg}, 1.6, shifted(kSeparation, -1800.0)};
   const Quaterniond q_launch_body = launch_frame(launch).conjugate() * in_icrf(kFound);

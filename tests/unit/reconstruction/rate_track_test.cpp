@@ -35,7 +35,7 @@ Turn whole(const RateTrack& track, const Vector3d& bias = Vector3d::Zero()) {
   return track.turns(ends, bias).front();
 }
 
-/// From the turn by its own rate in very small steps.
+/// Returns the difference from the rotation integrated with the track's rate in small steps.
 double error_rad(const RateTrack& track) {
   constexpr int kSteps = 20'000;
   const double step_s = track.samples().back().t_s / kSteps;
@@ -91,7 +91,7 @@ TEST(RateTrack, NoiseOfAllSamplesAddsUp) {
   EXPECT_NEAR(std::sqrt(whole(track).covariance_rad2(1, 1)), expected_rad, 0.003 * expected_rad);
 }
 
-/// The truth wanders in the gap as it does elsewhere; many gaps.
+/// In many gaps the truth wanders as it does elsewhere.
 TEST(RateTrack, GapsAreBridgedWithinTheirSigma) {
   std::mt19937_64 generator{7};
   std::normal_distribution<double> normal;
@@ -123,12 +123,12 @@ TEST(RateTrack, GapsAreBridgedWithinTheirSigma) {
     const Vector3d off = rotation_vector_of(turn.turn) - turned;
     squares += off.dot(turn.covariance_rad2.llt().solve(off)) / 3.0;
   }
-  // The change across the gap is taken in besides: wider than the wandering alone asks for.
+  // The change across the gap widens the sigma beyond what the wandering requires.
   EXPECT_LT(squares / kTrials, 1.1);
   EXPECT_GT(squares / kTrials, 0.4);
 }
 
-/// Ten hertz, a smooth rate of 0.5 deg/s that turns in 60 s.
+/// 10 Hz, with a smooth rate of 0.5 deg/s whose direction rotates in 60 s.
 TEST(RateTrack, GapsOfASmoothRateAreBridgedWithinTheirSigma) {
   const auto rate = [](double t_s) {
     return Vector3d{0.0087 * std::sin(0.105 * t_s), 0.0087 * std::cos(0.105 * t_s), 0.0};

@@ -35,7 +35,8 @@ const ReconstructedEvent& at(const Reconstruction& found, SeparationEvent event)
 
 double sigma_rad(const ReconstructedEvent& event) { return event.attitude.sigma_rad(); }
 
-/// Of what such samples said; empty: those that were used. What was left out is beyond its limit.
+/// Counts the samples of a source with this rejection (empty: used). Rejected ones must exceed
+/// their limit.
 std::int64_t count(const Reconstruction& found, SampleSource source,
                    std::optional<Rejection> rejected_by) {
   return std::count_if(found.said.begin(), found.said.end(), [&](const Observation& said) {
@@ -45,7 +46,7 @@ std::int64_t count(const Reconstruction& found, SampleSource source,
   });
 }
 
-/// Sigmas, of three degrees of freedom.
+/// Returns the error in sigmas, from three degrees of freedom.
 double normalised(const Vector3d& error_rad, const ReconstructedEvent& event) {
   return std::sqrt(error_rad.dot(event.attitude.covariance_rad2.llt().solve(error_rad)));
 }
@@ -104,7 +105,7 @@ TEST(ReconstructBatch, TakesTimesThatAreEqual) {
   }
 }
 
-// Real flights. Their rates have less noise than stated, and no bias.
+// The rates of these flights have less noise than stated and no bias.
 TEST(ReconstructBatch, FindsJunoAndDawn) {
   for (const auto& [name, limit_deg] : {std::pair{"juno", 0.01}, std::pair{"dawn-2015", 0.05}}) {
     const RecordedSeparation pass = recorded_separation(name);
@@ -133,7 +134,8 @@ TEST(ReconstructSequential, FindsTheFlights) {
   }
 }
 
-/// One vector cannot tell a turn about itself; what it told wrongly would add up over hundreds.
+/// One vector does not determine the rotation about itself; a wrong update would add up over
+/// hundreds.
 TEST(ReconstructSequential, TurnsNothingAboutTheSun) {
   const SeparationFlight flight =
       separation_flight({.gyro_noise_deg_s = 1e-5, .bias_sigma_deg_s = 1e-5}, 3);
@@ -230,7 +232,7 @@ TEST(ReconstructBatch, LeavesOutFrozenAndSaturatedSamples) {
             3.5);
 }
 
-/// T1 hangs on the first sample: zeros of a gyro just switched on, and spikes.
+/// T1 depends on the first sample, which may be zero after switching the gyro on, or a spike.
 TEST(ReconstructBatch, ABadFirstRateDoesNotMoveSeparation) {
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
     const SeparationFlight flight = separation_flight({}, seed);
@@ -270,7 +272,7 @@ TEST(ReconstructBatch, ASpikeOfTheGyroMovesNothing) {
             0.1 * sigma_rad(at(clean, Separation)));
 }
 
-/// By 0.005 deg/s in the first hour: the bias of later is not that of T1.
+/// The bias drifts by 0.005 deg/s in the first hour, so the later bias differs from that at T1.
 TEST(ReconstructBatch, ABiasThatDriftsForAnHourBehindTheFirstFixDoesNotMoveSeparation) {
   for (std::uint64_t seed = 17; seed <= 19; ++seed) {
     SeparationFlight flight = separation_flight({.star_fix_step_s = 10.0, .end_s = 3600.0}, seed);
@@ -402,7 +404,7 @@ TEST(ReconstructBatch, EstimatesAMisalignmentOfTheSunSensorWhenAsked) {
 
 TEST(ReconstructBatch, NamesTheBiasThatIsOpen) {
   SeparationFlight flight = separation_flight({}, 11);
-  // Once the Sun is acquired it stands still in the body.
+  // After acquisition the Sun is constant in body axes.
   flight.sun.erase(flight.sun.begin(), flight.sun.begin() + 120);
   const Reconstruction found = batch(flight.request());
   ASSERT_FALSE(found.open_bias.empty());

@@ -48,7 +48,7 @@ TEST_F(ReconstructRefuses, AnArcOfTooManyTurns) {
   refuses(ErrorCode::InvalidInput, "cannot be followed back; check the gyro's unit");
 }
 
-/// Degrees for radians: some flights have no minimum that is found.
+/// Degrees are sent for radians; in some flights the solver then finds no minimum.
 TEST(ReconstructBatchRefuses, SamplesThatNoAttitudeExplainsAndNamesTheSensor) {
   std::optional<Error> error;
   for (std::uint64_t seed = 1; seed <= 20 && !error; ++seed) {

@@ -21,7 +21,7 @@ TEST(ReconstructionRequestTest, AnOrbitIsThatOfTheFirstStateFromT1OnThatIsOnOne)
   EXPECT_FALSE(orbit_of(request));
   request.orbit_states = {{shifted(t1, 90.0), circular(7300.0)},
                           {shifted(t1, -1.0), circular(7100.0)},
-                          {shifted(t1, 20.0), circular(100.0)},  // Within the Earth.
+                          {shifted(t1, 20.0), circular(100.0)},  // Inside the Earth.
                           {shifted(t1, 60.0), circular(7200.0)}};
   const auto orbit = orbit_of(request);
   ASSERT_TRUE(orbit);

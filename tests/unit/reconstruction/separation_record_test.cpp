@@ -28,7 +28,7 @@ TaiTime time_of(const AnySample& sample) {
   return std::visit([](const auto& is) { return is.t; }, sample);
 }
 
-/// In order of time; of one instant the star fix is last.
+/// Returns all samples in order of time; at equal times the star fix is last.
 std::vector<AnySample> samples_of(const SeparationFlight& flight) {
   std::vector<AnySample> samples{flight.gyro.begin(), flight.gyro.end()};
   samples.insert(samples.end(), flight.sun.begin(), flight.sun.end());
@@ -45,7 +45,7 @@ class SeparationRecordTest : public ::testing::Test {
     flight_ = separation_flight(plan, 1);
     times_ = {.separation = flight_.times.separation};
   }
-  /// Seconds since T1 at which a solution is due.
+  /// Returns the times at which a solution is due, s after T1.
   std::vector<double> due_at_s(const std::vector<AnySample>& arrivals) {
     SeparationRecord record{{.sensors = flight_.sensors,
                              .times = times_,
@@ -151,7 +151,7 @@ TEST_F(SeparationRecordTest, AnotherSolutionIsDueWhereOneRestedOnWhatIsContradic
   };
   EXPECT_TRUE(contradict(flight_.sun.at(0)));
   EXPECT_FALSE(record.take_correction(10s));
-  // Of many in a row not each makes one, and the last is not forgotten.
+  // Many consecutive corrections do not cause a solution each, but the last one is included.
   std::size_t next = 1;
   while (flight_.sun.at(next).t < flight_.sun.front().t + 10s) {
     EXPECT_FALSE(contradict(flight_.sun.at(next++)));
@@ -224,7 +224,7 @@ TEST_F(SeparationRecordTest, SamplesCountInTheOrderOfTimeHoweverTheyArrive) {
   std::vector<AnySample> samples = samples_of(flight_);
   due_at_s(samples);
   const ReconstructionRequest in_order = due_requests_.back();
-  // Each comes twice, and many late.
+  // Each sample arrives twice, and many arrive late.
   for (std::size_t i = 0; i + 40 < samples.size(); i += 40) {
     const auto first = samples.begin() + static_cast<std::ptrdiff_t>(i);
     std::rotate(first, first + 7, first + 30);
@@ -286,7 +286,7 @@ TEST_F(SeparationRecordTest,
   for (std::size_t i = 1; i < due_s.size(); ++i) {
     EXPECT_GE(due_s[i] - due_s[i - 1], 10.0);
   }
-  // What an earlier part of the flight sends now.
+  // A sample of an earlier part of the flight that arrives now.
   GyroSample late = flight_.gyro[flight_.gyro.size() / 4];
   late.t += 1ms;
   EXPECT_FALSE(push(late, record));

@@ -53,7 +53,7 @@ TEST(StarConsensus, LeavesOutTheFixThatIsFarOffWhereverItIs) {
   }
 }
 
-/// Whether the one in the middle of its neighbours is before it or behind it.
+/// The middle of the neighbours is compared for fixes at the start, inside and at the end.
 TEST(StarConsensus, EachSaysHowFarItIsOffTheMiddleOfItsNeighboursAboutItsAxes) {
   for (const std::size_t wrong : {0U, 3U, 9U}) {
     std::vector<StarObservation> stars = fixes(10);
@@ -70,7 +70,8 @@ TEST(StarConsensus, EachSaysHowFarItIsOffTheMiddleOfItsNeighboursAboutItsAxes) {
       EXPECT_EQ(said.rejected_by.has_value(), i == wrong);
       EXPECT_EQ(said.nis > said.limit, i == wrong);
       EXPECT_LT((said.residual.value - (i == wrong ? off_rad : Vector3d::Zero())).norm(), 1e-12);
-      // Of two fixes, the gyro and its bias: all axes alike, as far as these are small.
+      // The residual combines two fixes, the gyro and its bias, so all axes are alike for small
+      // angles.
       const double squares =
           (said.residual.value.array() / said.residual.sigma.array()).square().sum();
       EXPECT_NEAR(squares, said.nis, 1e-3 * said.nis + 1e-12);
@@ -79,7 +80,8 @@ TEST(StarConsensus, EachSaysHowFarItIsOffTheMiddleOfItsNeighboursAboutItsAxes) {
   }
 }
 
-/// False in the same way: the first has most of its neighbours with it, until these are gone.
+/// The false fixes agree with each other: the first has most of its neighbours with it until these
+/// are gone.
 TEST(StarConsensus, LeavesOutFourFalseOnesBeforeFiveTrueOnes) {
   std::vector<StarObservation> stars = fixes(9);
   for (std::size_t i = 0; i < 4; ++i) {

@@ -25,7 +25,7 @@ ArcState arc_from(const BodyState& start, const std::optional<Matrix3d>& inertia
   return torque_free_arc(start_of_arc(start), inertia_kg_m2, duration_s);
 }
 
-// Li 2017, table 2.
+// Source: Li 2017, table 2.
 TEST(TorqueFreeArc, LandsWhereTheFlightDidAtSeparation) {
   const Euler312 control_on{38.403 * kRadPerDeg, 88.224 * kRadPerDeg, 118.045 * kRadPerDeg};
   const Euler312 separation{31.011 * kRadPerDeg, 82.472 * kRadPerDeg, 162.749 * kRadPerDeg};
@@ -54,7 +54,7 @@ TEST(TorqueFreeArc, KeepsMomentumAndEnergyForwardsAndBackwards) {
   }
 }
 
-/// Of a body with two equal moments the solution is closed.
+/// A body with two equal moments of inertia has a closed solution.
 TEST(TorqueFreeArc, IsWithinItsStatedErrorOfTheClosedSolution) {
   constexpr double kTransverse = 100.0;
   constexpr double kAxial = 140.0;
@@ -100,7 +100,7 @@ TEST(TorqueFreeArc, SlopesAreWhatSmallChangesOfTheStartBecome) {
   }
 }
 
-/// Slow, so that the even acceleration of the body's axes is one of ICRF's too.
+/// The body is slow, so that a constant acceleration in body axes is nearly constant in ICRF.
 TEST(TorqueFreeArc, AnEvenDisturbanceGrowsWithTheSquareOfTheTime) {
   const ArcState at =
       arc_from({Quaterniond::Identity(), 1e-9 * Vector3d::UnitX()}, kInertia_kg_m2, -60.0);
@@ -122,7 +122,7 @@ TEST(TorqueFreeArc, IsTheSameInPieces) {
   EXPECT_LT((at.slopes - whole.slopes).norm(), 1e-7 * whole.slopes.norm());
 }
 
-/// Bodies whose moments are as different as they can be, and anything between.
+/// The moments of inertia cover all ratios up to the extreme ones.
 TEST(TorqueFreeArc, AnUnknownInertiaAcceleratesByNoMoreThanSaid) {
   const Vector3d rate{0.01, -0.006, 0.002};
   const Vector3d most_rad_s2 = std::sqrt(3.0) * unknown_acceleration_rad_s2(rate);

@@ -45,7 +45,7 @@ TEST(SeparationPlot, HasAnglesWithBandsEventsUnitsAndTime) {
   EXPECT_EQ(count_of(plot, "<polygon"), 3);
 }
 
-/// `sequential` ends at T4, `batch` goes on to the last star fix.
+/// `sequential` ends at T4, whereas `batch` continues to the last star fix.
 TEST(SeparationPlot, ComparesNothingBehindTheEndOfTheOther) {
   SeparationReport report = made_report();
   ReconstructedSeparation shorter = made_separation(ReconstructionMethod::Sequential);

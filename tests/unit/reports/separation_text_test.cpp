@@ -12,7 +12,7 @@ using testing::made_report;
 using testing::made_separation;
 using ::testing::Not;
 
-/// Of `batch` alone, after a change.
+/// Returns the text of a report with `batch` alone after a change.
 template <class Change>
 std::string text_after(const Change& change) {
   ReconstructedSeparation separation = made_separation(ReconstructionMethod::Batch);

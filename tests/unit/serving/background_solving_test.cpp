@@ -12,8 +12,8 @@
 
 namespace spindrift::background_solving_test {
 
-/// A solution that gives way on a machine without time for it: it is ready when the one at the
-/// usual priority is.
+/// A solution at background priority gets no time on a busy machine; after a stop it must be ready
+/// as early as one at normal priority.
 TEST(BackgroundSolving, NothingGivesWayAnyMoreOnceTheServiceStops) {
   const TemporaryFolder folder;
   auto archive = Archive::open(folder.path() / "solved.db", {});

@@ -19,7 +19,8 @@ struct Compared {
   std::vector<ComparedSample> samples;
 };
 
-/// A gyro that leaves its band after a hundred seconds, and a sun sensor that never sends.
+/// Returns a comparison in which the gyro leaves its band after 100 s and the sun sensor sends
+/// nothing.
 Compared compared() {
   DepartureWatch watch{{{.name = "gyro", .unit = "", .holding_s = 10.0},
                         {.name = "gyro_x", .unit = "deg/s", .holding_s = 10.0},

@@ -31,7 +31,7 @@ key = "truth.inertia.factor"
 range = 0.2
 )";
 
-/// As it is read.
+/// Returns the document as read from a file.
 TomlDocument document(const std::string& text = kDispersed) {
   const TemporaryFolder folder;
   return read_scenario(folder.write("scenario.toml", text)).value();
@@ -67,7 +67,7 @@ TEST(Dispersions, HaveTheSpreadThatIsAsked) {
     }
     farthest = std::max(farthest, std::abs(number(own.values, "truth.inertia.factor") - 1.0));
   }
-  // Five standard deviations of a chi-square of 1500.
+  // Five standard deviations of chi-square with 1500 degrees of freedom.
   EXPECT_NEAR(squares, 3.0 * kRuns, 5.0 * std::sqrt(2.0 * 3.0 * kRuns));
   EXPECT_LT(farthest, 0.2);
   EXPECT_GT(farthest, 0.19);

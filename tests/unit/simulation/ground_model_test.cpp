@@ -17,7 +17,7 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-/// A scenario that comes with the program, of that seed.
+/// Returns a delivered scenario with this seed.
 Scenario of_seed(const char* name, int seed) {
   std::string text = text_of(scenarios() / name);
   const auto at = text.find("seed = ");
@@ -29,7 +29,7 @@ Scenario of_seed(const char* name, int seed) {
   return testing::loaded(text).value();
 }
 
-/// The pass of a scenario against the model of another, or the same.
+/// Compares the pass of a scenario with the model of another scenario or the same.
 testing::ByChannel compared(const Scenario& flight, const Scenario& model) {
   const SimulatedPass pass = simulated_pass(flight, Progress::Hidden).value();
   ModelComparison comparison{std::make_shared<const GroundModel>(ground_model_of(model).value()),
@@ -41,7 +41,7 @@ testing::ByChannel compared(const Scenario& flight, const Scenario& model) {
 
 class OwnModel : public ::testing::TestWithParam<const char*> {};
 
-/// Faults and all: lost, spoilt and spurious samples, silences, gaps.
+/// The pass has faults: lost, displaced and spurious samples, silences, gaps.
 TEST_P(OwnModel, IsNotLeftByAPassOfTheScenario) {
   for (int seed = 1; seed <= 20; ++seed) {
     const Scenario scenario = of_seed(GetParam(), seed);
@@ -61,7 +61,7 @@ INSTANTIATE_TEST_SUITE_P(Scenarios, OwnModel,
                            return name;
                          });
 
-/// A tenth more inertia about an axis than the model has.
+/// The body has a tenth more inertia about one axis than the model.
 TEST(GroundModel, IsLeftByABodyOfOtherInertia) {
   const std::string text = text_of(scenarios() / "upper-stage.toml");
   const Scenario model = testing::loaded(text).value();

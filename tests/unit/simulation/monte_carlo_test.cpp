@@ -19,7 +19,7 @@ namespace spindrift::monte_carlo_test {
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
-/// A minute of the nominal spinner whose axis differs from run to run.
+/// Returns a minute of the nominal spinner whose axis differs between runs.
 std::filesystem::path short_scenario(const TemporaryFolder& folder) {
   std::string text = text_of(scenarios() / "gto-nominal.toml");
   const std::string whole = "duration_s = 600.0";
@@ -55,7 +55,7 @@ TEST(MonteCarlo, GivesTheSameBytesHoweverManyRunAtOnce) {
   EXPECT_EQ(files.size(), 4U * 4U);
   EXPECT_EQ(files, files_in(folder.path() / "three"));
   EXPECT_NE(files.at("0000/pulses.csv"), files.at("0001/pulses.csv"));
-  // A run is what it is among fewer, too.
+  // A run does not depend on the number of runs.
   const MonteCarloResult two = result_of(scenario, folder.path() / "two", 2, 2);
   EXPECT_THAT(runs_csv(one), StartsWith(runs_csv(two)));
 }
@@ -82,7 +82,7 @@ TEST(MonteCarlo, RefusesAFolderThatIsNotEmpty) {
   EXPECT_THAT(result.error().message, HasSubstr("must be an empty folder, or not be there"));
 }
 
-/// Two measures, one of which a run lacks.
+/// Returns a result with two measures, one of which is missing in a run.
 MonteCarloResult made_result() {
   MonteCarloResult result{.spacecraft_id = "SPINNER", .runs = {}};
   for (int i = 0; i < 20; ++i) {

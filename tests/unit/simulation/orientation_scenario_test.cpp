@@ -1,5 +1,3 @@
-// The scenario of an orientation by wheels: what is read of it, what is refused, what is told.
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -119,7 +117,7 @@ TEST(OrientationScenario, RefusesALoopThatSwings) {
 TEST(OrientationScenario, RefusesABodyThatTurnsTooFastForItsSteps) {
   std::string text =
       replaced(kWhole, "rate_deg_s = [3.0, -3.0, 3.0]", "rate_deg_s = [10, -10, 10]");
-  // A needle across its long axis may come to turn about it.
+  // A needle that rotates across its long axis may end up rotating about it.
   text = replaced(text, "[[0.6, 0.0, 0.0], [0.0, 1.2, 0.0], [0.0, 0.0, 1.12]]",
                   "[[0.02, 0.0, 0.0], [0.0, 1.2, 0.0], [0.0, 0.0, 1.2]]");
   EXPECT_THAT(error_of(text),

@@ -117,7 +117,7 @@ TEST(Scenario, TakesWhatIsLeftOutAsTheMissionFileHasIt) {
             1e-12);
   EXPECT_DOUBLE_EQ(spin(scenario).truth.north->mount_angle_rad, 85.0 * kRadPerDeg);
   EXPECT_EQ(spin(scenario).truth.horizon.equatorial_km, spin(scenario).truth.horizon.polar_km);
-  // The pole of date: precession since J2000, 20 arcsec a year.
+  // The pole of date: precession since J2000 at 20 arcsec a year.
   EXPECT_NEAR(angle_between_rad(spin(scenario).truth.horizon.pole_icrf, Eigen::Vector3d::UnitZ()),
               26.88 * 20.04 / 3600.0 * kRadPerDeg, 1e-5);
   EXPECT_EQ(spin(scenario).link.seed, 1U);
@@ -178,7 +178,7 @@ tilt_deg = 0.5
   EXPECT_DOUBLE_EQ(motion.nutation.first_azimuth_rad, 30.0 * kRadPerDeg);
   EXPECT_DOUBLE_EQ(motion.coning.tilt_rad, 0.5 * kRadPerDeg);
   EXPECT_EQ(motion.coning.azimuth_rad, 0.0);
-  // At 60 rpm, 1/0.4 s, and by the second order of the half-angle less.
+  // At 60 rpm the period is 1/0.4 s, less a second-order term of the half-angle.
   EXPECT_THAT(truth_text(*wobbling),
               AllOf(HasSubstr("\"period_s\": 2.49999"), HasSubstr("\"tilt_deg\": 0.5")));
 
@@ -298,7 +298,7 @@ TEST(Scenario, RefusesAnOrbitFileThatEndsTooEarlyAndSaysByHowMuch) {
   const auto pass = simulated_pass(*elements);
   ASSERT_TRUE(pass);
   ASSERT_TRUE(write_pass(folder.path(), *elements, *pass));
-  // To a day and a half behind the pass.
+  // The orbit ends a day and a half after the pass.
   const std::string from_file = replaced(kWhole, kOrbit, "[orbit]\noem = \"orbit.oem\"\n");
   EXPECT_TRUE(load_scenario(folder.write("good.toml", from_file)));
   const auto late = load_scenario(
@@ -324,8 +324,8 @@ TEST(Scenario, TakesTheOrbitFileOverAsItIs) {
             read_text_file(gms5).value());
 }
 
-/// Written for a start that is not the scenario's: by how much the states of the orbit file differ
-/// from those of the scenario, as long after its start, km.
+/// Returns by how much the orbit file, written for another start, differs from the scenario's orbit
+/// at equal times after the start, km.
 double moved_by_km(const TemporaryFolder& folder, const std::string& text) {
   const auto path = folder.write("scenario.toml", text);
   const Scenario own = load_scenario(path).value();

@@ -1,5 +1,3 @@
-// The scenario of a separation: what is read of it, what is refused, what is told of the pass.
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -102,7 +100,7 @@ TEST(SeparationScenario, WritesAMissionFileWithEventsAndWhatTheLauncherTells) {
   EXPECT_EQ(plan.times.acquisition, shifted(scenario->start, 78.0));
   EXPECT_EQ(plan.times.first_star_fix, shifted(scenario->start, 300.0));
 
-  // Five degrees off the truth.
+  // The launcher's attitude is five degrees off the truth.
   const auto& q = pass.truth["T1"]["q_icrf_body_xyzw"];
   const ReconstructedAttitude truth{.t = scenario->start,
                                     .q_icrf_body = {q[3], q[0], q[1], q[2]},
@@ -155,7 +153,7 @@ TEST(SeparationScenario, GivesTheSamePassForTheSameSeed) {
   EXPECT_NE(gyro.back().value.rate_body_rad_s,
             other.telemetry.of<GyroSample>().back().value.rate_body_rad_s);
   EXPECT_NE(first.truth["gyro_bias_deg_s"], other.truth["gyro_bias_deg_s"]);
-  // The motion has nothing random in it.
+  // The motion contains nothing random.
   EXPECT_EQ(first.truth["T4"]["q_icrf_body_xyzw"], other.truth["T4"]["q_icrf_body_xyzw"]);
 }
 

@@ -1,5 +1,3 @@
-// The scenario of a lost satellite: what is read of it, what is refused, what is told of the pass.
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -70,7 +68,7 @@ TEST(TumblingScenario, SendsWhatItsSensorsMeasure) {
        {"gyro.csv", "sun.csv", "star.csv", "magnetometer.csv", "orbit.oem", "truth.json"}) {
     EXPECT_TRUE(std::filesystem::exists(folder.path() / name)) << name;
   }
-  // The star tracker comes late, and a sample in a hundred does not arrive.
+  // The star tracker starts late, and one sample in a hundred is lost.
   EXPECT_GE(pass.telemetry.of<StarFix>().front().value.t, shifted(scenario->start, 1200.0));
   EXPECT_NEAR(static_cast<double>(pass.telemetry.of<StarFix>().size()), 595.0, 15.0);
   EXPECT_NEAR(static_cast<double>(pass.telemetry.of<MagneticField>().size()), 1783.0, 30.0);

@@ -7,7 +7,7 @@
 
 namespace spindrift::considered_test {
 
-/// Twenty equations in three unknowns and two parameters.
+/// Holds twenty equations in three unknowns and two parameters.
 struct Equations {
   Eigen::Matrix<double, 20, 3> by_unknowns;
   Eigen::Matrix<double, 20, 2> by_parameters;
@@ -29,14 +29,14 @@ struct Equations {
     information = by_unknowns.transpose() * by_unknowns;
     score = by_unknowns.transpose() * right;
   }
-  /// Of r, noise and parameters.
+  /// Returns the covariance of r from noise and parameters.
   Eigen::MatrixXd covariance(const Eigen::Matrix2d& prior) const {
     return Eigen::MatrixXd::Identity(20, 20) + by_parameters * prior * by_parameters.transpose();
   }
 };
 
-/// Least squares weighted by what noise and parameters together make of r are those with the
-/// parameters eliminated.
+/// Least squares weighted by the covariance of noise and parameters equal those with the parameters
+/// eliminated.
 TEST(Considered, EliminatedParametersAreCorrelatedNoise) {
   Equations of;
   Eigen::Matrix2d some;

@@ -9,7 +9,7 @@
 namespace spindrift::distributions_test {
 
 TEST(Normal, IsExceededByTheChancesOfThePublishedTables) {
-  // Abramowitz and Stegun table 26.5.
+  // Abramowitz and Stegun, table 26.5.
   EXPECT_NEAR(normal_beyond(0.05), 1.64485, 5e-6);
   EXPECT_NEAR(normal_beyond(0.001), 3.09023, 5e-6);
   EXPECT_NEAR(normal_beyond(1e-4), 3.71902, 5e-6);
@@ -28,7 +28,7 @@ TEST(ChiSquare, IsExceededByTheChanceOfTheClosedFormForOneAndTwoDegrees) {
 }
 
 TEST(ChiSquare, IsExceededByTheChancesOfThePublishedTables) {
-  // Abramowitz and Stegun table 26.8.
+  // Abramowitz and Stegun, table 26.8.
   EXPECT_NEAR(chi_square_beyond(0.05, 10.0), 18.3070, 5e-5);
   EXPECT_NEAR(chi_square_beyond(0.01, 30.0), 50.8922, 5e-5);
   EXPECT_NEAR(chi_square_tail(18.3070, 10.0), 0.05, 1e-6);
@@ -43,7 +43,7 @@ TEST(Significance, NumbersWithFewerDigitsAreThoseOfTheNormalDistribution) {
 }
 
 TEST(VarianceRatio, TailIsThatOfThePublishedTables) {
-  // Upper points of F, Abramowitz and Stegun table 26.9.
+  // Upper points of F: Abramowitz and Stegun, table 26.9.
   struct Entry {
     double freedom_above;
     double freedom_below;

@@ -63,7 +63,7 @@ TEST(DriftFilter, FindsTheAbscissaOfAValueOrWhereItComesNearest) {
   for (const double x : {8.0, 10.0, 11.9}) {
     EXPECT_NEAR(slowing.x_of(slowing.at(x)), x, 1e-9);
   }
-  // It turns back at 6, two units ahead.
+  // The parabola turns back at 6, two units ahead.
   EXPECT_NEAR(slowing.x_of(6.0), 12.0, 1e-9);
   EXPECT_NEAR(slowing.x_of(9.0), 12.0, 1e-9);
 }

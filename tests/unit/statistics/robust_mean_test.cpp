@@ -60,7 +60,8 @@ TEST(RobustMean, WithstandsFourOutliersAmongTen) {
     std::vector<double> values(10);
     std::generate(values.begin(), values.end(), [&] { return 100.0 + normal(rng); });
     std::fill(values.begin(), values.begin() + 4, 1e6);
-    // Six normal values: their mean lies within 5 / sqrt(6) of the centre but once in 2 million.
+    // The mean of six normal values is within 5 / sqrt(6) of the centre, except once in 2 million
+    // times.
     ASSERT_NEAR(robust_mean(values, kThreeSigma).mean, 100.0, 5.0 / std::sqrt(6.0));
   }
 }
@@ -72,8 +73,8 @@ TEST(RobustMean, EqualValuesAreAllKept) {
 }
 
 TEST(RobustMean, ACoarseGridRejectsNoNeighbour) {
-  // Telemetry in steps of 1 ms whose noise is 1 ms: most values equal, so that the median absolute
-  // deviation and at first the limit are zero.
+  // Telemetry in steps of 1 ms with a noise of 1 ms has mostly equal values, so that the median
+  // absolute deviation and at first the limit are zero.
   std::vector<double> values(40, 1.0);
   values.push_back(1.001);
   values.push_back(0.999);
@@ -91,7 +92,8 @@ TEST(RobustMean, ValuesBeyondTheGridAreStillOutliers) {
 }
 
 TEST(RobustMean, FewerThanTenValuesAreGivenTheStatedNoise) {
-  // Scatter of the nine 0.001, stated 1: 2.9 is within three stated sigmas of the nine, not of ten.
+  // The nine values scatter by 0.001 and the stated noise is 1: 2.9 is within three stated sigmas,
+  // which apply to nine values but not to ten.
   std::vector<double> values{-0.001, 0.001, 0.0, 0.0, -0.001, 0.001, 0.0, 0.0, 2.9};
   EXPECT_EQ(robust_mean(values, kThreeSigma).kept, 9U);
   values.push_back(0.0);
@@ -115,7 +117,7 @@ TEST(RobustMean, ALimitBelowOneSigmaLeavesSomethingToKeep) {
 }
 
 TEST(RobustMean, DoesNotDependOnTheOrderOfItsValues) {
-  // Halves: their sums are exact, whatever the order.
+  // Halves have exact sums in any order.
   std::vector<double> values{0.5, 1.5, -0.5, 2.0, 1.0, 0.0, 1.0, 3.0, 90.0, -1.0, 0.5, 1.5};
   const RobustMean first = robust_mean(values, kThreeSigma);
   std::mt19937_64 rng{13};
@@ -133,12 +135,12 @@ TEST(RobustMean, ClipsTheShareOfAGaussianThatLiesBeyondThreeSigma) {
   std::normal_distribution<double> normal;
   std::vector<double> values(100000);
   std::generate(values.begin(), values.end(), [&] { return normal(rng); });
-  std::sort(values.begin(), values.end());  // The order matters to the time that it takes.
+  std::sort(values.begin(), values.end());  // The run time depends on the order.
   const RobustMean mean = robust_mean(values, kThreeSigma);
-  // The fixed point of clipping a Gaussian at 3 s, s the deviation of what is kept, solves
-  // s^2 = 1 - 2 k phi(k) / (2 Phi(k) - 1) with k = 3 s: s = 0.984846, and 0.003131 are clipped.
+  // Clipping a Gaussian at 3 s, with s the deviation of what is kept, has the fixed point s^2 = 1 -
+  // 2 k phi(k) / (2 Phi(k) - 1) with k = 3 s: s = 0.984846, and 0.003131 are clipped.
   constexpr double kSigmaError = 4.0 * 0.00224;    // Four standard errors, 1 / sqrt(2 * 1e5).
-  constexpr double kClippedError = 4.0 * 0.00018;  // Likewise, sqrt(0.003131 / 1e5).
+  constexpr double kClippedError = 4.0 * 0.00018;  // Four standard errors, sqrt(0.003131 / 1e5).
   EXPECT_NEAR(mean.sigma, 0.984846, kSigmaError);
   EXPECT_NEAR(1.0 - static_cast<double>(mean.kept) / 1e5, 0.003131, kClippedError);
   EXPECT_NEAR(mean.mean, 0.0, 4.0 / std::sqrt(1e5));

@@ -6,7 +6,7 @@
 
 namespace spindrift::variance_factor_test {
 
-// Of 50 degrees of freedom the mean square scatters by 0.2.
+// The mean square of 50 degrees of freedom has a standard deviation of 0.2.
 TEST(VarianceFactor, IsOneUpToFiveSigmasOfTheMeanSquareAndItBeyond) {
   for (const double as_stated : {0.0, 0.4, 1.0, 1.999}) {
     EXPECT_EQ(variance_factor(as_stated, 50.0), 1.0);

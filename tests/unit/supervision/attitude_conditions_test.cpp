@@ -47,8 +47,9 @@ TEST(AttitudeConditions, RaiseThatStarFixesOverruleTheAttitude) {
 
 TaiTime at(double t_s) { return shifted(tai_from_ns(1'795'143'637'000'000'000), t_s); }
 
-/// Ten estimates a second with such a mean square of the innovations in five degrees of freedom.
-/// @return the last change that is about divergence.
+/// Gives ten estimates a second with this mean square of the innovations in five degrees of
+/// freedom.
+/// @return The last change that concerns divergence.
 std::optional<ConditionChange> last_change(AttitudeConditions& conditions, double from_s,
                                            double to_s, double mean_square) {
   std::optional<ConditionChange> last;
@@ -85,7 +86,7 @@ TEST(AttitudeConditions, JudgeNoInnovationsWhereThereAreNone) {
   }
 }
 
-/// Keys of what is raised and not cleared, of samples that come once a second.
+/// Returns the keys raised and not cleared for samples that come once a second.
 std::set<std::string> raised_by(AttitudeConditions& conditions, std::vector<SampleKind> kinds,
                                 int from_s, int to_s) {
   std::set<std::string> raised;

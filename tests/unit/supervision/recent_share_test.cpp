@@ -30,7 +30,7 @@ TEST(RecentShare, WithoutRevolutionsSixEdgesAreATurn) {
   }
   EXPECT_EQ(share.count_without_revolution(), 100.0);
   share.count(1, false);
-  // The one edge of the third turn, and that of the revolution.
+  // One edge of the third turn and one of this revolution.
   EXPECT_EQ(share.count(2, false), 50.0);
 }
 

@@ -11,7 +11,7 @@ namespace spindrift::service_conditions_test {
 const TaiTime kStart = tai_from_ns(1'795'143'637'000'000'000);
 TaiTime at(double t_s) { return shifted(kStart, t_s); }
 
-/// A service and a link that are well.
+/// Returns a healthy service and link.
 ServiceState state(double t_s) {
   return {.t = at(t_s),
           .pass_t = at(t_s),
@@ -23,7 +23,7 @@ ServiceState state(double t_s) {
           .data_until = {{"orbit", at(1e6)}}};
 }
 
-/// Looked at once a second; severities of what is raised and not cleared, by key.
+/// Checks the conditions once a second and holds the severity of each active key.
 struct Supervised {
   ServiceConditions conditions;
   std::map<std::string, std::string_view> raised = {};

@@ -27,7 +27,8 @@ SpinConfig config() {
           .prior = std::nullopt};
 }
 
-/// In the equator, 10,000 km out: the Earth is 90 deg from the axis.
+/// Returns an equatorial orbit 10,000 km from the Earth's centre, with the Earth 90 deg from the
+/// axis.
 Orbit orbit() {
   return Orbit{KeplerOrbit::through(kStart, {.position_icrf_km = {1e4, 0.0, 0.0},
                                              .velocity_icrf_km_s = {0.0, 6.3, 0.0}})
@@ -46,7 +47,7 @@ SpinEstimate estimate(double t_s, Quality quality, double sigma_deg = 0.05, doub
           .assessment = {.quality = quality}};
 }
 
-/// Gathers the keys of what is raised and not cleared.
+/// Collects the keys that are raised and not cleared.
 struct Supervised {
   SpinConditions conditions;
   std::set<std::string> raised = {};
@@ -76,7 +77,7 @@ void give_estimates(Supervised& pass, Quality quality, double sigma_deg, double 
   }
 }
 
-/// Of all channels of a turn but `silent`.
+/// Gives the edges of all channels of a turn except `silent`.
 void give_edges(Supervised& pass, std::int64_t revolution, std::optional<PulseChannel> silent,
                 std::optional<Rejection> rejected_by = std::nullopt) {
   for (const PulseChannel channel :
@@ -224,7 +225,7 @@ TEST(SpinConditions, ExpectABeamThatHasNeverComeWhereTheMissionCallsItHealthy) {
   }
 }
 
-/// Slit 2 ends 46 deg from the axis, which is 32 deg from the Sun, or 110.
+/// Slit 2 ends 46 deg from the axis; the Sun is 32 or 110 deg from the axis.
 TEST(SpinConditions, ExpectNoSunBehindTheEndOfASlit) {
   for (const double off_deg : {113.0, 0.0}) {
     SpinConfig mission = config();
@@ -323,7 +324,7 @@ TEST(SpinConditions, CountEdgesThatFoundNoRevolution) {
   EXPECT_EQ(by_operator.raised, Keys{});
 }
 
-/// Ten copies of one channel are five turns, no ten.
+/// Ten copies of one channel are five turns, not ten.
 TEST(SpinConditions, TakeACopyForNoEdge) {
   Supervised pass;
   pass.see(estimate(0.0, Quality::Ok));

@@ -15,7 +15,7 @@ namespace spindrift::pulse_file_test {
 
 using ::testing::HasSubstr;
 
-/// A pulse file with this row between two good ones.
+/// Reads a pulse file with this row between two good ones.
 ReadTelemetry read_row(std::string_view row) {
   const TemporaryFolder folder;
   std::string text = "t_tai_ns,channel\n1795143637568806257,sun1\n";

@@ -27,7 +27,7 @@ std::vector<std::size_t> stray(const std::vector<double>& seconds) {
   return rows;
 }
 
-/// `count` rows a second apart from `from_s` on.
+/// Returns `count` times a second apart from `from_s` on.
 std::vector<double> run(double from_s, int count) {
   std::vector<double> seconds;
   for (int i = 0; i < count; ++i) {

@@ -131,7 +131,7 @@ TEST(TelemetryStream, MergesPulsesAndFramesByTimeAndHandsOverOneKindAtATime) {
               ::testing::ElementsAre("pulses 1", "coded 1", "pulses 2", "coded 3", "pulses 4"));
 }
 
-/// `count` rows a microsecond apart, moved about within blocks of `block` rows.
+/// Returns `count` rows a microsecond apart, shuffled within blocks of `block` rows.
 std::string disordered_rows(std::size_t count, std::size_t block) {
   std::vector<std::int64_t> times(count);
   for (std::size_t i = 0; i < count; ++i) {
@@ -186,7 +186,7 @@ TEST(TelemetryStream, PassesOnARowThatComesTooLateForItsPlace) {
 }
 
 TEST(TelemetryStream, MergesManyFilesThatShareASmallBuffer) {
-  // Every row in one of ten files; the buffer holds a tenth of them all.
+  // Each row is in one of ten files; the buffer holds a tenth of all rows.
   std::istringstream rows{disordered_rows(50'000, 20)};
   std::vector<std::string> texts(10, "t_tai_ns,channel\n");
   std::string row;
@@ -229,7 +229,7 @@ TEST(TelemetryStream, KeepsTheSpacecraftOfEveryRow) {
 }
 
 TEST(TelemetryStream, ReadsLinesThatCrossItsReads) {
-  // Reads are of a power of two bytes; the rows are 26.
+  // Reads have a power of two bytes, whereas rows have 26.
   constexpr std::size_t kRows = 50'000;
   const TemporaryFolder folder;
   const auto telemetry = read({folder.write("a.csv", disordered_rows(kRows, 1))});

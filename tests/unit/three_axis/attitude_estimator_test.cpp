@@ -22,7 +22,7 @@ using testing::Sensors;
 using testing::TurningBody;
 using testing::usual_three_axis;
 
-/// A pass of two minutes; the sensors that a test wants, when it wants them.
+/// Simulates a pass of two minutes with the sensors that a test selects.
 class AttitudeEstimatorTest : public ::testing::Test {
  protected:
   static constexpr double kLong_s = 120.0;
@@ -48,7 +48,7 @@ class AttitudeEstimatorTest : public ::testing::Test {
                                     .sigma_rad = sigma_rad}},
         products_);
   }
-  /// As a body sees it that is turned in ICRF.
+  /// Pushes a direction as seen by a body rotated in ICRF.
   void direction_of(const Eigen::Quaterniond& turned, double t_s, SampleKind kind,
                     const Vector3d& ref_icrf) {
     constexpr double kSigma_rad = 0.5 * kRadPerDeg;
@@ -66,7 +66,8 @@ class AttitudeEstimatorTest : public ::testing::Test {
     direction(t_s, SampleKind::Magnetometer, field_icrf_, 0.5 * kRadPerDeg);
   }
 
-  /// Gyro at 10 Hz from 0.1 s after `from_s` on, and whatever else at whole seconds behind it.
+  /// Pushes the gyro at 10 Hz from 0.1 s after `from_s` on and calls `at_second` at whole seconds
+  /// after it.
   void run(double from_s, double to_s, const std::function<void(double)>& at_second) {
     for (int i = static_cast<int>(std::lround(from_s * 10.0)) + 1; i <= std::lround(to_s * 10.0);
          ++i) {
@@ -134,7 +135,7 @@ TEST_F(AttitudeEstimatorTest, GivesTheBiasOfItsGyroOnceASecond) {
 TEST_F(AttitudeEstimatorTest, TwoDirectionsThatContradictEachOtherBeginNothing) {
   gyro(0.0);
   sun(0.0);
-  // Twenty degrees nearer to the Sun than it is.
+  // The field is reported twenty degrees nearer to the Sun than it is.
   const Vector3d nearer = (field_icrf_ + 0.35 * sun_icrf_).normalized();
   estimator_.push(SeenDirection{.t = at_s(0.0),
                                 .kind = SampleKind::Magnetometer,
@@ -189,7 +190,7 @@ TEST_F(AttitudeEstimatorTest, TwoDirectionsBegin) {
   field(2.0);
   ASSERT_EQ(estimates().size(), 1U);
   EXPECT_EQ(last().t, at_s(2.0));
-  // Carried over 1.9 s in which the body has turned by degrees.
+  // The attitude is propagated over 1.9 s in which the body has rotated by several degrees.
   EXPECT_LT(error_deg(last()), 3.0 * degrees(last().sigma_rad()));
   EXPECT_LT(degrees(last().sigma_rad()), 2.0);
 }
@@ -292,14 +293,14 @@ TEST_F(AttitudeEstimatorTest, AStuckTrackerOverrulesNothing) {
   });
   EXPECT_LT(error_deg(last()), 0.1);
   EXPECT_LT(error_deg(last()), 3.0 * degrees(last().sigma_rad()));
-  // The others hold it, and it is known what is wrong.
+  // The other sensors hold the attitude, and the faulty sensor is known.
   EXPECT_EQ(quality(), Quality::Ok);
   EXPECT_TRUE(has(last().assessment, ReasonCode::SensorGated));
   EXPECT_FALSE(has(last().assessment, ReasonCode::Since));
   EXPECT_EQ(rejected(SampleKind::Star, Rejection::Frozen), 19);
 }
 
-/// A body at 0.005 deg/s, beside which the noise of one fix is large.
+/// A body at 0.005 deg/s moves by less than the noise of a fix.
 TEST_F(AttitudeEstimatorTest, AStuckTrackerDoesNotStopASlowBody) {
   const TurningBody slow{testing::any_attitude(rng_), kLong_s, [](double) {
                            return Vector3d{5e-5, 5e-5, -5e-5};
@@ -313,7 +314,7 @@ TEST_F(AttitudeEstimatorTest, AStuckTrackerDoesNotStopASlowBody) {
       StarFix fix = t_s < 30.0 ? sensors.star(t_s) : stuck;
       stuck = fix;
       fix.t = at_s(t_s);
-      // Of either sign.
+      // A quaternion may have either sign.
       fix.q_icrf_sensor.coeffs() *= i % 8 == 0 ? 1.0 : -1.0;
       estimator_.push(fix, products_);
     }
@@ -329,7 +330,8 @@ TEST_F(AttitudeEstimatorTest, AStuckTrackerDoesNotStopASlowBody) {
 TEST_F(AttitudeEstimatorTest, ATurnedTrackerDoesNotOverruleWhatSunAndFieldConfirm) {
   gyro(0.0);
   star(0.0);
-  // Of the Sun and of the field one sample in five seconds each, and more fixes than make it lost.
+  // Sun and field come once in five seconds each; there are more false fixes than make the attitude
+  // lost.
   run(0.0, 110.0, [&](double t_s) {
     if (t_s <= 60.0) {
       star(t_s);
@@ -354,7 +356,7 @@ TEST_F(AttitudeEstimatorTest, ATurnedTrackerDoesNotOverruleWhatSunAndFieldConfir
   EXPECT_EQ(rejected(SampleKind::Star, Rejection::Innovation), 50);
 }
 
-/// Whether the tracker was wrong before or is now, the gyro alone cannot tell.
+/// The gyro alone cannot tell whether the tracker was wrong before or is wrong now.
 TEST_F(AttitudeEstimatorTest, WithoutSunAndFieldATurnedTrackerIsDoubtfulUntilItReturns) {
   gyro(0.0);
   star(0.0);
@@ -369,7 +371,7 @@ TEST_F(AttitudeEstimatorTest, WithoutSunAndFieldATurnedTrackerIsDoubtfulUntilItR
   EXPECT_EQ(quality(), Quality::Doubtful);
   EXPECT_TRUE(has(last().assessment, ReasonCode::StarFixesContradict));
   EXPECT_LT(error_deg(last()), 1.0);
-  // In the end it is followed.
+  // In the end the estimator follows the tracker.
   run(60.0, 80.0, [&](double t_s) { estimator_.push(turned_fix(t_s), products_); });
   EXPECT_EQ(quality(), Quality::Doubtful);
   EXPECT_TRUE(has(last().assessment, ReasonCode::StarFixesContradict));
@@ -383,7 +385,7 @@ TEST_F(AttitudeEstimatorTest, ATurnedTrackerIsNotOkAgainByItsOwnFixes) {
   gyro(0.0);
   star(0.0);
   run(0.0, 20.0, [&](double t_s) { star(t_s); });
-  // Behind ten fixes that agree with nothing, too: they make it lost.
+  // Ten fixes that agree with nothing make the attitude lost.
   run(20.0, 31.0, [&](double t_s) {
     StarFix junk = sensors_.star(t_s);
     junk.q_icrf_sensor = testing::any_attitude(rng_);
@@ -399,7 +401,7 @@ TEST_F(AttitudeEstimatorTest, ATurnedTrackerIsNotOkAgainByItsOwnFixes) {
     EXPECT_NE(row.assessment.quality, Quality::Ok) << seconds_of(row);
   }
   EXPECT_TRUE(has(last().assessment, ReasonCode::StarFixesContradict));
-  // The Sun and the field confirm the fixes: it was the attitude before that was wrong.
+  // Sun and field confirm the fixes: the attitude before was wrong.
   const Eigen::Quaterniond turned =
       turned_fix(110.0).q_icrf_sensor * sensors_.star(110.0).q_icrf_sensor.conjugate();
   run(110.0, 115.0, [&](double t_s) {
@@ -435,7 +437,7 @@ TEST_F(AttitudeEstimatorTest, SunAndFieldProveAFixThatTheAttitudeRejects) {
   EXPECT_EQ(quality(), Quality::Ok);
 }
 
-/// A magnetometer that is mounted 6 deg off, about the Sun: its word against that of the tracker.
+/// A magnetometer is misaligned by 6 deg about the Sun and contradicts the tracker.
 TEST_F(AttitudeEstimatorTest, FixesThatContradictWhatTheyNeverSaidAreDoubtful) {
   const Eigen::Quaterniond off{Eigen::AngleAxisd{6.0 * kRadPerDeg, sun_icrf_}};
   gyro(0.0);
@@ -481,7 +483,7 @@ TEST_F(AttitudeEstimatorTest, AStuckFieldIsNamedAndTheOthersHoldTheAttitude) {
   EXPECT_LT(error_deg(last()), 0.03);
 }
 
-/// Of a sensor that nothing has fitted yet one sample keeps the others from being believed.
+/// One sample of a sensor that was never accepted prevents trust in the others.
 TEST_F(AttitudeEstimatorTest, IsNotOkWhileAllOfASensorIsRejected) {
   gyro(0.0);
   estimator_.push(turned_fix(0.0), products_);
@@ -506,7 +508,8 @@ TEST_F(AttitudeEstimatorTest, WithoutAGyroSunAndFieldOfWithinASecondGiveAnAttitu
     EXPECT_EQ(last().t, at_s(20.0 + apart_s));
     EXPECT_FALSE(last().rate_body_rad_s);
     EXPECT_EQ(quality(), Quality::Converging);
-    // Two directions of 0.5 deg nearly across each other, the first by 5 deg/s about each axis.
+    // Two directions of 0.5 deg nearly perpendicular to each other, the first moved by 5 deg/s
+    // about each axis.
     const double sun_deg = std::hypot(0.5, 5.0 * apart_s);
     const double along_both_deg = 1.0 / std::hypot(1.0 / sun_deg, 1.0 / 0.5);
     EXPECT_NEAR(degrees(last().sigma_rad()), std::hypot(0.5, sun_deg, along_both_deg),
@@ -541,7 +544,7 @@ TEST_F(AttitudeEstimatorTest, WhereAllIsRejectedItIsLostAndBeginsAtTheNextFix) {
   gyro(0.0);
   star(0.0);
   run(0.0, 20.0, [&](double t_s) { star(t_s); });
-  // The Sun elsewhere, and no star.
+  // The Sun is reported elsewhere, and there are no star fixes.
   run(20.0, 30.5, [&](double t_s) {
     estimator_.push(
         SeenDirection{.t = at_s(t_s),
@@ -569,7 +572,7 @@ TEST_F(AttitudeEstimatorTest, AGapOfTheGyroWidensAndTheNextFixHoldsIt) {
   star(0.0);
   run(0.0, 30.0, [&](double t_s) { star(t_s); });
   const double before_deg = degrees(last().sigma_rad());
-  // Nothing for 12 s, then the gyro again.
+  // The gyro is silent for 12 s.
   gyro(42.0);
   EXPECT_GT(degrees(last().sigma_rad()), 20.0 * before_deg);
   EXPECT_LT(error_deg(last()), 3.0 * degrees(last().sigma_rad()));
@@ -612,7 +615,7 @@ TEST_F(AttitudeEstimatorTest, AfterAFixInAGapTheRestOfItWidensToo) {
   EXPECT_EQ(health(SampleKind::Star).rejected, 0);
 }
 
-/// The body turns by 30 deg meanwhile, and stands as before at either end.
+/// The body rotates by 30 deg in the gap and is at rest before and after.
 TEST_F(AttitudeEstimatorTest, WhatTurnedUnseenInAGapIsDoubtfulUntilItIsChecked) {
   GyroSample still{.t = at_s(0.0), .rate_body_rad_s = Vector3d::Zero()};
   const auto rest = [&](double from_s, double to_s) {
@@ -683,7 +686,7 @@ TEST_F(AttitudeEstimatorTest, ASpikeOfTheGyroIsLeftOut) {
   }
 }
 
-/// One degree per second within a sample, then back, while star fixes go on.
+/// The rate changes by 1 deg/s within a sample and back, while star fixes continue.
 TEST_F(AttitudeEstimatorTest, WhatThrustersDoIsNoSpike) {
   for (const int samples_on : {1, 2, 4}) {
     AttitudeEstimator estimator{config_};

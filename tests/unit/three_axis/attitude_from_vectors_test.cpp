@@ -20,8 +20,8 @@ using testing::any_attitude;
 using testing::error_rad;
 using testing::normal_vector;
 
-// Schaub and Junkins, Analytical Mechanics of Space Systems, examples 3.14 to 3.16 and concept
-// checks; the matrices turn the reference into the body, to eight digits.
+// Source: Schaub and Junkins, Analytical Mechanics of Space Systems, examples 3.14 to 3.16 and
+// concept checks. The matrices rotate the reference into the body, with eight digits.
 const ObservedDirection kFirst{{0.8190, -0.5282, 0.2242}, Vector3d::UnitX(), 0.01};
 const ObservedDirection kSecond{{-0.3138, -0.1584, 0.9362}, Vector3d::UnitZ(), 0.01};
 const ObservedDirection kFirstNear180{{0.8273, 0.5541, -0.0920}, {-0.1517, -0.9669, 0.2050}, 0.01};
@@ -39,9 +39,9 @@ Matrix3d body_from_ref(const Expected<UncertainAttitude>& attitude) {
   return attitude.value().q_ref_body.conjugate().toRotationMatrix();
 }
 
-/// Of the published errors: the principal rotation between the estimate and the truth.
+/// Returns the principal rotation between an estimate and the truth, deg.
 double error_deg(const Matrix3d& estimate) {
-  // 3-2-1: about z by 30, y by 20, x by -10 deg.
+  // 3-2-1 angles: 30 deg about z, 20 about y, -10 about x.
   const Eigen::Quaterniond q_ref_body = Eigen::AngleAxisd{30.0 * kRadPerDeg, Vector3d::UnitZ()} *
                                         Eigen::AngleAxisd{20.0 * kRadPerDeg, Vector3d::UnitY()} *
                                         Eigen::AngleAxisd{-10.0 * kRadPerDeg, Vector3d::UnitX()};
@@ -78,7 +78,7 @@ TEST(QMethod, IsThatOfTheBook) {
 }
 
 TEST(QMethod, NearAHalfTurnItIsThatOfTheBook) {
-  // Weights 2 and 1.
+  // The weights in the book are 2 and 1.
   const auto attitude = q_method(std::array{kFirstNear180, kSecondNear180});
   const Matrix3d published =
       rows({0.41581051, -0.85495933, 0.31007444}, {-0.83381526, -0.49451654, -0.24536812},
@@ -136,14 +136,15 @@ TEST(AttitudeFromVectors, InLineTheTurnAboutTheLineIsOpen) {
   }
   EXPECT_EQ(q_method(std::array{along}).error().code, ErrorCode::Unobservable);
   EXPECT_EQ(q_method({}).error().code, ErrorCode::Unobservable);
-  // Known to a thousandth of a degree, the same two suffice.
+  // With a sigma of a thousandth of a degree the same two suffice.
   ObservedDirection sharp = along;
   ObservedDirection sharp_nearly = nearly;
   sharp.sigma_rad = sharp_nearly.sigma_rad = 2e-5;
   EXPECT_TRUE(q_method(std::array{sharp, sharp_nearly}));
 }
 
-/// Mean normalised squared error and mean covariance over the errors' own, of 4,000 draws.
+/// Checks the mean NEES and the ratio of the mean covariance to that of the errors over 4,000
+/// draws.
 void expect_honest(
     const std::function<Expected<UncertainAttitude>(std::span<const ObservedDirection>)>& solve) {
   std::mt19937_64 rng{52};
@@ -168,7 +169,7 @@ void expect_honest(
     scatter += error * error.transpose() / kDraws;
     stated += attitude.covariance_rad2 / kDraws;
   }
-  // The mean of 4,000 chi-squares of 3 scatters by 0.039.
+  // The mean of 4,000 chi-squares of 3 has a standard deviation of 0.039.
   EXPECT_NEAR(squared, 3.0, 0.12);
   EXPECT_NEAR((stated.inverse() * scatter).trace(), 3.0, 0.12);
 }

@@ -29,7 +29,7 @@ ObservedDirection seen(const Quaterniond& q_ref_body, const Vector3d& ref,
   return {.body = q_ref_body.conjugate() * ref, .ref = ref, .sigma_rad = sigma_rad};
 }
 
-/// Sun and field at one instant, the body at rest in the reference.
+/// Returns Sun and field at one time with the body at rest in the reference frame.
 CarriedDirections both(double t_s) {
   CarriedDirections carried;
   carried.add(SampleKind::Sun, at_s(t_s), seen(Quaterniond::Identity(), kSun));
@@ -47,7 +47,7 @@ TEST(CarriedDirections, OfFewerThanTwoThereIsNoAttitude) {
   EXPECT_TRUE(is_unobservable(carried));
   carried.add(SampleKind::Sun, at_s(0.0), seen(Quaterniond::Identity(), kSun));
   EXPECT_TRUE(is_unobservable(carried));
-  // Another of the same sensor takes its place.
+  // A new direction of the same sensor replaces the old one.
   carried.add(SampleKind::Sun, at_s(0.1), seen(Quaterniond::Identity(), kField));
   EXPECT_TRUE(is_unobservable(carried));
   carried.add(SampleKind::Magnetometer, at_s(0.1), seen(Quaterniond::Identity(), kSun));
@@ -75,7 +75,7 @@ TEST(CarriedDirections, SeenAtDifferentTimesTheyGiveTheAttitudeOfNow) {
     const Vector3d field = normal_vector(rng, 1.0);
     CarriedDirections carried;
     for (int i = 1; i <= 30; ++i) {
-      // A turn of the body about its own axes.
+      // The rotation is about the body's own axes.
       const Vector3d turned_rad = 0.1 * rate_rad_s + normal_vector(rng, 0.01);
       q_ref_body =
           q_ref_body * Quaterniond{Eigen::AngleAxisd{turned_rad.norm(), turned_rad.normalized()}};
@@ -94,8 +94,8 @@ TEST(CarriedDirections, SeenAtDifferentTimesTheyGiveTheAttitudeOfNow) {
   }
 }
 
-/// Of two directions across each other, each with the variance v about both axes across it: about
-/// each of them only the other knows the turn, about the third both do.
+/// Returns the covariance of two perpendicular directions: the rotation about each comes from the
+/// other direction, the rotation about the third axis from both.
 Matrix3d covariance_of_two(double sun_rad2, double field_rad2) {
   return Vector3d{field_rad2, sun_rad2, sun_rad2 * field_rad2 / (sun_rad2 + field_rad2)}
       .asDiagonal();
@@ -119,7 +119,7 @@ TEST(CarriedDirections, WhatCarryingAddsIsOfThoseThatWereCarried) {
   carried.turn(at_s(0.1), Vector3d::Zero(), {.noise_rad2 = kNoise_rad2, .drift_rad = kDrift_rad});
   const double once_rad2 = kOwn_rad2 + kNoise_rad2 + kDrift_rad * kDrift_rad;
   expect_covariance(carried, covariance_of_two(once_rad2, once_rad2));
-  // Noise of two steps adds by its variance, the drift of a bias by its angle.
+  // The noise of two steps adds as variance, the drift of the bias as angle.
   carried.add(SampleKind::Sun, at_s(0.1), seen(Quaterniond::Identity(), kSun));
   carried.turn(at_s(0.2), Vector3d::Zero(), {.noise_rad2 = kNoise_rad2, .drift_rad = kDrift_rad});
   const double twice_rad2 = kOwn_rad2 + 2.0 * kNoise_rad2 + 4.0 * kDrift_rad * kDrift_rad;
@@ -133,7 +133,7 @@ TEST(CarriedDirections, AfterFiveSecondsADirectionIsForgotten) {
   carried.add(SampleKind::Sun, at_s(15.0), seen(Quaterniond::Identity(), kSun));
   carried.turn(at_s(15.1), Vector3d::Zero(), {});
   EXPECT_TRUE(is_unobservable(carried));
-  // The Sun is still known.
+  // The Sun is still valid.
   carried.add(SampleKind::Magnetometer, at_s(15.1), seen(Quaterniond::Identity(), kField));
   EXPECT_TRUE(carried.attitude());
 }
@@ -146,8 +146,8 @@ TEST(CarriedDirections, MayBeForgottenSooner) {
   EXPECT_TRUE(is_unobservable(carried));
 }
 
-/// The attitude that fits two directions of one sigma best shares between them what the angle
-/// between them is off by: half each, chi-square off^2 / (2 sigma^2) of one degree of freedom.
+/// The attitude that fits two directions of equal sigma shares the error of the angle between them
+/// equally, with a chi-square of off^2 / (2 sigma^2) of one degree of freedom.
 TEST(CarriedDirections, ContradictEachOtherWhereTheirAngleIsOffByMoreThanNoise) {
   const auto off_by = [](double sigmas, double carried_rad2) {
     CarriedDirections carried;

@@ -1,5 +1,3 @@
-// Samples of one kind and instant that say different things.
-
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -52,7 +50,7 @@ TaiTime time_of(const AnySample& sample) {
   return std::visit([](const auto& is) { return is.t; }, sample);
 }
 
-/// When each arrives, as telemetry time.
+/// Holds a sample and its time of arrival on the telemetry's time scale.
 struct Arrival {
   double t_s;
   AnySample sample;
@@ -102,7 +100,7 @@ class Contradictions : public ::testing::Test {
     return made;
   }
 
-  /// Gyro at 4 Hz, star fixes and Sun vectors each second, as the honest sender gives them.
+  /// Returns the honest sender's samples: gyro at 4 Hz, star fixes and sun vectors once a second.
   std::vector<AnySample> honest() {
     std::vector<AnySample> samples;
     for (int tick = 0; tick < static_cast<int>(4.0 * kPass_s); ++tick) {
@@ -127,8 +125,8 @@ class Contradictions : public ::testing::Test {
 
 double seconds_of(const AnySample& sample) { return seconds_between(at_s(0.0), time_of(sample)); }
 
-/// Two senders of one pass; the other one is wrong in a third of its samples. Each sample is up to
-/// half a second on its way, so that every order of the two occurs and none is late.
+/// The other sender is wrong in a third of its samples. Each sample is delayed by up to half a
+/// second, so that every order of the two occurs and none is late.
 TEST_F(Contradictions, WhoeverComesFirstNoContestedValueIsUsed) {
   const std::vector<AnySample> samples = honest();
   std::uniform_real_distribution<double> delay_s{0.0, 0.5};

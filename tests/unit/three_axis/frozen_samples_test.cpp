@@ -16,21 +16,21 @@ using testing::normal_vector;
 
 constexpr double kNoise_rad_s = 3e-5;
 
-/// Told to the nearest step.
+/// Rounds to the nearest step.
 Vector3d in_steps(const Vector3d& rate_rad_s, double step_rad_s) {
   return step_rad_s * (rate_rad_s / step_rad_s).array().round().matrix();
 }
 
-/// That has seen these steps of the telemetry.
+/// Returns a detector that has learned these telemetry steps.
 FrozenSamples with_steps(const Vector3d& steps_rad_s) {
   FrozenSamples gyro = FrozenSamples::of_gyro();
   gyro.learn(Vector3d::Zero(), steps_rad_s);
   return gyro;
 }
 
-/// The first of equal samples that is said to be one too many, and that it says how many there are;
-/// 0: none in so many.
-/// @param is_stuck Those axes repeat, the others go on by noise.
+/// Returns the number of the first equal sample that is reported as frozen, which must equal the
+/// reported count; 0 if none is within `most`.
+/// @param is_stuck Axes that repeat; the others have noise.
 int first_frozen(FrozenSamples gyro, const Eigen::Array<bool, 3, 1>& is_stuck, int most = 1000) {
   std::mt19937_64 rng{1};
   for (int i = 1; i <= most; ++i) {
@@ -71,7 +71,7 @@ TEST(FrozenSamples, StepsAreTheLeastChangesAndTheCoarsestAxisCounts) {
   FrozenSamples gyro = FrozenSamples::of_gyro();
   gyro.learn(Vector3d{0.0, 0.0, 0.0}, Vector3d{3e-6, -8e-6, 0.0});
   gyro.learn(Vector3d{3e-6, 8e-6, 0.0}, Vector3d{1e-6, 2e-6, 0.0});
-  // The third never changed: it is taken for as fine as the finest.
+  // The third component never changed and is assumed to be as fine as the finest.
   EXPECT_NEAR(gyro.step(), 6e-6, 1e-18);
   gyro.learn(Vector3d{0.0, 0.0, 0.0}, Vector3d{0.0, 0.0, 7e-6});
   EXPECT_NEAR(gyro.step(), 7e-6, 1e-18);
@@ -79,7 +79,8 @@ TEST(FrozenSamples, StepsAreTheLeastChangesAndTheCoarsestAxisCounts) {
   EXPECT_NEAR(gyro.step(), 7e-6, 1e-18);
 }
 
-/// That two values of normal noise are told as one, at worst: the mean in the middle of a step.
+/// Returns the worst-case probability that two values of normal noise are rounded alike: their mean
+/// is in the middle of a step.
 double chance_of_one_step(double step, double sigma) {
   double chance = 0.0;
   for (int cell = -200; cell <= 200; ++cell) {
@@ -92,7 +93,7 @@ double chance_of_one_step(double step, double sigma) {
   return chance;
 }
 
-/// Of a gyro that is three times as quiet as stated.
+/// The gyro has a third of its stated noise.
 TEST(FrozenSamples, IsWhatNoiseDoesOnceInAThousandMillionTimes) {
   for (const double step : {0.003, 0.03, 0.1, 0.3}) {
     const double chance = chance_of_one_step(step, 1.0 / 3.0);
@@ -107,7 +108,7 @@ TEST(FrozenSamples, IsWhatNoiseDoesOnceInAThousandMillionTimes) {
 
 TEST(FrozenSamples, OfStepsThatHideTheNoiseNoneIs) {
   EXPECT_EQ(first_frozen(with_steps(Vector3d::Constant(2.0 * kNoise_rad_s)), kAll), 0);
-  // Two axes that hide it leave the third to speak.
+  // The third axis is not hidden by its step.
   EXPECT_GT(first_frozen(with_steps({2.0 * kNoise_rad_s, 1e-9, 2.0 * kNoise_rad_s}), kAll), 0);
 }
 
@@ -125,7 +126,7 @@ TEST(FrozenSamples, NeverIsAGyroWithNoiseOfAThirdOrMore) {
   }
 }
 
-/// Of a star tracker, by the components of its quaternions.
+/// Half the noise of the star tracker, as for components of a quaternion.
 constexpr double kStar = 0.5 * 20.0 / 3600.0 * std::numbers::pi / 180.0;
 
 Eigen::Vector4d star(std::mt19937_64& rng, double noise, double step) {
@@ -154,7 +155,7 @@ TEST(FrozenSamples, OfReferencesTheSecondIs) {
   }
 }
 
-/// Its components are not: the last is 1 to the bit, whatever the noise.
+/// The last component may be exactly 1 whatever the noise.
 TEST(FrozenSamples, OneValueOfAReferenceMayStandStill) {
   std::mt19937_64 rng{4};
   FrozenSamples samples = FrozenSamples::of_references();
@@ -165,7 +166,7 @@ TEST(FrozenSamples, OneValueOfAReferenceMayStandStill) {
   }
 }
 
-/// At rest, once a step has shown.
+/// The sensor is at rest, and a step has been seen.
 TEST(FrozenSamples, AReferenceWithItsNoiseBelowTheStepIsNot) {
   std::mt19937_64 rng{5};
   for (const double step : {1.5, 5.0}) {

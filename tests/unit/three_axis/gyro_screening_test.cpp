@@ -26,7 +26,7 @@ std::vector<GyroSample> noisy(int count, double grid_rad_s = 0.0) {
   return samples;
 }
 
-/// All of them beyond what they were held against.
+/// Counts the samples rejected by `test` and expects each to exceed its limit.
 std::int64_t count(const ScreenedGyro& found, Rejection test) {
   std::int64_t count = 0;
   for (const RejectedSample& sample : found.left_out) {
@@ -64,7 +64,7 @@ TEST(GyroScreening, LeavesOutWhatRepeatsAboutOneAxis) {
   EXPECT_EQ(count(screened(samples, kGyro), Rejection::Frozen), 19);
 }
 
-/// A grid three times the noise repeats most samples by chance.
+/// On a grid of three times the noise most samples repeat by chance.
 TEST(GyroScreening, KeepsWhatRepeatsOnACoarseGrid) {
   EXPECT_TRUE(screened(noisy(2000, 3.0 * kGyro.noise_rad_s), kGyro).left_out.empty());
 }
@@ -111,7 +111,7 @@ TEST(GyroScreening, SaysWhatItLeavesOutInOrderOfTime) {
                              [](const auto& a, const auto& b) { return a.t < b.t; }));
 }
 
-/// A gyro that has just been switched on.
+/// A gyro that was just switched on sends zeros.
 TEST(GyroScreening, LeavesOutZerosAtTheStart) {
   for (const std::size_t zeros : {1U, 2U, 3U, 4U, 7U}) {
     std::vector<GyroSample> samples = noisy(400, 0.1 * kGyro.noise_rad_s);
@@ -124,7 +124,7 @@ TEST(GyroScreening, LeavesOutZerosAtTheStart) {
   }
 }
 
-/// One degree per second within one, two or four samples, at any time, and back later.
+/// The rate changes by 1 deg/s within one, two or four samples at any time, and back later.
 TEST(GyroScreening, KeepsWhatThrustersDo) {
   for (const int samples_on : {1, 2, 4}) {
     for (const int begin : {0, 1, 2, 50}) {

@@ -22,8 +22,7 @@ const Vector3d kNone = Vector3d::Zero();
 
 Vector3d any_vector(std::mt19937_64& rng) { return normal_vector(rng, 0.01); }
 
-/// Five samples, a second apart, of which the rate changes by `change` on either side of the
-/// middle.
+/// Holds five samples a second apart; the rate changes by `change` on either side of the middle.
 struct Around {
   Vector3d before;
   Vector3d behind;
@@ -42,7 +41,7 @@ struct Around {
   }
 };
 
-/// By the slope there times the time; the steps of time are 2, 0.5, 0.5 and 0.1 s.
+/// The change is the slope there times the interval; the intervals are 2, 0.5, 0.5 and 0.1 s.
 TEST(StandsOut, BeyondTheLesserOfTheChangesOnBothSides) {
   const Vector3d rate{0.01, 0.02, 0.03};
   const Vector3d up{0.0, 0.004, 0.0};
@@ -86,14 +85,14 @@ TEST(StandsOut, WhatIsBeyondBothByMoreThanTheRateChangesDoesOnAnyAxis) {
       EXPECT_FALSE((Around{before, behind, change}.stands_out(at)));
       at[axis] = farther + sign * 1.001 * change[axis];
       EXPECT_TRUE((Around{before, behind, change}.stands_out(at)));
-      // Time and rates turned round: the same.
+      // Reversing time and rates must not change the result.
       EXPECT_TRUE((Around{behind, before, change}.stands_out(at)));
       EXPECT_TRUE((Around{-before, -behind, change}.stands_out(-at)));
     }
   }
 }
 
-/// The difference of two samples has the root of two times the noise of one.
+/// The difference of two samples has sqrt(2) times the noise of one.
 TEST(StandsOut, NoiseOfTwoSamplesIsNotEnough) {
   const double limit = 5.0 * std::numbers::sqrt2 * kNoise_rad_s;
   const Around still{kNone, kNone, kNone};
@@ -108,7 +107,7 @@ TEST(StandsOut, NoiseOfTwoSamplesIsNotEnough) {
   }
 }
 
-/// Samples of a line, the first of them at 0 s.
+/// Holds samples on a line, the first at 0 s.
 struct Ends {
   GyroSample at;
   GyroSample next;
@@ -139,18 +138,18 @@ TEST(EndStandsOut, NorDoesOneBeforeThrustersBegin) {
   const GyroSample next{at_s(0.1), rate};
   const GyroSample next_but_one{at_s(0.2), rate + Vector3d{0.01, -0.02, 0.0}};
   EXPECT_FALSE(deviation_at_end(at, next, next_but_one, 1e-12).stands_out());
-  // It went the other way than they do: a spike.
+  // A change against the trend of the next samples is a spike.
   EXPECT_TRUE(
       deviation_at_end({at_s(0.0), rate + Vector3d{0.001, 0.0, 0.0}}, next, next_but_one, 1e-12)
           .stands_out());
 }
 
-/// Of what three samples with independent noise leave of a line.
+/// The noise is that of the deviation of three independent samples from a line.
 TEST(EndStandsOut, NoiseIsThatOfAllThree) {
   std::mt19937_64 rng{4};
   for (const double next_but_one_s : {0.2, 0.3, 1.1}) {
     const double next_s = 0.1;
-    // at - (1 + k) next + k next_but_one, with k what takes a line out of it.
+    // The deviation is at - (1 + k) next + k next_but_one, where k removes a line.
     const double k = next_s / (next_but_one_s - next_s);
     double squares = 0.0;
     constexpr int kDraws = 20'000;

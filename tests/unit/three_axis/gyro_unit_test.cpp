@@ -23,7 +23,8 @@ ObservedAttitude observed(const StarFix& fix, const StarTracker& tracker) {
           .sigma_rad = tracker.noise_rad};
 }
 
-/// A gyro at 4 Hz, a star fix each second. @return What the unit was found to be at the end.
+/// Runs a gyro at 4 Hz with a star fix each second.
+/// @return Unit factor found at the end.
 std::optional<double> found(const TurningBody& body, std::mt19937_64& rng, double times,
                             int seconds) {
   const ThreeAxisConfig config = usual_three_axis();
@@ -61,7 +62,7 @@ TEST(GyroUnit, RadiansMadeTwiceAreFoundWhereTheBiasIsSmallBesideTheRate) {
   ASSERT_EQ(found(body, rng, kRadPerDeg, 60), kRadPerDeg);
 }
 
-/// Between two fixes it turns by a 57th of what the gyro's path is long.
+/// Between two fixes the body rotates by 1/57 of the length of the gyro's path.
 TEST(GyroUnit, OfABodyThatTurnsOnceBetweenTwoFixesIsRight) {
   std::mt19937_64 rng{47};
   const double rate_rad_s = 2.0 * std::numbers::pi * (1.0 + 1.0 / kDegPerRad);
@@ -133,7 +134,7 @@ TEST_F(GyroInDegrees, IsNamedAndTheStarFixesAreTheAttitude) {
   EXPECT_EQ(last.assessment.quality, Quality::Doubtful);
   EXPECT_EQ(last.assessment.reasons.front(),
             (Reason{ReasonCode::GyroUnit, {{"factor", kDegPerRad}}}));
-  // Three axes of 20 arcsec: beyond five sigma once in 100,000.
+  // Three axes of 20 arcsec exceed five sigma once in 100,000 times.
   EXPECT_LT(testing::error_rad(last.q_icrf_body, body_.q_icrf_body(119.0)).norm(),
             5.0 * std::sqrt(3.0) * usual_three_axis().star_tracker->noise_rad);
 }
@@ -151,8 +152,7 @@ TEST_F(GyroInDegrees, BeyondItsRangeIsNoGyro) {
   }
 }
 
-/// A step of the rate makes a sample wait for the next, and two measurements of its instant with
-/// it.
+/// A step of the rate makes a sample wait for the next one, with two measurements at its time.
 TEST(AttitudeAtTheInstantOfAGyroSample, IsFinite) {
   std::mt19937_64 rng{50};
   const ThreeAxisConfig config = usual_three_axis();

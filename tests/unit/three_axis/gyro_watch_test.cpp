@@ -16,7 +16,7 @@ using testing::normal_vector;
 
 constexpr GyroSensor kGyro{.noise_rad_s = 3e-5, .bias_sigma_rad_s = 2e-4, .range_rad_s = 0.2};
 
-/// Taken for a measurement where nothing speaks against it.
+/// Judges a sample and accepts it if it is not rejected.
 std::optional<Rejection> judge(GyroWatch& watch, const GyroSample& sample) {
   const auto rejected = watch.judge(sample);
   if (!rejected) {
@@ -37,7 +37,7 @@ TEST(GyroWatch, ASaturatedSampleIsNoMeasurement) {
   EXPECT_EQ(watch.out_because(), std::nullopt);
 }
 
-/// As the decimals of a file, a single precision or a step of a sixteen bit telemetry leave it.
+/// Rounding as by the decimals of a file, single precision, or a 16-bit telemetry step.
 TEST(GyroWatch, ARateThatIsClippedARoundingBelowItsRangeIsSaturated) {
   const double range_rad_s = *kGyro.range_rad_s;
   for (const double below : {1e-9, 6e-8, 1.0 / 32768.0, 1.0 / 2048.0}) {
@@ -69,15 +69,15 @@ TEST(GyroWatch, TenEqualSamplesInARowAreFrozenUntilOneDiffers) {
 
 TEST(GyroWatch, WanderIsWhatTheRateChangesByBeyondTheNoise) {
   std::mt19937_64 rng{71};
-  // Noise alone.
+  // The first gyro has noise alone.
   GyroWatch still{kGyro};
   for (int i = 0; i < 2000; ++i) {
     judge(still, {at_s(0.1 * i), normal_vector(rng, kGyro.noise_rad_s)});
   }
-  // A degree in a minute: its cube over three.
+  // The minimum is a degree in a minute, with its cube over three.
   const double least_rad2_s3 = std::pow(std::numbers::pi / 180.0, 2) * 3.0 / std::pow(60.0, 3);
   EXPECT_NEAR(still.wander_rad2_s3(), least_rad2_s3, 0.02 * least_rad2_s3);
-  // A random walk of the rate.
+  // The second gyro has a random walk of its rate.
   GyroWatch wandering{kGyro};
   const double walk_rad2_s3 = 1e-6;
   Vector3d rate_rad_s = Vector3d::Zero();
@@ -94,7 +94,7 @@ TEST(GyroWatch, AGapIsLongerThanTheUsualInterval) {
   std::mt19937_64 rng{72};
   for (const double interval_s : {0.1, 1.0}) {
     GyroWatch watch{kGyro};
-    // The first interval may be any, as that of recorded flights is.
+    // The first interval may differ, as in recorded flights.
     judge(watch, {at_s(0.0), normal_vector(rng, kGyro.noise_rad_s)});
     judge(watch, {at_s(0.3 * interval_s), normal_vector(rng, kGyro.noise_rad_s)});
     for (int i = 1; i < 30; ++i) {
@@ -105,7 +105,7 @@ TEST(GyroWatch, AGapIsLongerThanTheUsualInterval) {
   }
 }
 
-/// At rest, with a step of the telemetry ten times the noise, a true rate near half a step.
+/// At rest, the telemetry step is ten times the noise and the true rate is near half a step.
 TEST(GyroWatch, ABodyAtRestBelowTheStepOfTheTelemetryIsNotFrozenOnceAStepWasSeen) {
   std::mt19937_64 rng{73};
   GyroWatch watch{kGyro};

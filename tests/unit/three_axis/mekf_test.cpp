@@ -33,20 +33,20 @@ TEST(TurnOfAnEvenlyChangingRate, IsTheIntegralOfTheBody) {
                          }};
   const Eigen::Quaterniond turned = quaternion_by(turned_rad(span, bias_rad_s));
   EXPECT_LT(angle_between_rad(turned, body.q_icrf_body(2.0)), 5e-6);
-  // The mean rate alone is off by far more.
+  // The mean rate alone is much less accurate.
   EXPECT_GT(angle_between_rad(quaternion_by(from_rad_s + to_rad_s - 2.0 * bias_rad_s),
                               body.q_icrf_body(2.0)),
             1e-4);
 }
 
-/// By finite differences of the propagation itself.
+/// The expected slopes are finite differences of the propagation.
 TEST(Mekf, CovarianceMovesAsTheErrorDoes) {
   std::mt19937_64 rng{61};
   const RateSpan span{
       .dt_s = 3.0, .from_rad_s = normal_vector(rng, 0.3), .to_rad_s = normal_vector(rng, 0.3)};
   const Eigen::Quaterniond q = any_attitude(rng);
   Mekf filter{known_to(q, 0.02), 0.001};
-  // A measurement makes turn and bias depend on each other.
+  // A measurement correlates rotation and bias.
   filter.propagate(span, {.turn_rad2 = 0.0, .bias_rad2_s2 = 0.0});
   filter.update(ObservedAttitude{filter.q_icrf_body(), 1e-4});
   const Mekf::Covariance before = filter.covariance();
@@ -60,7 +60,7 @@ TEST(Mekf, CovarianceMovesAsTheErrorDoes) {
     slope.block<3, 1>(0, i) =
         error_rad(q_after, q_before * quaternion_by(step) * quaternion_by(turned_rad(span, bias))) /
         kStep;
-    // The Magnus term, small for spans between samples, is left out of the slope.
+    // The slope neglects the Magnus term, which is small for spans between samples.
     RateSpan mean = span;
     mean.from_rad_s = mean.to_rad_s = turned_rad(span, bias) / span.dt_s + bias;
     slope.block<3, 1>(0, 3 + i) =
@@ -109,7 +109,7 @@ TEST(Mekf, ADirectionSaysNothingOfTheTurnAboutIt) {
     const Eigen::Quaterniond truth = any_attitude(rng);
     const Vector3d ref = normal_vector(rng, 1.0).normalized();
     const Vector3d body = truth.conjugate() * ref;
-    // Far off: the correction is large.
+    // The initial error is large, so the correction is too.
     const double sigma_rad = 10.0 * kRadPerDeg;
     Mekf filter{known_to(truth * quaternion_by(normal_vector(rng, sigma_rad)), sigma_rad), 0.001};
     for (int repeated = 0; repeated < 50; ++repeated) {
@@ -118,7 +118,7 @@ TEST(Mekf, ADirectionSaysNothingOfTheTurnAboutIt) {
     const Matrix3d covariance = filter.attitude_covariance_rad2();
     ASSERT_NEAR(std::sqrt(body.dot(covariance * body)), sigma_rad, 0.03 * sigma_rad);
     ASSERT_LT(std::sqrt(covariance.trace() - body.dot(covariance * body)), 0.0005);
-    // The prior still pulls: five of its sigmas, by the ratio of the variances.
+    // The prior still has an effect: five of its sigmas times the ratio of the variances.
     ASSERT_NEAR((filter.q_icrf_body().conjugate() * ref - body).norm(), 0.0,
                 5.0 * (0.002 * 0.002 / 50.0) / sigma_rad);
   }

@@ -27,7 +27,7 @@ using ::testing::SizeIs;
 using testing::TurningBody;
 using testing::usual_three_axis;
 
-/// At the Sun's side of the Earth, or behind it.
+/// Returns a state on the Sun's side of the Earth or behind it.
 TimedOrbitState state_towards(const Eigen::Vector3d& sun_icrf, double side) {
   const Eigen::Vector3d position_km = side * 7000.0 * sun_icrf;
   return {.t = at_s(-10.0),
@@ -234,7 +234,7 @@ TEST_F(ThreeAxisPassTest, ASilentStreamIsComputedToItsEnd) {
   EXPECT_EQ(estimates(), before + 4);
   EXPECT_EQ(std::get<AttitudeEstimate>(products_.back()).t, at_s(4.75));
   add(pass_.push(sensors_.gyro(4.5)));
-  EXPECT_THAT(rejected(), IsEmpty());  // Known already.
+  EXPECT_THAT(rejected(), IsEmpty());  // The sample is already known.
   add(pass_.push(sensors_.star(4.6)));
   EXPECT_THAT(reasons(), ::testing::ElementsAre(Rejection::Late));
 }
@@ -251,7 +251,7 @@ TEST_F(ThreeAxisPassTest, APassWithoutAFixSaysWhatItTakes) {
                                                        {"magnetometer", std::int64_t{0}}}}));
 }
 
-/// A magnetometer, and no star tracker.
+/// Has a magnetometer but no star tracker.
 class MagnetometerPassTest : public ThreeAxisPassTest {
  protected:
   static constexpr int kSeconds = 55;
@@ -274,7 +274,7 @@ class MagnetometerPassTest : public ThreeAxisPassTest {
   TurningEarth earth_;
 };
 
-/// The field on either side is that of another orbit, one of which is not the spacecraft's.
+/// Before and after the step the field is that of different orbits, one of which is wrong.
 TEST_F(MagnetometerPassTest, AStepOfTheOrbitBetweenFieldsIsDoubted) {
   OemSegment segment{.usable_from = at_s(-60.0),
                      .usable_to = at_s(120.0),
@@ -339,7 +339,7 @@ TEST_F(MagnetometerPassTest, AFieldOfAnotherStrengthIsLeftOutBeforeThereIsAnAtti
               ::testing::ElementsAreArray(std::vector<Rejection>(4, Rejection::Innovation)));
   for (const RejectedSample& sample : rejected()) {
     EXPECT_EQ(sample.kind, SampleKind::Magnetometer);
-    // 5 % of 20,000 to 60,000 nT over 100 nT.
+    // The error is 5 % of 20,000 to 60,000 nT, over a noise of 100 nT.
     EXPECT_GT(sample.failed.value().value, 50.0);
     EXPECT_EQ(sample.failed->limit, innovation_gate(sample.t == at_s(30.0) ? 3 : 1));
   }

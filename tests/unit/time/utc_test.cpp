@@ -20,7 +20,7 @@ using ::testing::HasSubstr;
 std::int64_t utc_ns(std::string_view text) { return tai_ns(parse_utc(text).value()); }
 
 TEST(Utc, EpochsOfTheTwoPassesAreThoseOfTheirTelemetry) {
-  // Unix seconds of the same civil time (date -u), plus TAI - UTC of the year.
+  // Unix seconds of the same civil time (date -u) plus TAI - UTC of the year.
   EXPECT_EQ(utc_ns("2026-11-20T03:00:00Z"), (1'795'143'600LL + 37) * 1'000'000'000);
   EXPECT_EQ(utc_ns("1996-02-17T23:32:00Z"), (824'599'920LL + 30) * 1'000'000'000);
 }
@@ -93,7 +93,7 @@ TEST(Utc, ReadsBackWhatItWritesAcrossEveryLeapSecond) {
 }
 
 TEST(Utc, TextGrowsWithTime) {
-  // ISO 8601 of equal length sorts as time does: catches any jump backwards.
+  // ISO 8601 texts of equal length sort by time, which reveals any backward jump.
   std::mt19937_64 rng{8601};
   std::uniform_int_distribution<std::int64_t> step_ns{1, 400'000'000};
   TaiTime t = parse_utc("2016-12-31T23:59:00").value();

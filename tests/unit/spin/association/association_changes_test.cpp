@@ -1,4 +1,5 @@
-/// Association of what changes on the way: chords that move, rates that drift or step, silences.
+/// Association of edges that change during the pass: moving chords, drifting or stepping rates,
+/// silences.
 
 #include <gtest/gtest.h>
 
@@ -33,7 +34,7 @@ TEST(Association, AChordThatHoversAboutSun1StaysInOnePiece) {
                              .noise_s = 2e-3},
                             rng);
     const Association all = associate(edges);
-    // The chord about the first sun1 lies before counting begins, at least in part.
+    // The chord around the first sun1 lies at least partly before the count begins.
     EXPECT_LE(all.left_over.size(), 4U);
     int whole = 0;
     for (const Revolution& revolution : all.closed) {
@@ -56,7 +57,8 @@ TEST(Association, AChordThatDriftsPastSun1StaysInOnePiece) {
     SCOPED_TRACE(drift_turns);
     std::vector<Pulse> pulses;
     constexpr int kTurns = 400;
-    constexpr double kSlowPeriod_s = 6.0;  // So much does the Earth move in one.
+    // The period is long enough for the Earth to move noticeably within it.
+    constexpr double kSlowPeriod_s = 6.0;
     for (int turn = 0; turn < kTurns; ++turn) {
       const double in_turns = 0.5 + drift_turns * turn;
       for (const auto& [channel, phase] :
@@ -78,14 +80,14 @@ TEST(Association, AChordThatDriftsPastSun1StaysInOnePiece) {
         ++whole;
       }
       if (revolution.edge(Sun1) && revolution.edge(NorthIn)) {
-        // It never strays far from the turn that it is counted with.
+        // The edge stays near the turn that it is counted with.
         const double in_turns =
             seconds_between(*revolution.edge(Sun1), *revolution.edge(NorthIn)) / kSlowPeriod_s;
         ASSERT_GT(in_turns, -0.3);
         ASSERT_LT(in_turns, 1.3);
       }
     }
-    // 1.2 turns of drift: at most two chords have no turn of their own.
+    // After 1.2 turns of drift at most two chords have no turn of their own.
     EXPECT_GE(whole, kTurns - 2);
   }
 }
@@ -121,7 +123,7 @@ TEST(Association, AStepInTheSpinRateIsFollowed) {
       t_s += period_s;
     }
     const Association all = associate(pulses);
-    // Six of nine intervals must agree: five turns are lost for certain, with both their edges.
+    // Six of nine intervals must agree, so both edges of at least five turns are lost.
     EXPECT_LE(all.left_over.size(), 20U);
     EXPECT_NEAR(all.closed.back().period.period_s, kPeriod_s * (1.0 + step), 1e-6);
     EXPECT_TRUE(std::is_sorted(
@@ -130,7 +132,7 @@ TEST(Association, AStepInTheSpinRateIsFollowed) {
   }
 }
 
-/// Edges from before and after it lie a third of a turn apart, side by side.
+/// The edges before and after the time step lie a third of a turn apart and overlap.
 TEST(Association, AStepBackInTimeIsNoStepInTheSpinRate) {
   for (const double fraction_turns : {1.0 / 4.0, 1.0 / 3.0, 2.0 / 5.0, 2.0 / 3.0}) {
     SCOPED_TRACE(fraction_turns);
@@ -167,7 +169,7 @@ TEST(Association, TheCountIsRightAfterMinutesOfSilence) {
   }
 }
 
-/// Edges of a body whose rate drifts evenly.
+/// Returns the edges of a body with a constant drift of its rate.
 std::vector<MadeEdge> made_drifting(double rate_rpm, double drift_rpm_h, int turns,
                                     std::mt19937_64& rng) {
   std::normal_distribution<double> normal;
@@ -200,7 +202,7 @@ TEST(Association, ADriftOfTheRateIsFollowed) {
             std::count_if(revolution.edge_rejections.begin(), revolution.edge_rejections.end(),
                           [](const auto& rejection) { return rejection.has_value(); });
       }
-      EXPECT_LE(rejected, 12);  // One in a hundred.
+      EXPECT_LE(rejected, 12);  // One in a hundred edges.
     }
   }
 }
@@ -224,7 +226,7 @@ TEST(Association, SaysWhenASilenceWasTooLongToCount) {
     return r.t_start > edges.at(4000 * kPulseChannels).pulse.t;
   });
   ASSERT_NE(after, closed.end());
-  // Either the count is right, or it is said to be uncertain by about what it is off.
+  // Either the count is right, or its stated uncertainty is about its error.
   if (uncertain == closed.end()) {
     expect_every_edge_on_its_turn(
         {.closed = closed, .left_over = {}},

@@ -1,5 +1,5 @@
-/// Association of passes as they are: lost, doubled and spoilt edges, sensors that die, silences,
-/// the Earth in motion.
+/// Association of realistic passes: lost, doubled and displaced edges, dead sensors, silences, and
+/// a moving Earth.
 
 #include <gtest/gtest.h>
 
@@ -51,7 +51,7 @@ Association associated(const std::vector<Pulse>& pulses) {
   return associated(testing::usual_config(), pulses);
 }
 
-/// The edges that nothing speaks against, each with the number of its revolution.
+/// Returns the accepted edges with their revolution numbers.
 std::map<Pulse, std::int64_t> good_edges(const Association& association) {
   std::map<Pulse, std::int64_t> good;
   for (const Revolution& revolution : association.closed) {
@@ -94,16 +94,17 @@ TEST(AssociationDirt, RejectsTheBadEdgesOfADirtyPassAndKeepsTheGood) {
   EXPECT_LE(static_cast<double>(good_rejected), 0.01 * good_d);
 }
 
-/// What happens to the edges of a pass.
+/// Holds the disturbances of the edges of a pass.
 struct Dirt {
   double lost = 0.0;
-  double spurious = 0.0;  ///< Edges a turn and channel, anywhere.
-  double spoilt = 0.0;    ///< Off by a twentieth of the most up to it.
+  double spurious = 0.0;  ///< Spurious edges for each turn and channel, at random times.
+  /// Share of displaced edges; they are off by 1/20 of `most_off_turns` up to all of it.
+  double spoilt = 0.0;
   double most_off_turns = 0.2;
-  double doubled = 0.0;  ///< Once more within a two-hundredth of a turn.
+  double doubled = 0.0;  ///< Share of edges repeated within 1/200 of a turn.
 };
 
-/// The phases of the channels behind sun1, in turns.
+/// Phases of the channels after sun1, in turns.
 using Phases = std::array<double, kPulseChannels>;
 constexpr Phases kOrdinary = {0.0, 0.11, 0.40, 0.52, 0.41, 0.55};
 
@@ -111,17 +112,17 @@ struct Train {
   double period_s = 1.0;
   int turns = 100;
   Phases phases_turns = kOrdinary;
-  double earth_drift = 0.0;   ///< Of the infrared phases, turns a turn.
-  double earth_bend = 0.0;    ///< Of that, a turn.
-  double period_drift = 0.0;  ///< Of the period, of itself a turn.
+  double earth_drift = 0.0;   ///< Drift of the infrared phases, turns per turn.
+  double earth_bend = 0.0;    ///< Change of that drift each turn.
+  double period_drift = 0.0;  ///< Relative change of the period each turn.
   int step_turn = 0;
-  double step = 1.0;  ///< Of the period, from step_turn on.
+  double step = 1.0;  ///< Factor of the period from `step_turn` on.
   Dirt dirt = {};
 };
 
 struct Pass {
   std::vector<Pulse> pulses;
-  std::map<Pulse, int> turns;  ///< Of the edges that are as they were made.
+  std::map<Pulse, int> turns;  ///< Turn of each undisturbed edge.
 };
 
 Pass made(const Train& train, std::mt19937_64& rng) {
@@ -174,8 +175,7 @@ Pass without(const Pass& pass, const Condition& lost) {
 
 double seconds_in(const Pulse& pulse) { return seconds_between(kStart, pulse.t); }
 
-/// How many of the good edges lie on another turn than was counted from the first one, and how many
-/// were rejected.
+/// Counts good edges on a wrong turn (relative to the first one) and rejected good edges.
 struct Mistakes {
   int misplaced = 0;
   int rejected = 0;
@@ -219,7 +219,7 @@ TEST(AssociationDirt, FindsThePeriodUnderHeavyDirt) {
       ASSERT_NEAR(all.closed.back().period.period_s * rpm / 60.0, 1.0, 1e-3);
       const Mistakes counted = mistakes(pass, all);
       ASSERT_EQ(counted.misplaced, 0);
-      // The first turns, where counting begins at a sun1 that is there, and 1 %.
+      // The first turns are lost because the count begins at an existing sun1, plus 1 %.
       ASSERT_LE(counted.rejected, 0.06 * counted.good);
     }
   }
@@ -244,7 +244,7 @@ TEST(AssociationDirt, JudgesTheFirstEdgesAsWellAsLaterOnes) {
     }
   }
   EXPECT_LE(bad_accepted, 0.03 * bad);
-  // The edges before the first sun1 that is there cannot be counted: 8 % of the first turns.
+  // The edges before the first existing sun1 cannot be counted: 8 % of the first turns.
   EXPECT_LE(good_rejected, 0.02 * good);
 }
 
@@ -267,7 +267,8 @@ TEST(AssociationDirt, AGoodEdgeBehindASpoiltOneTakesItsPlace) {
   }
 }
 
-/// Those of the first receiver have a place, those of the second are left out as copies.
+/// Expects the edges of the first receiver to be used and those of the second to be left out as
+/// copies.
 void expect_first_of_copies_used(const Pass& first, const Association& all) {
   for (const PulseUse& use : all.left_over) {
     ASSERT_FALSE(first.turns.contains(use.pulse)) << name_of(use.pulse.channel);
@@ -304,10 +305,10 @@ TEST(AssociationDirt, ACopyOfOneChannelLeavesTheOthers) {
   }
 }
 
-/// Three sigma reject 0.27 % of good edges.
+/// Limit well above the 0.27 % of good edges that three sigma reject.
 constexpr double kOneInAHundred = 0.01;
 
-/// Those that had been received so far, not those that are earlier than expected.
+/// The channels must stay with the edges received so far, not with those earlier than expected.
 TEST(AssociationDirt, CopiesThatBeginMidwayMoveNoChannel) {
   std::mt19937_64 rng{312};
   for (const double behind_s : {-0.005, 0.005}) {
@@ -318,12 +319,12 @@ TEST(AssociationDirt, CopiesThatBeginMidwayMoveNoChannel) {
     const Mistakes counted = mistakes(pass, all);
     EXPECT_EQ(counted.misplaced, 0);
     EXPECT_LE(counted.rejected, kOneInAHundred * counted.good);
-    // Of thirty turns, but the first of them.
+    // Thirty turns have copies; the first few of them are not yet recognised.
     EXPECT_GE(all.copies.size(), 25U * kPulseChannels);
   }
 }
 
-/// The first receiver begins with a channel late, when that is known where the second has it.
+/// The first receiver's channel begins late, when it is already tracked on the second's edges.
 TEST(AssociationDirt, AllChannelsAreOfTheSameReceiverInTheEnd) {
   std::mt19937_64 rng{315};
   for (const PulseChannel channel : testing::kEveryChannel) {
@@ -373,7 +374,7 @@ TEST(AssociationDirt, AChannelThatHasHalfOfItsEdgesOrTwiceAsManyMovesNoPeriod) {
   }
 }
 
-/// Neither sun2 nor anything else says on which side the Sun is.
+/// Without sun2 nothing shows which of the two sun1 is real.
 TEST(AssociationDirt, OfTwoSun1HalfATurnApartWithoutSun2NoneIsUsed) {
   std::mt19937_64 rng{314};
   Pass pass = made({.turns = 100}, rng);
@@ -403,7 +404,7 @@ TEST(AssociationDirt, ASpoiltSun1IsRejectedAloneAndKeptWithItsRevolution) {
   EXPECT_EQ(spoilt.edge_rejections.at(index_of(Sun1)), Rejection::Phase);
   ASSERT_TRUE(spoilt.period_candidate);
   EXPECT_EQ(spoilt.period_candidate->rejected_by, Rejection::Phase);
-  // Where the clock expects it: within five sigmas of the edge.
+  // The start of the revolution is the clock's expectation, within five sigmas of the edge.
   EXPECT_NEAR(seconds_between(kStart, spoilt.t_start), 40.0, 5e-4);
   for (const std::size_t next : {39U, 41U}) {
     EXPECT_TRUE(all.closed.at(next).good_edge(Sun1));
@@ -438,7 +439,7 @@ TEST(AssociationDirt, FollowsTheEarthFromALowOrbitAtAnyRate) {
         testing::pulses_from(testing::edges_between(body, around, 0.0, 60.0 / rpm * 150.0), kStart,
                              body.config.noise, rng);
     const auto good = good_edges(associated(pulses));
-    // 3 sigma, 0.27 %, of 900, and the turn that begins before the first sun1.
+    // Three sigma reject 0.27 % of 900 edges; the turn before the first sun1 is lost too.
     EXPECT_GE(good.size() + 20, pulses.size());
   }
 }
@@ -526,7 +527,7 @@ TEST(AssociationDirt, HandsAClockThatABeamRanToASun1ThatAppears) {
                 [&](const Pulse& p) { return sees_the_sun(p.channel) && seconds_in(p) < 112.0; });
     const Mistakes counted = mistakes(pass, associated(pass.pulses));
     EXPECT_EQ(counted.misplaced, 0);
-    // The slits are learnt for some turns, the beams for one or two once sun1 counts.
+    // The slits need some turns to be learnt, the beams one or two after sun1 counts.
     EXPECT_LE(counted.rejected, 0.06 * counted.good);
   }
 }
@@ -559,7 +560,7 @@ TEST(AssociationDirt, ChangesOverToASun1ThatAppearsAndBackWhenItDies) {
                 });
     const Association all = associated(pass.pulses);
     const Mistakes counted = mistakes(pass, all);
-    // Behind which sun1 a chord is counted is not known before there is one.
+    // Before the first sun1 it is unknown after which sun1 a chord is to be counted.
     EXPECT_LE(counted.rejected, 0.01 * counted.good);
     int sun1_edges = 0;
     for (std::size_t i = 1; i < all.closed.size(); ++i) {
@@ -568,7 +569,8 @@ TEST(AssociationDirt, ChangesOverToASun1ThatAppearsAndBackWhenItDies) {
     }
     EXPECT_GE(sun1_edges, 0.95 * 150);
     ASSERT_NEAR(all.closed.back().period.period_s, 1.0, 4.0 * all.closed.back().period.sigma_s);
-    // Sun1 is gone for 150 turns: t_start is where it would be, but for the Earth's motion.
+    // During the 150 turns without sun1, t_start is its expected time except for the Earth's
+    // motion.
     EXPECT_NEAR(seconds_between(kStart, all.closed.back().t_start), 399.0, 0.01);
   }
 }
@@ -629,7 +631,7 @@ TEST(AssociationDirt, NoTimeIsTooAbsurd) {
   }
 }
 
-/// An edge may be stated worse than a turn is long: then no turn can be counted.
+/// The stated noise of an edge may exceed a turn; then no turn can be counted.
 TEST(Association, EveryEdgeIsAccountedForHoweverNoisyItIsSaidToBe) {
   for (const double rpm : {5.0, 60.0, 200.0}) {
     for (const double noise_s : {1e-9, 1e-3, 1e-2, 3e-2, 0.1}) {

@@ -1,6 +1,3 @@
-/// Association where two channels cross, on a link that displaces edges which come too near to each
-/// other.
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -22,7 +19,7 @@ using enum PulseChannel;
 constexpr double kPeriod_s = 1.0;
 constexpr int kTurns = 600;
 
-/// south_out falls behind north_out by `apart_s`, more by `drift_s` each turn.
+/// Describes a crossing: south_out comes `apart_s` after north_out, and `drift_s` later each turn.
 struct Crossing {
   double window_s;
   double apart_s;
@@ -33,7 +30,7 @@ struct Edge {
   int turn;
   double t_s;
   PulseChannel channel;
-  double noise_s;  ///< By which it is off, but for interference.
+  double noise_s;  ///< Timing error of the edge apart from interference.
   bool met = false;
 };
 
@@ -60,7 +57,7 @@ std::vector<Edge> edges_of(const Crossing& crossing, const PulseNoise& noise,
   return edges;
 }
 
-/// In every turn north_out and south_out, the 4th and the 6th.
+/// Displaces north_out and south_out (index 3 and 5) in every turn in which they are too close.
 void interfere(double window_s, std::vector<Edge>& edges, std::mt19937_64& rng) {
   std::uniform_real_distribution<double> half{-0.5 * window_s, 0.5 * window_s};
   for (std::size_t i = 0; i < edges.size(); i += kPulseChannels) {
@@ -78,9 +75,9 @@ struct Outcome {
   int met_and_good = 0;
   int good_far_apart = 0;
   int far_apart = 0;
-  int good = 0;  ///< Of the two.
+  int good = 0;  ///< Good edges among the two channels.
   int others = 0;
-  double off_sigmas = 0.0;  ///< Sum, each away from the other.
+  double off_sigmas = 0.0;  ///< Sum of the errors away from the other edge, sigma.
   std::vector<InterferingChannels> began;
   std::vector<InterferingChannels> interfering;
 };
@@ -153,9 +150,9 @@ Outcome outcome_of(const Crossing& crossing, std::uint64_t seed) {
   return outcome_of(crossing, edges);
 }
 
-// Those that escape lie too far from each other. At 2.5 sigma beyond the window that is 0.0125
-// sigma of an edge, further out less: over these passes not more than their mean's own noise, of
-// which three times is allowed.
+// The kept edges are selected for a large separation. At 2.5 sigma beyond the window this biases an
+// edge by 0.0125 sigma, further out by less: no more than the standard error of the mean over these
+// passes, of which three are allowed.
 TEST(AssociationInterference, WhatIsKeptIsNeitherSpoiltNorBiased) {
   for (const Crossing& crossing :
        {Crossing{0.002, -0.0005, 1.2e-5}, Crossing{0.002, 0.0, 2.0e-5},
@@ -177,8 +174,8 @@ TEST(AssociationInterference, WhatIsKeptIsNeitherSpoiltNorBiased) {
   }
 }
 
-// While the count begins spoilt edges are set aside; then nearly all that could put south_out right
-// again are spoilt.
+// Displaced edges are set aside while the count begins; then nearly all edges that could correct
+// south_out are displaced.
 TEST(AssociationInterference, AChannelLearntFromWrongEdgesIsPutRightBySpoiltOnes) {
   const Crossing crossing{.window_s = 0.008, .apart_s = -0.002, .drift_s = 0.0};
   constexpr std::array kWrong_s = {0.028, -0.035, -0.039};
@@ -192,7 +189,7 @@ TEST(AssociationInterference, AChannelLearntFromWrongEdgesIsPutRightBySpoiltOnes
     interfere(crossing.window_s, edges, rng);
     met_and_good += outcome_of(crossing, edges).met_and_good;
   }
-  EXPECT_LT(met_and_good, 10);  // Of 24,000; without the spoilt ones 199.
+  EXPECT_LT(met_and_good, 10);  // 24,000 edges; the count is 199 if displaced edges are not used.
 }
 
 TEST(AssociationInterference, NothingIsLeftOutWhereChannelsAreFarFromEachOther) {
@@ -212,7 +209,7 @@ TEST(AssociationInterference, SaysWhichChannelsInterferedAndForHowLong) {
   const InterferingChannels& channels = outcome.interfering.front();
   EXPECT_EQ(channels.one, NorthOut);
   EXPECT_EQ(channels.other, SouthOut);
-  // Until 2.5 sigma beyond the window, where nothing has shown by more than a sigma.
+  // The effect lasts until 2.5 sigma beyond the window, where nothing exceeds a sigma.
   const double sigma_s = std::hypot(5e-4, 5e-4);
   EXPECT_GT(channels.revolutions, static_cast<std::int64_t>((0.002 + 1.5 * sigma_s) / 2e-5));
   EXPECT_LT(channels.revolutions, static_cast<std::int64_t>((0.002 + 3.5 * sigma_s) / 2e-5));

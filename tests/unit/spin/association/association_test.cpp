@@ -51,8 +51,7 @@ TEST(Association, LostEdgesLeaveTheOthersWhereTheyBelong) {
     std::bernoulli_distribution lost{0.2};
     const auto edges = without(made({.turns = 150, .noise_s = 1e-4}, rng),
                                [&](const MadeEdge& e) { return e.turn > 0 && lost(rng); });
-    // Counting begins at the first sun1 whose successor is there, a channel when three of its edges
-    // agree.
+    // The count begins at the first sun1 with a successor, a channel after three consistent edges.
     const Association all = associate(edges);
     const std::size_t before_first = all.left_over.size();
     EXPECT_LT(before_first, 40U);
@@ -102,10 +101,10 @@ TEST(Association, SpuriousEdgesAreLeftOver) {
     std::sort(pulses.begin(), pulses.end());
     const Association all = associate(pulses);
     const auto found = places(all);
-    // Counting begins at the first sun1 whose successor is there and undisturbed.
+    // The count begins at the first sun1 with an undisturbed successor.
     const auto first_sun1 = all.closed.front().edge(Sun1);
     ASSERT_LE(first_sun1, shifted(kStart, 5.0 * kPeriod_s));
-    // A spurious edge within the noise (0.1 ms) of a genuine one cannot be told from it.
+    // A spurious edge within the noise (0.1 ms) of a genuine one cannot be distinguished from it.
     const auto stands_in_for = [](const MadeEdge& edge) {
       return [&edge](const auto& place) {
         return place.first.channel == edge.pulse.channel &&
@@ -151,7 +150,7 @@ TEST(Association, EdgesBeforeTheFirstSun1AreLeftOver) {
       all, without(edges, [](const MadeEdge& edge) { return edge.turn == 0; }));
 }
 
-// Nearer to the pass it could be a first edge with some lost behind it.
+// Closer to the pass, a stray edge could be a first edge followed by lost ones.
 TEST(Association, AStrayEdgeBeforeThePassIsNotItsFirst) {
   const auto edges = made({.noise_s = 1e-4});
   const Pulse& first = edges.front().pulse;
@@ -188,7 +187,7 @@ TEST(Association, AChannelThatBeginsLateIsBelievedWithItsThirdEdge) {
                                 }));
 }
 
-/// Strays of a silent channel, doubled ones too, make none.
+/// Strays of a silent channel, including doubled ones, do not make a channel.
 TEST(Association, StraysOfASilentChannelFindNoPlace) {
   for (const PulseChannel silent : {Sun2, NorthIn, SouthOut}) {
     const auto edges = without(made({.turns = 2000, .noise_s = 1e-4}),
@@ -211,7 +210,7 @@ TEST(Association, StraysOfASilentChannelFindNoPlace) {
   }
 }
 
-/// After a silence that long, one edge near its old place is no more than a stray either.
+/// After a long silence, one edge near the old phase counts as a stray.
 TEST(Association, AChannelThatFellSilentHasToShowItselfAnew) {
   const auto edges = without(made({.turns = 200, .noise_s = 1e-4}), [](const MadeEdge& edge) {
     return edge.pulse.channel == Sun2 && edge.turn > 50 && edge.turn != 120 && edge.turn < 150;
@@ -231,7 +230,7 @@ TEST(Association, AShortPassIsAssociatedWhenItEnds) {
 }
 
 TEST(Association, WithoutAPeriodEveryEdgeIsLeftOver) {
-  const auto edges = made({.turns = 2});  // One interval alone.
+  const auto edges = made({.turns = 2});  // Two turns give a single interval only.
   const Association all = associate(edges);
   EXPECT_TRUE(all.closed.empty());
   EXPECT_EQ(all.left_over.size(), edges.size());

@@ -13,7 +13,7 @@ namespace spindrift::clock_start_test {
 
 constexpr TaiTime kStart = tai_from_ns(1'795'143'637'000'000'000);
 
-/// One behind the other.
+/// Returns consecutive period notes.
 std::vector<PeriodNote> notes_of(const std::vector<double>& periods_s) {
   std::vector<PeriodNote> notes;
   TaiTime t = kStart;
@@ -30,7 +30,7 @@ double period_s_of(const std::vector<double>& periods_s) {
 }
 
 TEST(StartClock, ByEdgesIsNotMisledByStrayOnesNearAThirdOfATurn) {
-  // Of a simulated pass, in turns: two stray edges within half a percent of two thirds.
+  // Edges of a simulated pass, in turns; two strays are within half a percent of two thirds.
   constexpr double kTurn_s = 1.2349;
   const std::vector<double> turns = {0.0,    1.0,  2.0,  2.6613, 3.0,    3.1306, 4.0,
                                      4.6610, 5.0,  6.0,  7.0,    7.1238, 8.0,    9.0,
@@ -47,7 +47,7 @@ TEST(StartClock, ByEdgesIsNotMisledByStrayOnesNearAThirdOfATurn) {
   EXPECT_GT(started, 8);
 }
 
-/// Every sun1 of a turn of one second, or some of them, among the edges of four other channels.
+/// Returns sun1 edges every `sun1_every_s` among the edges of four other channels at 1 s a turn.
 std::vector<Pulse> among_others(double sun1_every_s) {
   std::vector<Pulse> pulses;
   for (double t_s = 0.0; t_s < 30.0; t_s += sun1_every_s) {
@@ -78,7 +78,7 @@ TEST(StartClock, ByEdgesTakesThePeriodThatMostChannelsAgreeOn) {
       }
     }
     ASSERT_TRUE(start);
-    // Times are whole nanoseconds.
+    // Times are rounded to nanoseconds.
     EXPECT_NEAR(start->clock.period_s(), 1.0, 1e-9);
     EXPECT_EQ(start->reference, sun1_every_s == 1.0 ? PulseChannel::Sun1 : PulseChannel::Sun2);
   }
@@ -93,7 +93,7 @@ TEST(StartClock, ByNotesTakesThePeriodOfThreeThatAgree) {
 TEST(StartClock, ByNotesIsNotMisledByPeriodsOfSeveralTurns) {
   EXPECT_DOUBLE_EQ(period_s_of({14.7, 14.7, 14.7, 7.35, 7.35, 7.35}), 7.35);
   EXPECT_DOUBLE_EQ(period_s_of({22.05, 14.7, 7.35, 22.05, 7.35, 22.05, 22.05, 7.35}), 7.35);
-  // One false short note divides nothing.
+  // A single wrong short note does not divide the period.
   EXPECT_DOUBLE_EQ(period_s_of({14.7, 14.7, 14.7, 7.35}), 14.7);
   EXPECT_DOUBLE_EQ(period_s_of({14.7, 14.7, 14.7, 9.0, 9.0}), 14.7);
 }

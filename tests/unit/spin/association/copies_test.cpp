@@ -22,12 +22,12 @@ TEST(Copies, FollowTheFirstEdgeOfTheirChannelWithinATwentiethOfATurn) {
   Copies copies;
   for (int turn = 0; turn < 3; ++turn) {
     EXPECT_FALSE(copies.behind_first_s(edge(turn), kPeriod_s));
-    // From the third revolution on they are usual.
+    // Copies are recognised from the third revolution on.
     EXPECT_EQ(copies.behind_first_s(edge(turn + 0.02), kPeriod_s).has_value(), turn == 2);
   }
   EXPECT_FALSE(copies.behind_first_s(edge(3.0), kPeriod_s));
   EXPECT_FALSE(copies.behind_first_s(edge(3.01, Sun2), kPeriod_s));
-  // Times are whole nanoseconds.
+  // Times are rounded to nanoseconds.
   EXPECT_NEAR(copies.behind_first_s(edge(3.02), kPeriod_s).value(), 0.02, 2e-9);
   EXPECT_NEAR(copies.behind_first_s(edge(3.049), kPeriod_s).value(), 0.049, 2e-9);
   EXPECT_FALSE(copies.behind_first_s(edge(3.051), kPeriod_s));
@@ -65,7 +65,7 @@ TEST(Copies, AreNotUsualWhereHalfOfTheRevolutionsBringThem) {
   }
 }
 
-/// Of normal delays the quartiles are 1.35 sigma apart.
+/// The quartiles of normal delays are 1.35 sigma apart.
 TEST(Copies, AreInAnyOrderWhereTheirDelayIsLessThanItsNoise) {
   constexpr double kNoise_s = 1e-4;
   for (const auto& [delay_s, jitter_s, apart, any_order] : {std::tuple{1e-9, 0.0, false, false},

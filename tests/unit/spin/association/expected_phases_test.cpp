@@ -23,7 +23,7 @@ class ExpectedPhasesTest : public ::testing::Test {
     phases_.set_period(kPeriod_s);
     phases_.define(Sun1, 0, 0.0);
   }
-  /// Edges of so many turns from `first` on, whose phase changes by `drift` a turn.
+  /// Returns edges of `turns` turns from `first` on whose phase changes by `drift` each turn.
   static std::vector<double> counts(int turns, double phase, double drift = 0.0, int first = 0) {
     std::vector<double> counts;
     for (int turn = first; turn < first + turns; ++turn) {
@@ -46,8 +46,8 @@ TEST_F(ExpectedPhasesTest, AChannelPlacedByDefinitionStaysThere) {
   EXPECT_NEAR(phases_.phase_sigma(Sun1, 3.0), config_.noise.sun_s / kPeriod_s, 1e-15);
 }
 
-/// An acceleration of 2e-6 rad/s^2, in turns a turn of the spin: T^2 / (2 pi) of it; the Sun has
-/// none.
+/// The allowance is an acceleration of 2e-6 rad/s^2 for the Earth, T^2 / (2 pi) of it in turns per
+/// turn squared, and none for the Sun.
 TEST_F(ExpectedPhasesTest, TheEarthWandersWithTheSquareOfThePeriod) {
   EXPECT_NEAR(earth_wander_turns(NorthIn, 1.0), 2e-6 / (2.0 * std::numbers::pi), 1e-18);
   EXPECT_NEAR(earth_wander_turns(SouthOut, 10.0) / earth_wander_turns(SouthOut, 2.0), 25.0, 1e-12);
@@ -57,8 +57,8 @@ TEST_F(ExpectedPhasesTest, TheEarthWandersWithTheSquareOfThePeriod) {
 TEST_F(ExpectedPhasesTest, LearnsPhaseAndDriftOfEvenEdges) {
   constexpr double kDrift = 1e-4;
   ASSERT_TRUE(phases_.learn(NorthIn, counts(30, 0.3, kDrift), kFewest, 0.0));
-  // What is possible, 2e-4 a turn, and what thirty edges of 5e-4 show, 1e-5, share the drift: a
-  // part in four hundred of it is lost; over the thirty turns 1e-5.
+  // The prior of the drift, 2e-4 a turn, and what thirty edges of 5e-4 determine, 1e-5, share it:
+  // 1/400 of the drift is lost, which is 1e-5 over thirty turns.
   EXPECT_NEAR(phases_.drift(NorthIn), kDrift, 0.02 * kDrift);
   EXPECT_NEAR(phases_.at(NorthIn, 15.0), 0.3 + 15.0 * kDrift, 5e-5);
   EXPECT_NEAR(phases_.at(NorthIn, 60.0), 0.3 + 60.0 * kDrift, 2e-4);
@@ -81,7 +81,7 @@ TEST_F(ExpectedPhasesTest, TheSigmaOfALearntPhaseIsThatOfItsScatter) {
     squares += std::pow(phases.at(NorthIn, 0.0) - 0.3, 2);
     sigma_squares += std::pow(phases.phase_sigma(NorthIn, 0.0), 2);
   }
-  // At its end a line through n points is known to 2 sigma / sqrt(n); the drift is known besides.
+  // At its end a line through n points is known to 2 sigma / sqrt(n); the drift's prior adds to it.
   EXPECT_LT(squares, 1.3 * sigma_squares);
   EXPECT_GT(squares, 0.2 * sigma_squares);
 }
@@ -109,7 +109,7 @@ TEST_F(ExpectedPhasesTest, EdgesAnywhereAreNotLearnt) {
   EXPECT_EQ(learnt, 0);
 }
 
-/// Edges of two places in each turn.
+/// Merges the edges of two places in each turn.
 std::vector<double> both(std::vector<double> one, const std::vector<double>& other) {
   one.insert(one.end(), other.begin(), other.end());
   std::sort(one.begin(), one.end());
@@ -121,7 +121,7 @@ TEST_F(ExpectedPhasesTest, OfTwoPlacesInATurnNothingIsLearnt) {
     SCOPED_TRACE(apart);
     const auto all = both(counts(12, 0.3), counts(12, 0.3 + apart));
     EXPECT_FALSE(phases_.learn(NorthIn, all, kFewest, 0.0));
-    // Nor where a few are lost, of one of them or the other.
+    // Lost edges of either place do not change that.
     const auto most = both(counts(12, 0.3), counts(8, 0.3 + apart));
     EXPECT_FALSE(phases_.learn(NorthIn, most, kFewest, 0.0));
     ExpectedPhases strays{phases_};

@@ -25,8 +25,8 @@ std::vector<TaiTime> instants(std::vector<double> times_s) {
   return edges;
 }
 
-/// When a body that turns at `rate_hz`, which changes by `drift_per_s2`, has made n turns: the root
-/// of rate t + drift t^2 / 2 = n that grows from 0.
+/// Returns the time after n turns at `rate_hz` that changes by `drift_per_s2`: the root of rate t +
+/// drift t^2 / 2 = n that grows from 0.
 double time_of_turn(int n, double rate_hz, double drift_per_s2) {
   const double root = std::sqrt(rate_hz * rate_hz + 2.0 * drift_per_s2 * n);
   return 2.0 * n / (rate_hz + root);
@@ -45,7 +45,7 @@ TEST(PeriodSearch, EvenEdgesAreACombOfTheirSpacing) {
     SCOPED_TRACE(period_s);
     const auto comb = find_pulse_train(instants(even_edges(20, period_s)), kNoise_s, kFewest);
     ASSERT_TRUE(comb);
-    // Times are whole nanoseconds.
+    // Times are rounded to nanoseconds.
     EXPECT_NEAR(comb->period_s, period_s, 1e-9);
     EXPECT_NEAR(elapsed_s(kStart, comb->t), 0.0, 2e-9);
     EXPECT_EQ(comb->drift_per_s2, 0.0);
@@ -68,8 +68,8 @@ TEST(PeriodSearch, FewerEdgesThanAskedForAreNoEvidence) {
   EXPECT_FALSE(find_pulse_train({}, kNoise_s, kFewest));
 }
 
-/// The standard deviation of the slope of a line through n equidistant points is
-/// sigma sqrt(12 / (n^3 - n)).
+/// The slope of a line through n equidistant points has a standard deviation of sigma sqrt(12 /
+/// (n^3 - n)).
 TEST(PeriodSearch, NoiseMovesThePeriodAsTheSlopeOfALine) {
   std::mt19937_64 rng{41};
   std::normal_distribution<double> noise_s{0.0, kNoise_s};
@@ -87,7 +87,7 @@ TEST(PeriodSearch, NoiseMovesThePeriodAsTheSlopeOfALine) {
     squares += std::pow(comb->period_s - period_s, 2);
   }
   const double sigma_s = kNoise_s * std::sqrt(12.0 / (kEdges * (kEdges * kEdges - 1.0)));
-  // A robust line loses a part of what least squares have: medians need up to pi / 2 as many.
+  // A robust line is less efficient than least squares: medians need up to pi / 2 times the points.
   const double ratio = std::sqrt(squares / kTrials) / sigma_s;
   EXPECT_GT(ratio, 0.85);
   EXPECT_LT(ratio, 1.6);
@@ -102,13 +102,14 @@ TEST(PeriodSearch, ADriftIsThatOfTheRate) {
     }
     const auto comb = find_pulse_train(instants(times_s), 1e-6, kFewest);
     ASSERT_TRUE(comb);
-    // A parabola in the turn has no third order: (drift / rate^2)^2 n of its drift, about.
+    // A parabola in turns neglects the third order, about (drift / rate^2)^2 n of the drift.
     EXPECT_NEAR(comb->drift_per_s2, drift_per_s2, 0.01 * std::abs(drift_per_s2));
     EXPECT_NEAR(comb->period_s, 1.0 / kRate_hz, 1e-6);
   }
 }
 
-/// A quarter of the edges lost and every eighth a stray: neither a multiple nor a fraction.
+/// A quarter of the edges is lost and every eighth is a stray: the period must not become a
+/// multiple or a fraction.
 TEST(PeriodSearch, LostAndStrayEdgesChangeNeitherThePeriodNorItsCount) {
   std::mt19937_64 rng{42};
   std::uniform_real_distribution<double> share;
@@ -133,7 +134,7 @@ TEST(PeriodSearch, LostAndStrayEdgesChangeNeitherThePeriodNorItsCount) {
   EXPECT_GT(found, kTrials * 9 / 10);
 }
 
-/// Two receivers, each with a tenth of the edges lost and a clock of its own.
+/// Two receivers each lose a tenth of the edges and have independent clock noise.
 TEST(PeriodSearch, EdgesThatComeSeveralTimesHaveThePeriodOfTheFirst) {
   std::mt19937_64 rng{44};
   std::normal_distribution<double> normal;
@@ -154,7 +155,7 @@ TEST(PeriodSearch, EdgesThatComeSeveralTimesHaveThePeriodOfTheFirst) {
         }
         const auto comb = find_pulse_train(instants(times_s), kNoise_s, kFewest);
         ASSERT_TRUE(comb);
-        // The sigma of the slope of twenty, with the noise of two, is a thirteenth of it.
+        // The sigma of a slope through twenty points, with the noise of two, is 1/13 of the noise.
         EXPECT_NEAR(comb->period_s, period_s, kNoise_s);
       }
     }

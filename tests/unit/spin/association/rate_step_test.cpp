@@ -16,8 +16,8 @@ TEST(RateStep, EdgesOfANewRateAreACombOfTheirOwn) {
     watch.add(later_by_s(kStart, turn * 1.0), true);
     EXPECT_FALSE(watch.new_pulse_train(kNoise_s, kPeriod_s));
   }
-  // From four wrong ones on the question is asked, but six on the comb are needed; the last good
-  // edge, where the rate steps, is the first of them.
+  // The search starts after four wrong edges but needs six on the comb; the last good edge, where
+  // the rate steps, is the first of these.
   for (int turn = 1; turn <= 4; ++turn) {
     watch.add(later_by_s(kStart, 4.0 + turn * 0.9), false);
     EXPECT_FALSE(watch.new_pulse_train(kNoise_s, kPeriod_s)) << turn;
@@ -60,7 +60,7 @@ TEST(RateStep, ACombThatTheLastEdgeIsNotOnIsNoReason) {
   EXPECT_FALSE(watch.new_pulse_train(kNoise_s, kPeriod_s));
 }
 
-/// Time stamps that stepped back by a third of a turn: both trains lie on a comb of a third.
+/// After time stamps stepped back by a third of a turn, both trains lie on a comb of a third.
 TEST(RateStep, ThinlyFilledTeethOfAFractionAreNoNewRate) {
   RateStepDetector watch;
   for (int turn = 0; turn < 9; ++turn) {

@@ -36,7 +36,7 @@ TEST(SpinClock, LearnsAnEvenDrift) {
   const double rate = 1.0 / kPeriod_s;
   constexpr int kTurns = 1000;
   for (int turn = 1; turn <= kTurns; ++turn) {
-    // rate t + drift t^2 / 2 = turn.
+    // Solves rate t + drift t^2 / 2 = turn.
     const double t_s = 2.0 * turn / (rate + std::sqrt(rate * rate + 2.0 * kDrift_per_s2 * turn));
     ASSERT_TRUE(clock.follow(turn, later_by_s(kStart, t_s), kNoise_s, 0.0, kOpen));
   }

@@ -1,5 +1,3 @@
-/// What `batch` says of a pass that is not as it should be.
-
 #include "pipelines/spin/batch/batch_estimator.h"
 
 #include <gmock/gmock.h>
@@ -102,7 +100,7 @@ TEST(BatchEstimator, AManoeuvreIsNamedAndTheAxisIsThatAfterIt) {
   const auto solution = scene.solved(edges);
   ASSERT_TRUE(solution) << solution.error().message;
   ASSERT_TRUE(solution->changed) << sentence_of(solution->estimate.assessment);
-  // A sixty-fourth of the pass is 9.4 turns.
+  // 1/64 of the pass is 9.4 turns.
   EXPECT_NEAR(seconds_between(moved_at, *solution->changed) * after.rate_rad_s, 0.0,
               10.0 * 2.0 * std::numbers::pi);
   EXPECT_LT(scene.error_sigmas(*solution), 3.0) << sentence_of(solution->estimate.assessment);
@@ -135,7 +133,7 @@ TEST(BatchEstimator, BeginsAtThePriorWhereThePassHasNoFix) {
   EXPECT_LT(scene.error_sigmas(*solution), 3.0);
 }
 
-/// What turns have that give no fix: case 8 (both infrared sensors), 9 (both sun slits) and 10 (one
+/// Channels of turns without a fix: case 8 (both infrared sensors), 9 (both sun slits) and 10 (one
 /// infrared sensor).
 constexpr std::array<std::array<bool, kPulseChannels>, 3> kCasesWithoutFix = {
     {{false, false, true, true, true, true},
@@ -160,7 +158,7 @@ TEST(BatchEstimator, TurnsOfCases8To10DetermineTheAxisTogetherAndEveryEdgeCounts
     auto fewer = edges;
     std::erase_if(fewer, [&](const PassEdge& edge) { return case_of(edge) == without; });
     const auto solution = scene.solved(fewer);
-    // Ten minutes of chords alone do as well: the cone about the Earth moves with it.
+    // Ten minutes of chords alone suffice, because the cone about the Earth moves with the Earth.
     ASSERT_TRUE(solution) << "without case " << 8 + without << solution.error().message;
     EXPECT_LT(scene.error_sigmas(*solution), 3.0) << "without case " << 8 + without;
     EXPECT_LT(all->bound_rad, 0.98 * solution->bound_rad) << "without case " << 8 + without;
@@ -201,7 +199,7 @@ TEST(BatchEstimator, EdgesOfOneSensorAloneLeaveTheAxisOpen) {
   }
 }
 
-/// Where the solution slides to, at the Sun, its slit seems to tell all.
+/// The solution slides towards the Sun, where the slit seems to determine everything.
 TEST(BatchEstimator, EdgesOfOneSlitNearTheSunLeaveTheAxisOpen) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     SCOPED_TRACE(seed);
@@ -226,7 +224,7 @@ TEST(BatchEstimator, WithoutAStartThereIsNone) {
   EXPECT_THAT(solution.error().message, HasSubstr("no fix"));
 }
 
-/// Of 31 such scenes two thirds end so.
+/// Two thirds of 31 such scenes end like this.
 TEST(BatchEstimator, AStartOnTheOtherSideOfTheSkyDivergesAndIsNoSolution) {
   Scene scene;
   const auto solution = scene.solved(scene.pass(100.0), 180.0);
@@ -235,7 +233,7 @@ TEST(BatchEstimator, AStartOnTheOtherSideOfTheSkyDivergesAndIsNoSolution) {
   EXPECT_THAT(solution.error().message, HasSubstr("of 600 edges are not where it has them"));
 }
 
-/// And one third so.
+/// One third of 31 such scenes ends like this.
 TEST(BatchEstimator, AStartOnTheOtherSideOfTheSkyMayFindItsWay) {
   Scene scene{1813};
   const auto solution = scene.solved(scene.pass(100.0), 180.0);
@@ -254,7 +252,7 @@ TEST(BatchEstimator, AStartAnywhereIsNoReasonToSayOkOfAnotherAxis) {
     for (const double off_deg : {60.0, 90.0, 120.0}) {
       const auto solution = scene.solved(edges, off_deg);
       if (solution && is_unopposed(solution->estimate.assessment.quality)) {
-        // A chance of 3e-4 each time.
+        // The probability is 3e-4 each time.
         EXPECT_LT(scene.error_sigmas(*solution), 4.0) << sentence_of(solution->estimate.assessment);
       }
     }

@@ -14,7 +14,7 @@
 namespace spindrift::batch_fit_test {
 
 struct ExactPass : testing::ExactPass {
-  /// Of the frame `spin`, with the body's phase.
+  /// Returns the true state rotated by `turn_rad` in the frame `spin`.
   SpinState turned(const Eigen::Vector3d& turn_rad) const {
     SpinState state = truth;
     state.q_icrf_spin = state.q_icrf_spin * Eigen::Quaterniond{Eigen::AngleAxisd{
@@ -26,9 +26,8 @@ struct ExactPass : testing::ExactPass {
   }
 };
 
-// The model's sky stands still for ten seconds: a hundredth of the noise of an edge
-// (pass_model_test), 5e-4 s of a body that turns in a second or more, divided by what hundreds of
-// edges average.
+// Sun and Earth are held constant for ten seconds. The error is a hundredth of an edge's noise
+// (pass_model_test), 5e-4 s of a turn of a second or more, averaged over hundreds of edges.
 constexpr double kExact_rad = 1e-4;
 
 TEST(BatchFit, ExactEdgesLeadBackFromDegreesAway) {
@@ -40,7 +39,7 @@ TEST(BatchFit, ExactEdgesLeadBackFromDegreesAway) {
     const auto found = fit(pass.model, pass.edges, start, {});
     ASSERT_TRUE(found);
     EXPECT_LT(pass.off_rad(found->state), kExact_rad);
-    // Over the pass the rate makes an angle: as exact as the others.
+    // The angle that the rate makes over the pass must be as exact as the others.
     EXPECT_LT(std::abs(found->state.rate_rad_s - pass.truth.rate_rad_s) * pass.model.half_s(),
               kExact_rad);
     EXPECT_LT(std::abs(found->state.drift_rad_s2) * 0.5 * std::pow(pass.model.half_s(), 2),
@@ -67,7 +66,7 @@ TEST(BatchFit, ARateThatIsOffAtTheStartIsFound) {
             kExact_rad);
 }
 
-/// The coarse fit is of the same model and, of so few edges, of all of them.
+/// The coarse fit has the same model and, with so few edges, uses all of them.
 TEST(BatchFit, TheCoarseFitLeadsToTheSameMinimum) {
   const ExactPass pass;
   const SpinState coarse = coarse_fit(
@@ -75,7 +74,7 @@ TEST(BatchFit, TheCoarseFitLeadsToTheSameMinimum) {
   EXPECT_LT(pass.off_rad(coarse), 0.05 * kRadPerDeg);
 }
 
-/// Tukey's biweight gives an edge beyond its limit no weight at all.
+/// Tukey's biweight gives no weight to an edge beyond its limit.
 TEST(BatchFit, EdgesFarOffHaveNoInfluence) {
   ExactPass pass;
   const SpinState clean = fit(pass.model, pass.edges, pass.truth, {}).value().state;
@@ -91,8 +90,7 @@ TEST(BatchFit, EdgesFarOffHaveNoInfluence) {
   EXPECT_LT(clean.q_icrf_spin.angularDistance(spoilt.q_icrf_spin), kExact_rad);
 }
 
-/// The errors of passes with the stated noise, whitened by nothing but the count of edges: four
-/// times the edges, half the error.
+/// Four times the edges must halve the error.
 TEST(BatchFit, ErrorsFallWithTheRootOfTheNumberOfEdges) {
   const auto rms_rad = [](double turns) {
     double squares = 0.0;
@@ -107,7 +105,7 @@ TEST(BatchFit, ErrorsFallWithTheRootOfTheNumberOfEdges) {
     }
     return std::sqrt(squares / kPasses);
   };
-  // The ratio of two such has a standard deviation of a ninth of itself: 2 of 80 components each.
+  // Each rms has 80 components, so the ratio has a standard deviation of 1/9 of itself.
   const double ratio = rms_rad(20.0) / rms_rad(80.0);
   EXPECT_GT(ratio, 1.4);
   EXPECT_LT(ratio, 2.8);

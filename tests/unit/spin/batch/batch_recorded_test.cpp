@@ -1,5 +1,3 @@
-/// The recorded passes, solved as a whole.
-
 #include <gtest/gtest.h>
 
 #include <cmath>

@@ -1,4 +1,4 @@
-/// Which bias the residuals ask for, against closed forms of the quadratic likelihood.
+/// The bias chosen by the residuals, compared with closed forms of the quadratic likelihood.
 
 #include "pipelines/spin/batch/bias_choice.h"
 
@@ -12,8 +12,8 @@ namespace spindrift::bias_choice_test {
 
 constexpr BiasSet kNone;
 
-/// Edges that know the motion, of which no bias is a part, and that say `gain` for a bias known
-/// twenty times as well as its prior.
+/// Adds edges that ask for a bias with a likelihood gain of `gain`. They determine the bias twenty
+/// times as well as its prior and do not mix it with the motion.
 void ask_for(SensorBias bias, double gain, PassInformation& pass) {
   const double prior = prior_of(bias).sigma;
   const int row = kMotionUnknowns + bias;
@@ -28,8 +28,8 @@ PassInformation known_motion() {
   return pass;
 }
 
-/// Of edges whose slopes are drawn at random: all unknowns are mixed. At the best state without
-/// `bias`, where no other unknown has a score left.
+/// Returns the information of edges with random slopes, which mix all unknowns. The state is the
+/// optimum without `bias`, so that no other unknown has a score.
 PassInformation mixed(SensorBias bias, double score, std::mt19937_64& rng) {
   std::normal_distribution<double> normal;
   PassInformation pass;
@@ -50,7 +50,7 @@ PassInformation mixed(SensorBias bias, double score, std::mt19937_64& rng) {
 TEST(BiasChoice, ResidualsThatNoiseExplainsAskForNone) {
   PassInformation pass = known_motion();
   EXPECT_FALSE(most_significant_bias(pass, kNone));
-  // Of eight chi-squares of one degree, one is beyond 19.2 in 10^4 passes.
+  // The largest of eight chi-squares of one degree exceeds 19.2 once in 10^4 passes.
   ask_for(NorthChordBias, 19.1, pass);
   EXPECT_FALSE(most_significant_bias(pass, kNone));
 }
@@ -96,8 +96,8 @@ TEST(BiasChoice, TheGainIsWhatTheSquaresFallByAtTheMinimum) {
     const auto wanted = most_significant_bias(pass, estimated);
     ASSERT_TRUE(wanted);
     ASSERT_EQ(wanted->bias, DihedralBias);
-    // Motion and the three biases, the quadratic form's minimum by another decomposition. What is
-    // known beforehand: the motion to a radian, biases by their priors.
+    // Solves for motion and the three biases by another decomposition. The prior of the motion is
+    // one radian.
     const std::array<int, 8> unknowns{0,
                                       1,
                                       2,
@@ -121,7 +121,8 @@ TEST(BiasChoice, TheGainIsWhatTheSquaresFallByAtTheMinimum) {
 }
 
 TEST(BiasChoice, TwoThatExplainTheSameLeaveHalfTheirDistanceSquaredOpen) {
-  // Either chord explains the residuals, as each moves the phase; they tilt the axis apart.
+  // Either chord explains the residuals, since each moves the phase; they tilt the axis
+  // differently.
   PassInformation pass = known_motion();
   ask_for(NorthChordBias, 1000.0, pass);
   ask_for(SouthChordBias, 1000.0, pass);
@@ -131,7 +132,8 @@ TEST(BiasChoice, TwoThatExplainTheSameLeaveHalfTheirDistanceSquaredOpen) {
   pass.information(0, north) = pass.information(north, 0) = mixing;
   pass.information(0, south) = pass.information(south, 0) = -mixing;
   const Eigen::Matrix2d open_rad2 = other_biases_rad2(pass, kNone, NorthChordBias);
-  // Each bias is -score / left of its information, and tilts by -mixing / motion of that.
+  // Each bias is -score / left, where `left` is its remaining information, and tilts the axis by
+  // -mixing / motion of that.
   const double motion = 1e8 + 1.0;
   const double left =
       400.0 / std::pow(prior_of(NorthChordBias).sigma, 2) - mixing * mixing / motion;

@@ -1,5 +1,3 @@
-/// When attitude or rate has changed, against bodies that did and did not.
-
 #include "pipelines/spin/batch/changepoint.h"
 
 #include <gtest/gtest.h>
@@ -21,7 +19,7 @@ constexpr double kChangeTurn = 80.0;
 struct Scene : testing::BatchScene {
   Scene() : BatchScene{1829} {}
 
-  /// The state that explains them best.
+  /// Returns the state that fits the edges best.
   SpinState fitted(std::span<const PassEdge> edges) const {
     const PassModel of = model(edges);
     return fit(of, edges, testing::true_state(body, of), {}).value().state;
@@ -31,7 +29,7 @@ struct Scene : testing::BatchScene {
   }
 };
 
-/// One body's edges before a revolution, the other's from it on.
+/// Returns the edges of one body before a revolution and those of another from it on.
 std::vector<PassEdge> joined(const std::vector<PassEdge>& before,
                              const std::vector<PassEdge>& after, std::int64_t from_revolution) {
   std::vector<PassEdge> edges;
@@ -53,7 +51,7 @@ testing::SpinningBody tilted(testing::SpinningBody body, double by_rad) {
   return body;
 }
 
-/// The rate is another by `share` from the turn on: edges come the earlier, the longer ago.
+/// Changes the rate by `share` from a turn on, which shifts edges the more the later they are.
 std::vector<PassEdge> faster_from(const testing::SpinningBody& body, double turn, double share,
                                   std::vector<PassEdge> edges) {
   const TaiTime at =
@@ -70,7 +68,7 @@ double turns_apart(const testing::SpinningBody& body, TaiTime t, double turn) {
          turn;
 }
 
-// Two turns to a sixty-fourth of the pass; where the likelihood is flat, the one beside it.
+// 1/64 of the pass is two turns; where the likelihood is flat, the neighbouring one may be found.
 constexpr double kNear_turns = 6.0;
 
 TEST(Changepoint, OneAttitudeAtOneRateHasNone) {
@@ -100,7 +98,7 @@ TEST(Changepoint, TheGainIsWhatTwoFitsExplainMore) {
   const std::span<const PassEdge> all{edges};
   const double gain = scene.misfit(all) - scene.misfit(all.first(change->first_edge)) -
                       scene.misfit(all.subspan(change->first_edge));
-  // One step of the equations instead of a fit, and Tukey's weight as on the average.
+  // The detector takes one linear step instead of a fit and uses the mean of Tukey's weight.
   EXPECT_NEAR(change->gain / gain, 1.0, 0.05);
 }
 
@@ -134,7 +132,7 @@ TEST(Changepoint, OfTwoLargeOnesTheLastIsFound) {
   EXPECT_NEAR(turns_apart(scene.body, change->t, 90.0), 0.0, kNear_turns);
 }
 
-/// So many edges in turn, from this one on, half a second late.
+/// Delays `some` consecutive edges by half a second.
 std::vector<PassEdge> spoilt(std::vector<PassEdge> edges, std::size_t from, std::size_t some) {
   for (std::size_t i = from; i < from + some; ++i) {
     edges[i].pulse.t += std::chrono::milliseconds{500};

@@ -1,4 +1,4 @@
-/// Phase, rate and drift about an axis nearly known, against the oracle's body.
+/// Initial phase, rate and drift about an approximate axis, compared with the oracle's body.
 
 #include "pipelines/spin/batch/initial_state.h"
 
@@ -29,7 +29,7 @@ struct Scene : testing::BatchScene {
   SpinState first() const { return initial_state(model(), edges, body.axis_icrf).value(); }
 };
 
-/// What one has turned more than the other at the ends of the pass and in its middle, the most.
+/// Returns the largest difference of the rotation angle at the ends and the middle of the pass.
 double apart_rad(const PassModel& model, const SpinState& one, const SpinState& other) {
   const double phase_rad = 2.0 * std::atan2((one.q_icrf_spin.conjugate() * other.q_icrf_spin).z(),
                                             (one.q_icrf_spin.conjugate() * other.q_icrf_spin).w());
@@ -48,14 +48,14 @@ TEST(FirstClock, IsThatOfTheBodyAboutItsAxis) {
   const PassModel model = scene.model();
   const SpinState first = scene.first();
   EXPECT_LT(angle_between_rad(first.axis_icrf(), scene.body.axis_icrf), 1e-12);
-  // A hundredth of the noise of the Sun's edges: the model's sky stands still for ten seconds.
+  // Sun and Earth are held constant for ten seconds; the limit is 1/100 of a sun edge's noise.
   EXPECT_LT(apart_rad(model, testing::true_state(scene.body, model), first), 6e-6);
 }
 
 TEST(FirstClock, ADriftOfTheRateIsFound) {
   Scene scene;
   const PassModel even = scene.model();
-  // Late by c dt^2: a body that has slowed down by 2 c w a second.
+  // A delay of c dt^2 belongs to a body whose rate w falls by 2 c w a second.
   const double late_s = 2e-4;
   const double half_s = even.half_s();
   for (PassEdge& edge : scene.edges) {
@@ -126,7 +126,7 @@ TEST(FirstClock, AnAxisThatHasNoneOfTheEdgesIsRefused) {
   std::erase_if(scene.edges, [](const PassEdge& edge) {
     return edge.pulse.channel == PulseChannel::Sun1 || edge.pulse.channel == PulseChannel::Sun2;
   });
-  // Beams across the axis miss an Earth that is on it.
+  // Beams across the axis miss an Earth that lies on the axis.
   const Eigen::Vector3d axis_icrf = scene.around.earth_icrf_km(0.0).normalized();
   const auto first = initial_state(scene.model(), scene.edges, axis_icrf);
   ASSERT_FALSE(first);

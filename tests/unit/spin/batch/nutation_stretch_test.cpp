@@ -1,5 +1,5 @@
-/// The equations of a nutating and coning body: the ground model's edges leave nothing over, and
-/// the derivatives are those of finite differences away from the solution.
+/// The equations of a nutating and coning body: the ground model's edges have no residuals, and the
+/// derivatives match finite differences away from the solution.
 
 #include "pipelines/spin/batch/nutation_stretch.h"
 
@@ -16,7 +16,7 @@ namespace spindrift::nutation_stretch_test {
 
 constexpr double kDuration_s = 60.0;
 
-/// Two degrees of nutation, growing, and one of coning.
+/// Holds a body with a growing nutation of 2 deg and a coning of 1 deg.
 struct Scene {
   testing::WobblingPasses passes{31, kDuration_s};
   SpinTruth truth = passes.drawn();
@@ -43,7 +43,8 @@ struct Scene {
     Eigen::Matrix3d R_icrf_axes;
     R_icrf_axes << tangent_basis(motion.axis_icrf), motion.axis_icrf;
     const Eigen::AngleAxisd azimuth{motion.azimuth_rad(middle_s), Eigen::Vector3d::UnitZ()};
-    // The hinge is a quarter of a turn ahead of where the axis leans, and `spin` of `axes`.
+    // The hinge is a quarter turn ahead of the direction in which the spin axis leans. The frame
+    // `spin` is ahead of `axes` by the azimuth.
     const double turned_rad = motion.azimuth_rad(middle_s) - motion.first_azimuth_rad;
     const double hinge_rad = motion.nutation.first_azimuth_rad +
                              motion.nutation.per_turn() * turned_rad + 0.5 * std::numbers::pi -
@@ -74,12 +75,12 @@ TEST(NutationStretch, TheTrueMotionLeavesNothingOver) {
   for (const PassEdge& edge : scene.edges) {
     const auto residual = model.at(state).residual(edge.pulse);
     ASSERT_TRUE(residual);
-    // The sky stands still for ten seconds, the orbit's curvature counts.
+    // Sun and Earth are held constant for ten seconds, so the curvature of the orbit matters.
     EXPECT_NEAR(residual->off, 0.0, 0.03) << name_of(edge.pulse.channel);
   }
 }
 
-/// Of the motion first, then of nutation.
+/// Steps an unknown of the motion or, after these, of the nutation.
 SpinState stepped(const PassModel& model, SpinState state, int unknown, double step) {
   if (unknown < 3) {
     const Eigen::AngleAxisd turn{step, Eigen::Vector3d::Unit(unknown)};
@@ -114,7 +115,7 @@ TEST(NutationStretch, SlopesAreThoseOfTheResidual) {
       const double slope = (after->off - before->off) / (2.0 * step);
       const double given =
           i < kBatchUnknowns ? here->slopes[i] : here->nutation_slopes[i - kBatchUnknowns];
-      // The third power of two degrees, which rotation_per_vector leaves out.
+      // rotation_per_vector neglects the third power of 2 deg.
       EXPECT_NEAR(given, slope, 1e-5 * here->slopes.head<3>().norm())
           << name_of(edge.pulse.channel) << ", unknown " << i;
     }

@@ -1,5 +1,3 @@
-/// What edges leave open of the biases.
-
 #include "pipelines/spin/batch/observability.h"
 
 #include <gmock/gmock.h>
@@ -12,8 +10,8 @@ namespace spindrift::observability_test {
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 
-/// Edges that know the motion well and say so much of the sum and of the difference of the north
-/// chord's and the north mounting angle's biases; in units of the priors.
+/// Returns the information of edges that know the motion well and know the sum and the difference
+/// of the north chord's and north mounting angle's biases this well, in units of the priors.
 PassInformation of_north(double sum, double difference) {
   PassInformation pass;
   pass.information.diagonal().head<kMotionUnknowns>().setConstant(1e8);
@@ -38,7 +36,7 @@ TEST(Observability, WhatTheEdgesDetermineIsObservable) {
   EXPECT_EQ(estimates[0].bias, NorthChordBias);
   EXPECT_TRUE(estimates[0].observable);
   EXPECT_EQ(estimates[0].value, 0.01);
-  // A hundredth of the prior's.
+  // The expected sigma is a hundredth of the prior's.
   EXPECT_NEAR(estimates[0].sigma / prior_of(NorthChordBias).sigma, 0.01, 1e-6);
   EXPECT_THAT(observed.undetermined(), IsEmpty());
 }
@@ -84,7 +82,7 @@ TEST(Observability, AMotionThatIsLeftOpenHasALargeSigma) {
 }
 
 TEST(Observability, TheErrorOfAnAxisIsWhereItWouldMoveAndWhatIsOpenThen) {
-  // A first tilt and a chord that mix; the second tilt is known.
+  // A chord bias is mixed with the first tilt; the second tilt is known.
   PassInformation pass;
   pass.information.diagonal().head<kMotionUnknowns>().setConstant(1e8);
   const double prior = prior_of(NorthChordBias).sigma;
@@ -101,7 +99,7 @@ TEST(Observability, TheErrorOfAnAxisIsWhereItWouldMoveAndWhatIsOpenThen) {
   EXPECT_NEAR(observed.rms_error_rad(pass, SensorBiases::Zero()) /
                   std::sqrt(moves_rad * moves_rad + open_rad2),
               1.0, 1e-9);
-  // Known to be none, it moves nothing.
+  // A bias that is known to be zero does not move the axis.
   EXPECT_NEAR(Observability(pass, {}).rms_error_rad(pass, SensorBiases::Zero()),
               std::sqrt(2.0 / tilt), 1e-12);
 }

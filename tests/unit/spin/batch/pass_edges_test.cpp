@@ -1,5 +1,3 @@
-/// What `batch` takes of the products of a pass.
-
 #include "pipelines/spin/batch/pass_edges.h"
 
 #include <gtest/gtest.h>
@@ -44,14 +42,14 @@ TEST(PassEdges, AreThoseThatARevolutionHasAPlaceForInOrderAndOnce) {
   PassEdges pass;
   pass.note(use(30, PulseChannel::NorthIn, 1));
   pass.note(use(10, PulseChannel::Sun1, 1));
-  pass.note(use(10, PulseChannel::Sun1, 1));  // Told again, decided.
+  pass.note(use(10, PulseChannel::Sun1, 1));  // The same edge is reported again, now decided.
   pass.note(use(20, PulseChannel::Sun2, 1, Rejection::SunAngle));
   pass.note(use(25, PulseChannel::Sun2, 1, Rejection::Phase));
   pass.note(use(40, PulseChannel::SouthIn, std::nullopt, Rejection::Unassociated));
   const auto edges = std::move(pass).edges();
   ASSERT_EQ(edges.size(), 3U);
   EXPECT_EQ(edges[0].pulse.channel, PulseChannel::Sun1);
-  // Its angle failed; which of the two edges it was, the fit finds out.
+  // The angle failed its test; the fit finds out which of its two edges is wrong.
   EXPECT_EQ(edges[1].pulse.channel, PulseChannel::Sun2);
   EXPECT_EQ(edges[2].pulse.channel, PulseChannel::NorthIn);
 }
@@ -116,7 +114,7 @@ TEST(PassEdges, BeginAtTheEstimatesAndWhereTheseAreAmbiguousAtAllCandidates) {
 }
 
 TEST(PassEdges, BeginAtEstimatesThatDifferByADegree) {
-  // One of them may have a narrow chord, the other none.
+  // One of the two estimates may lie in a narrow chord that the other misses.
   const Eigen::Vector3d x = Eigen::Vector3d::UnitX();
   PassEdges pass;
   pass.note(estimate(SpinEstimator::Sequential, x, Quality::Doubtful));

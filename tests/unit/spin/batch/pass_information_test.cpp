@@ -18,9 +18,8 @@ namespace spindrift::pass_information_test {
 
 using Motion = Eigen::Matrix<double, kMotionUnknowns, 1>;
 
-/// The state with its motion changed by so much, in the unknowns of pass_model.h: an angle that the
-/// rate makes grows evenly from the middle of the pass to its end, that of the drift with the
-/// square of the time.
+/// Returns the state with changed motion, in the unknowns of pass_model.h: rate and drift are given
+/// as the angle at the end of the pass, linear and quadratic in the time from its middle.
 SpinState changed(const SpinState& state, const PassModel& model, const Motion& change) {
   SpinState other = state;
   const Eigen::Vector3d turn_rad = change.head<3>();
@@ -37,7 +36,7 @@ struct ExactPass : testing::ExactPass {
   }
 };
 
-/// Over normal noise of unit variance, by the rule of rectangles.
+/// Returns the mean over unit normal noise, integrated by rectangles.
 double mean_over_noise(const std::function<double(double)>& of) {
   constexpr double kStep = 1e-3;
   double sum = 0.0;
@@ -67,12 +66,12 @@ TEST(PassInformation, OfExactEdgesAtTheTruthIsWithoutMisfit) {
   EXPECT_EQ(found.edges, static_cast<std::int64_t>(pass.edges.size()));
   EXPECT_EQ(found.outliers, 0);
   EXPECT_EQ(found.outlier_share(), 0.0);
-  // The model's sky stands still for ten seconds: a hundredth of the noise of an edge.
+  // Sun and Earth are held constant for ten seconds, which costs 1/100 of an edge's noise.
   EXPECT_LT(found.squares, 1e-4 * static_cast<double>(found.edges));
 }
 
-/// Beside the truth by a small vector x the squares are x.information x: no matter how the slopes
-/// are found.
+/// At a small distance x from the truth the squares are x.information x, however the slopes are
+/// computed.
 TEST(PassInformation, IsHowTheSquaresGrowBesideTheTruth) {
   const ExactPass pass;
   const PassInformation at_truth = pass.of(Motion::Zero());
@@ -81,16 +80,16 @@ TEST(PassInformation, IsHowTheSquaresGrowBesideTheTruth) {
   std::mt19937_64 rng{5};
   std::normal_distribution<double> normal;
   for (int i = 0; i < 30; ++i) {
-    // Each unknown alone, then all together.
+    // Change each unknown alone, then all together.
     Motion change = Motion::Zero();
     if (i < kMotionUnknowns) {
       change[i] = 1.0;
     } else {
       std::generate(change.begin(), change.end(), [&] { return normal(rng); });
     }
-    // To one sigma an edge.
+    // Scale the change to one sigma an edge.
     change *= std::sqrt(static_cast<double>(at_truth.edges) / change.dot(information * change));
-    // Of both signs the sum has no part of what the edges are off at the truth.
+    // The mean over both signs cancels the residuals at the truth.
     const double squares = 0.5 * (pass.of(change).squares + pass.of(-change).squares);
     EXPECT_NEAR(squares / change.dot(information * change), 1.0, 0.01) << i;
   }
@@ -108,7 +107,7 @@ TEST(PassInformation, ItsStepLeadsBackToTheTruth) {
   const Motion here = step_from(Motion::Zero());
   for (int i = 0; i < kMotionUnknowns; ++i) {
     const Motion change = 1e-4 * Motion::Unit(i);
-    // Near zero the slope of the biweight is 1, and the step is for its mean over noise.
+    // Near zero the slope of the biweight is 1, whereas the step uses its mean over noise.
     const Motion step = (step_from(change) - here) * kMeanSlope;
     EXPECT_LT((step + change).norm(), 0.05 * change.norm()) << i;
   }
@@ -124,7 +123,7 @@ TEST(PassInformation, OfNoiseAsStatedHasASquareForEachEdge) {
   EXPECT_EQ(found.outliers, 0);
   EXPECT_NEAR(found.squares, count, 4.0 * std::sqrt(2.0 * count));
   EXPECT_EQ(found.excess_noise(kMotionUnknowns), 1.0);
-  // The score of the motion, whose covariance is the information over the efficiency.
+  // The covariance of the motion's score is the information over the efficiency.
   const auto information =
       found.information.topLeftCorner<kMotionUnknowns, kMotionUnknowns>().eval();
   const Motion score = found.score.head<kMotionUnknowns>();
@@ -162,7 +161,7 @@ TEST(PassInformation, AnEdgeBeyondEightSigmasIsAnOutlierAndSaysNothing) {
   EXPECT_EQ(beyond.edges + beyond.outliers, static_cast<std::int64_t>(pass.edges.size()));
   EXPECT_NEAR(beyond.outlier_share(), 0.1, 0.002);
   EXPECT_NEAR(beyond.misfit(), 64.0 * static_cast<double>(tenth), 1.0);
-  // As if they had never come, however far off they are.
+  // Outliers must have no effect, however far off they are.
   std::vector<PassEdge> others = pass.edges;
   std::size_t i = 0;
   std::erase_if(others, [&](const PassEdge&) { return i++ % 10 == 0; });
@@ -215,7 +214,7 @@ TEST(PassInformation, OfFewEdgesHasASpanForEach) {
   EXPECT_TRUE(information_by_span(pass.model, {}, pass.truth, 10).empty());
 }
 
-/// The chi-square of so many degrees of freedom that noise exceeds once in a million times.
+/// A chi-square is excessive if noise exceeds it once in a million times.
 TEST(PassInformation, ExcessIsWhatNoiseDoesOnceInAMillionTimes) {
   for (const std::int64_t freedom : {10, 100, 1000, 100'000}) {
     PassInformation found;

@@ -1,5 +1,5 @@
-/// The equations that `batch` solves, against the oracle and against finite differences away from
-/// the solution.
+/// The equations of `batch`, compared with the oracle and with finite differences away from the
+/// solution.
 
 #include "pipelines/spin/batch/pass_model.h"
 
@@ -42,7 +42,7 @@ TEST_P(PassModels, TheTrueStateLeavesNothingOver) {
   for (const PassEdge& edge : scene.edges) {
     const auto residual = model.at(truth).residual(edge.pulse);
     ASSERT_TRUE(residual);
-    // A hundredth of the noise: the sky stands still for ten seconds.
+    // 1/100 of the noise, since Sun and Earth are held constant for ten seconds.
     EXPECT_NEAR(residual->off, 0.0, 0.01) << name_of(edge.pulse.channel);
   }
 }
@@ -65,7 +65,7 @@ SpinState stepped(const PassModel& model, SpinState state, int unknown, double s
 TEST_P(PassModels, SlopesAreThoseOfTheResidual) {
   const Scene scene{GetParam()};
   const PassModel model = scene.model();
-  // Away from the solution, in every unknown.
+  // Displace the state from the solution in every unknown.
   SpinState state = testing::true_state(scene.body, model);
   for (int i = 0; i < kMotionUnknowns; ++i) {
     state = stepped(model, state, i, 0.01);

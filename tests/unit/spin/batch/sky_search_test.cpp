@@ -17,7 +17,7 @@ namespace spindrift::sky_search_test {
 
 using Eigen::Vector3d;
 
-/// A pass and the best state about an axis near a given one.
+/// Holds a pass and the best state about an axis near a given one.
 struct Searched {
   std::vector<PassEdge> edges;
   PassModel model;
@@ -56,7 +56,7 @@ TEST(SkySearch, FromAFalseAxisTheTrueOneIsTheFirst) {
   EXPECT_LT(angle_between_rad(others.front(), scene.body.axis_icrf), 0.1 * kRadPerDeg);
 }
 
-/// Of sun slit 1 and the south beam: two axes keep fitting all edges alike.
+/// Holds a pass with sun slit 1 and the south beam only, where two axes fit all edges alike.
 struct TwoRoots {
   testing::BatchScene scene{2};
   Searched pass = searched();
@@ -87,8 +87,7 @@ TEST(SkySearch, WhereTwoAxesFitAllEdgesEachNamesTheOther) {
   EXPECT_LT(angle_between_rad(back.front(), best.axis_icrf()), 0.2 * kRadPerDeg);
 }
 
-/// With few edges a sample is all of them: what the search says of each axis can be seen from the
-/// edges themselves.
+/// With few edges the sample contains all of them, so the result can be checked on the edges.
 TEST(SkySearch, NamesFewAndDistinctAxesBestFirstThatExplainTheEdgesAboutAsWell) {
   const TwoRoots two;
   const Searched& pass = two.pass;

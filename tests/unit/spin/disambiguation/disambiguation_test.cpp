@@ -21,7 +21,8 @@ const TaiTime kStart = tai_from_ns(1'795'143'637'000'000'000);
 constexpr double kRange_km = 16000.0;
 const std::set<SpinQuantity> kDihedrals = {NorthDihedral, SouthDihedral};
 
-/// A body of one turn in six seconds under a Sun at rest; the Earth has turned by `turn_rad`.
+/// Holds a body with one turn in six seconds and the Sun at rest; the Earth has moved by
+/// `turn_rad`.
 struct Scene {
   SpinConfig config = testing::usual_config();
   Eigen::Vector3d sun_icrf = Eigen::Vector3d{1.0, 0.2, 0.1}.normalized();
@@ -133,7 +134,7 @@ TEST(Disambiguation, WhatThePassHasEstablishedTakesThePlaceOfThePrior) {
 }
 
 TEST(Disambiguation, AnAxisKnownBadlyChoosesNoneOfThoseThatGrazeBesideIt) {
-  // The true one may be lost in the noise; with a sigma of 7 deg a false one is near it soon.
+  // Noise may hide the true candidate; with a sigma of 7 deg a false one soon matches.
   const Scene scene;
   const auto measured = testing::measured_without(scene.config, scene.seen(), kDihedrals);
   AxisCandidates found = axis_candidates(scene.config, measured, scene.sun_earth()).value();
@@ -157,9 +158,8 @@ TEST(Disambiguation, AnAxisKnownBadlyChoosesNoneOfThoseThatGrazeBesideIt) {
 }
 
 TEST(Disambiguation, AHealthyBeamThatIsSilentRulesOutTheAxisThatShowsItTheEarth) {
-  // The Earth, of half-angle 24 deg, stands 100 deg from the axis: the south beam, at 70 deg,
-  // cannot reach it. The other root of north's chord stands on the near side, in full view of that
-  // beam.
+  // The Earth, with a half-angle of 24 deg, is 100 deg from the axis, which the south beam at 70
+  // deg cannot reach. The other root of north's chord has the Earth in full view of that beam.
   Scene scene;
   scene.axis_icrf = Eigen::Vector3d::UnitZ();
   scene.sun_icrf = Eigen::Vector3d{1.0, 0.6, 0.3}.normalized();
@@ -201,7 +201,7 @@ TEST(Disambiguation, AHealthyBeamThatIsSilentRulesOutTheAxisThatShowsItTheEarth)
 }
 
 TEST(Disambiguation, AHealthyBeamThatIsSilentSpeaksAgainstTheOnlyAxisToo) {
-  // Both beams see the Earth from the true axis; north says nothing.
+  // From the true axis both beams see the Earth, but north is silent.
   for (const bool healthy : {true, false}) {
     Scene scene;
     scene.config.north->healthy = healthy;
@@ -218,7 +218,7 @@ TEST(Disambiguation, AHealthyBeamThatIsSilentSpeaksAgainstTheOnlyAxisToo) {
                 healthy ? std::optional{Side::North} : std::nullopt);
     }
     EXPECT_TRUE(settle(disambiguator, scene, scene.seen(), {}).back().accepted);
-    // One that was heard may miss a revolution.
+    // A beam that was received before may miss a revolution.
     EXPECT_TRUE(settle(disambiguator, scene, revolution, {}).back().accepted);
   }
 }

@@ -16,7 +16,7 @@ namespace spindrift::dispersion_test {
 
 constexpr double kSigma_rad = 0.3 * kRadPerDeg;
 
-/// Axes with noise: one that stays, others that drift at a rate.
+/// Draws noisy axes: one that is constant, and others that drift.
 class Sky {
  public:
   explicit Sky(std::uint64_t seed) : rng_{seed} {}
@@ -37,7 +37,7 @@ class Sky {
 
 const Eigen::Vector3d kTrue_icrf = Eigen::Vector3d{0.1, -0.05, 1.0}.normalized();
 
-/// 40 deg off the true axis, and moving across.
+/// Returns an axis that starts 40 deg from the true one and moves across that direction.
 Eigen::Vector3d drifting(double moved_rad) {
   const Eigen::Vector3d start =
       Eigen::AngleAxisd{40.0 * kRadPerDeg, Eigen::Vector3d::UnitY()} * kTrue_icrf;
@@ -75,7 +75,8 @@ TEST(Dispersion, TheOrderOfTheCandidatesDoesNotMatter) {
 }
 
 TEST(Dispersion, ADriftTooSlowForTheWindowShowsInALongPass) {
-  // 0.3 deg in a hundred revolutions: a tenth of what their scatter could hide; 9 deg in all.
+  // The drift of 0.3 deg in a hundred revolutions is a tenth of what their scatter could hide; in
+  // all it is 9 deg.
   Sky sky{63};
   Dispersion dispersion{100};
   std::optional<StationaryBranch> found;
@@ -91,16 +92,16 @@ TEST(Dispersion, ADriftTooSlowForTheWindowShowsInALongPass) {
 
 constexpr double kStep_rad = 0.1 * kRadPerDeg;
 
-/// Ratio for a branch that goes kStep_rad a revolution along a great circle, where it has no noise
-/// and states kSigma_rad: about its middle, squares of kStep_rad^2 n (n^2 - 1) / 12 over 2 (n - 1)
-/// degrees of freedom.
+/// Returns the variance ratio of a noise-free branch that moves kStep_rad per revolution on a great
+/// circle and states kSigma_rad. The squares about its middle are kStep_rad^2 n (n^2 - 1) / 12,
+/// over 2 (n - 1) degrees of freedom.
 double ratio_of_drift(double revolutions) {
   constexpr double kFloor_rad = 0.02 * kRadPerDeg;
   return kStep_rad * kStep_rad * revolutions * (revolutions + 1.0) /
          (24.0 * (kSigma_rad * kSigma_rad + kFloor_rad * kFloor_rad));
 }
 
-/// X stays; of two that drift, the other is twice as fast. None has any noise.
+/// Settles noise-free branches: X is constant, the others drift, one twice as fast as the other.
 StationaryBranch settled_without_noise(bool unlike) {
   const auto at = [](const Eigen::Vector3d& axis_icrf) -> AxisCandidate {
     return {.axis_icrf = axis_icrf,
@@ -130,7 +131,7 @@ TEST(Dispersion, TheRatioIsThatOfTheScattersOfTheNearestOtherBranch) {
   EXPECT_NEAR(angle_between_rad(found.axis.axis_icrf, Eigen::Vector3d::UnitX()), 0.0, 1e-9);
   EXPECT_NEAR(found.scatter_ratio / ratio_of_drift(found.axis.count), 1.0, 1e-3);
   EXPECT_FALSE(found.log_likelihood_ratio);
-  // The F-test settled it, and not a revolution late.
+  // The F-test decided, and not a revolution late.
   const double freedom = 2.0 * (found.axis.count - 1.0);
   EXPECT_LT(variance_ratio_tail(freedom, freedom, found.scatter_ratio), 1e-8);
   EXPECT_GT(
@@ -142,17 +143,17 @@ TEST(Dispersion, WhereTheFTestDoesNotSettleItTheLikelihoodRatioIsStatedToo) {
   const StationaryBranch found = settled_without_noise(false);
   EXPECT_NEAR(found.scatter_ratio / ratio_of_drift(found.axis.count), 1.0, 1e-3);
   ASSERT_TRUE(found.log_likelihood_ratio);
-  // Half the squares, of which the branch that stays has none.
+  // The log-likelihood ratio is half the squares, which are zero for the constant branch.
   EXPECT_NEAR(*found.log_likelihood_ratio, found.scatter_ratio * (found.axis.count - 1.0), 1e-9);
   EXPECT_GT(*found.log_likelihood_ratio, 30.0);
 }
 
 TEST(Dispersion, NoiseAloneSettlesNothing) {
-  // Two hundred passes of two axes at rest, one of them twice as noisy, which its covariance says.
+  // Each of two hundred passes has two constant axes, one twice as noisy, as its covariance states.
   for (std::uint64_t seed = 0; seed < 200; ++seed) {
     Sky sky{1000 + seed};
     Dispersion dispersion{100};
-    dispersion.note_unlike();  // Each branch has a noise of its own here.
+    dispersion.note_unlike();  // Each branch has noise of its own here.
     for (int revolution = 0; revolution < 300; ++revolution) {
       const std::array candidates{sky.seen(kTrue_icrf), sky.seen(drifting(0.0), 2.0 * kSigma_rad)};
       ASSERT_FALSE(dispersion.add(candidates)) << seed;
@@ -181,7 +182,7 @@ TEST(Dispersion, OutliersAndDropOutsAreSurvived) {
     if (revolution % 7 == 3) {
       candidates.pop_back();
     }
-    if (revolution % 11 == 5) {  // A spoilt edge moves both.
+    if (revolution % 11 == 5) {  // A displaced edge moves both branches.
       candidates = {sky.seen(drifting(moved_rad + 0.2)), sky.seen(drifting(-0.4))};
     }
     found = dispersion.add(candidates);
@@ -226,7 +227,8 @@ TEST(Dispersion, ABranchThatPassesThroughTheTrueOneIsNotTakenForIt) {
 }
 
 TEST(Dispersion, AnErrorOfTheModelIsNoDrift) {
-  // Both branches move by what a constant mounting error of 0.15 deg does while its leverage grows.
+  // Both branches move as a constant mounting error of 0.15 deg moves them while its leverage
+  // grows.
   Sky sky{68};
   Dispersion dispersion{100};
   for (int revolution = 0; revolution < 1000; ++revolution) {

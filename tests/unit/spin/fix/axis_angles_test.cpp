@@ -19,7 +19,7 @@ namespace spindrift::axis_angles_test {
 using Scene = testing::AxisScene;
 using enum SpinQuantity;
 
-/// From the Sun's half-plane about the axis to the Earth's, [0, 2 pi).
+/// Returns the dihedral from the Sun's half-plane to the Earth's about the axis, [0, 2 pi).
 double dihedral_rad(const Scene& scene) {
   const double dihedral = std::atan2(
       scene.axis_icrf.dot(scene.sun_icrf.cross(scene.earth_icrf)),
@@ -27,7 +27,7 @@ double dihedral_rad(const Scene& scene) {
   return dihedral < 0.0 ? dihedral + 2.0 * std::numbers::pi : dihedral;
 }
 
-/// The angles of the vectors themselves, which no measurement went into.
+/// Returns the distance of the solution from the angles of the true vectors.
 double distance_rad(const Scene& scene, const AxisAngles& place) {
   const double off[] = {
       place.sun_angle_rad.value() - angle_between_rad(scene.axis_icrf, scene.sun_icrf),
@@ -58,7 +58,7 @@ const std::vector<std::set<SpinQuantity>> kLosses = {
     {},         {SouthChord},           {NorthChord},          {NorthDihedral, SouthDihedral},
     {SunAngle}, {SunAngle, SouthChord}, {SunAngle, NorthChord}};
 
-/// The angles of the axis, Sun and Earth in a scene at right angles, worked by hand.
+/// The scene has right angles; the expected values are worked out by hand.
 TEST(AxisAngles, OfABodyUprightBetweenSunAndEarth) {
   Scene scene;
   scene.axis_icrf = Eigen::Vector3d::UnitZ();
@@ -95,7 +95,7 @@ TEST(AxisAngles, AreThoseOfTheVectorsAnywhere) {
       if (answer.found.places.empty() || answer.found.near_tangent) {
         continue;
       }
-      // Near a double root a nanosecond is worth its square root.
+      // Near a double root the error grows as the square root of the 1 ns resolution.
       EXPECT_LT(answer.nearest_rad, 1e3 * testing::kExact_rad) << trial;
       ++tried;
     }
@@ -103,7 +103,7 @@ TEST(AxisAngles, AreThoseOfTheVectorsAnywhere) {
   EXPECT_GT(tried, 1000);
 }
 
-/// The derivatives that a solution carries, against a later north_in by one standard deviation.
+/// The derivatives are compared with a north_in that is later by one standard deviation.
 TEST(AxisAngles, CarryWhatEachEdgeMovesThemBy) {
   const Scene scene;
   const auto sun_earth = scene.sun_earth();
@@ -123,7 +123,7 @@ TEST(AxisAngles, CarryWhatEachEdgeMovesThemBy) {
   const auto by_edge = [](const Uncertain& angle) {
     return angle.derivatives()(static_cast<Eigen::Index>(index_of(PulseChannel::NorthIn)));
   };
-  // Central differences: the third order of a step of 5e-4 rad, amplified tenfold, remains.
+  // The error of central differences is the third order of the step of 5e-4 rad, amplified tenfold.
   EXPECT_NEAR(by_edge(exact.earth_angle_rad),
               0.5 * (late.earth_angle_rad.value() - early.earth_angle_rad.value()), 1e-6);
   EXPECT_NEAR(by_edge(exact.dihedral_rad),

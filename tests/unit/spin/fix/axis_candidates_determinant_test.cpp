@@ -17,8 +17,8 @@ using Scene = testing::AxisScene;
 
 constexpr double kPi = std::numbers::pi;
 
-/// The Sun on the body's equator and the Earth, some degrees from the axis, behind it by a dihedral
-/// whose cosine is `determinant` / cos(85 deg): then Delta is `determinant`.
+/// Returns a scene with Delta = `determinant`: the Sun is on the equator, the Earth behind it by a
+/// dihedral with the cosine `determinant` / cos(85 deg).
 Scene scene_of_determinant(double determinant, double earth_angle_deg = 87.0) {
   const double dihedral_rad = std::acos(determinant / std::cos(85.0 * kRadPerDeg));
   const double earth_angle_rad = earth_angle_deg * kRadPerDeg;
@@ -41,7 +41,8 @@ TEST(AxisCandidates, ALargeDeterminantLeavesNoAlternate) {
 
 TEST(AxisCandidates, ASmallDeterminantLeavesTheOtherRootAsAlternate) {
   for (const double delta : {0.0298, -0.02, -0.0298}) {
-    // The roots lie 15 deg on either side of the beam: noise and model move them by little.
+    // The roots are 15 deg on either side of the beam; noise and model errors move them only
+    // slightly.
     const Scene scene = scene_of_determinant(delta, 70.0);
     const SpinFix fix = scene.fix().value();
     EXPECT_EQ(fix.resolution, Resolution::Geometry) << delta;
@@ -53,7 +54,8 @@ TEST(AxisCandidates, ASmallDeterminantLeavesTheOtherRootAsAlternate) {
 }
 
 TEST(AxisCandidates, RootsThatTheModelMayExchangeAreAmbiguous) {
-  // Two degrees on either side of the beam, where a limb 0.15 deg off moves them by as much.
+  // The roots are 2 deg on either side of the beam, where a limb error of 0.15 deg moves them as
+  // far.
   for (const double delta : {0.0298, 0.02, -0.02, -0.0298}) {
     const SpinFix fix = scene_of_determinant(delta).fix().value();
     EXPECT_EQ(fix.resolution, Resolution::Ambiguous) << delta;
@@ -97,8 +99,8 @@ TEST(AxisCandidates, ARootThatFitsBetterByNoiseAloneIsNotAccepted) {
 }
 
 TEST(AxisCandidates, ARootOfANarrowChordIsNotAcceptedByNoiseAlone) {
-  // The roots lie 47 deg apart, and fit the angle between Sun and Earth nearly alike; the noise of
-  // the fast body is a tenth of the chord and more.
+  // The roots are 47 deg apart and fit the angle between Sun and Earth almost alike. For the fast
+  // body the noise is a tenth of the chord and more.
   std::mt19937_64 rng{6};
   int accepted = 0;
   for (const double delta : {0.012, 0.016, 0.02, 0.028}) {
@@ -148,7 +150,7 @@ TEST(AxisCandidates, AChordWiderThanTheDiscIsRefusedWithItsMeasure) {
 }
 
 TEST(AxisCandidates, ASolutionThatTheNoiseDestroysIsRefused) {
-  // At its widest the chord has a double root, which every edge moves without bound.
+  // At its widest the chord has a double root, to which every edge has an unbounded effect.
   Scene scene = scene_of_determinant(0.02);
   scene.earth_icrf = direction_icrf(
       {.ra_rad = std::acos(0.02 / std::cos(85.0 * kRadPerDeg)), .dec_rad = 5.0 * kRadPerDeg});

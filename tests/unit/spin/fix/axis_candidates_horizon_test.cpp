@@ -21,11 +21,11 @@ namespace spindrift::axis_candidates_horizon_test {
 using Scene = testing::AxisScene;
 using enum SpinQuantity;
 
-/// Both chords, and each alone.
+/// Quantities left out: none, and either chord.
 const std::array<std::set<SpinQuantity>, 3> kLeftOut = {std::set<SpinQuantity>{},
                                                         std::set{SouthChord}, std::set{NorthChord}};
 
-/// The spin axis tilted against the Earth's, the Earth at an angle from it, the Sun well aside.
+/// Returns a scene with the spin axis tilted against the Earth's and the Sun well aside.
 Scene tilted_scene(double tilt_deg, double earth_angle_deg, HorizonModel earth) {
   Scene scene{.earth = earth};
   scene.config.horizon.model = earth;
@@ -81,7 +81,7 @@ TEST_P(FixesOnHorizons, TakingItForTheOtherCostsWhatTheDesignSays) {
 }
 
 TEST_P(FixesOnHorizons, ExactEdgesGiveTheTrueAxisWhileTheEarthMoves) {
-  const Eigen::Vector3d motion_icrf_s{-5e-4, 1e-4, 2e-4};  // 0.03 deg/s.
+  const Eigen::Vector3d motion_icrf_s{-5e-4, 1e-4, 2e-4};  // The Earth moves at 0.03 deg/s.
   for (const Scene& scene : usual_scenes(GetParam())) {
     const Revolution seen = scene.seen_while_earth_moves(motion_icrf_s);
     const SunEarthDirections sun_earth = scene.sightlines_while_earth_moves(motion_icrf_s);
@@ -125,8 +125,8 @@ INSTANTIATE_TEST_SUITE_P(AxisCandidates, FixesOnHorizons,
                          });
 
 TEST(AxisCandidatesOnTheEllipsoid, ABeamThatOnTheSphereWouldMissItHasAFixToo) {
-  // From the equator, a beam that dips 0.1 to 0.3 deg below the pole's limb: the sphere's stands
-  // 0.09 deg higher, and the axis that it gives has the beam pass above the pole.
+  // Seen from the equator, the beam passes 0.1 to 0.3 deg below the pole's limb. The sphere's limb
+  // is 0.09 deg higher, and the axis found with it has the beam pass above the pole.
   const double limb_rad = std::atan(
       6396.752314245 / std::sqrt(Scene::kRange_km * Scene::kRange_km - 6418.137 * 6418.137));
   for (const double tilt_deg : {0.0, 10.0}) {
@@ -143,7 +143,7 @@ TEST(AxisCandidatesOnTheEllipsoid, ABeamThatOnTheSphereWouldMissItHasAFixToo) {
   }
 }
 
-/// The north beam mounted so that its chord is so wide.
+/// Mounts the north beam so that its chord has this width.
 void mount_for_chord(double chord_rad, Scene& scene) {
   const double earth_angle_rad = angle_between_rad(scene.axis_icrf, scene.earth_icrf);
   double narrower_rad = earth_angle_rad - 30.0 * kRadPerDeg;
@@ -183,7 +183,7 @@ TEST(AxisCandidatesOnTheEllipsoid, ANarrowChordAnywhereOnTheLimbHasAFixToo) {
 }
 
 TEST(AxisCandidatesOnTheEllipsoid, RootsThatOnlyTheSphereAllowsAreNone) {
-  // From pole to pole the sphere's chord is wider than the ellipsoid allows any.
+  // Seen from pole to pole, the sphere's chord is wider than any on the ellipsoid.
   Scene scene = tilted_scene(90.0, 89.5, HorizonModel::Sphere);
   scene.config.north->mount_angle_rad = 0.5 * std::numbers::pi;
   scene.config.south.reset();

@@ -74,7 +74,7 @@ TEST(AxisCandidates, ASensorThatTheMissionDoesNotHaveMakesItCaseTwo) {
 }
 
 TEST(AxisCandidates, DihedralsOnEitherSideOfPiAreAveragedThere) {
-  // The Earth opposite the Sun about the axis; the dihedrals of both beams stand about pi.
+  // The Earth is opposite the Sun about the axis, so the dihedrals of both beams are near pi.
   const Scene scene{.sun_icrf = Eigen::Vector3d{1.0, 0.0, 0.3}.normalized(),
                     .earth_icrf = Eigen::Vector3d::UnitX() * -1.0,
                     .axis_icrf = Eigen::Vector3d::UnitZ()};
@@ -90,7 +90,7 @@ TEST(AxisCandidates, DihedralsOnEitherSideOfPiAreAveragedThere) {
 }
 
 TEST(AxisCandidates, AnEarthThatMovesBetweenTheEdgesIsAllowedFor) {
-  const Scene scene;  // One turn in six seconds, the Earth moving by 0.03 deg/s.
+  const Scene scene;  // One turn takes six seconds, and the Earth moves at 0.03 deg/s.
   const Eigen::Vector3d motion_icrf_s{-5e-4, 1e-4, 2e-4};
   const Revolution seen = scene.seen_while_earth_moves(motion_icrf_s);
   const SunEarthDirections sun_earth = scene.sightlines_while_earth_moves(motion_icrf_s);
@@ -148,7 +148,7 @@ TEST(AxisCandidates, ChordsOfAnotherDiscContradictTheOrbit) {
     sun_earth.disc_rad = std::asin(std::sin(sun_earth.disc_rad) / range_factor);
     const SpinFix fix = testing::lone_fix(scene.config, scene.seen(), {}, sun_earth).value();
     EXPECT_FALSE(fix.accepted) << range_factor;
-    // Two chords need no disc: the axis itself is right, and still nothing to rely on.
+    // Two chords need no disc: the axis is right, but the fix must not be trusted.
     EXPECT_LT(angle_between_rad(fix.axis_icrf, scene.axis_icrf), kExact_rad);
   }
 }
@@ -191,7 +191,7 @@ TEST(AxisCandidates, WhatRestsOnARejectedEdgeIsNotUsed) {
   EXPECT_EQ(geometry_case_of(measure(scene.config, revolution)), 5);
 }
 
-/// Measurements as if of an axis, without noise.
+/// Returns noise-free measurements for an axis with these angles.
 RevolutionMeasurements measured_at(const SpinConfig& config, const PredictedAngles& angles,
                                    double disc_rad) {
   const auto exact = [](double value_rad) {
@@ -216,7 +216,7 @@ RevolutionMeasurements measured_at(const SpinConfig& config, const PredictedAngl
 }
 
 TEST(AxisCandidates, TwoConesMeetInTheTrueAndTheFalseSolutionOfTheGoldenValues) {
-  // Worked out in 30 digits by mpmath, printed to 1e-9 deg.
+  // Computed with 30 digits in mpmath, printed to 1e-9 deg.
   const auto at_deg = [](double ra_deg, double dec_deg) {
     return direction_icrf({.ra_rad = ra_deg * kRadPerDeg, .dec_rad = dec_deg * kRadPerDeg});
   };

@@ -21,8 +21,8 @@ using Eigen::Vector3d;
 using testing::AxisScene;
 using enum SpinQuantity;
 
-/// The one that has these angles to Sun and Earth, on the side of their plane that the dihedral
-/// says: two cones cut, by three equations.
+/// Returns the axis with these angles to Sun and Earth, on the side of their plane that the
+/// dihedral selects: the intersection of two cones, from three equations.
 Vector3d axis_of(const SunEarthDirections& sun_earth, const AxisAngles& place) {
   const Vector3d& sun = sun_earth.sun_icrf;
   const Vector3d& earth = sun_earth.earth_icrf;
@@ -35,7 +35,7 @@ Vector3d axis_of(const SunEarthDirections& sun_earth, const AxisAngles& place) {
                         sun.cross(earth).normalized();
 }
 
-/// What a revolution gives, and what refers to it.
+/// Holds the measurements of a revolution and the objects to which they refer.
 struct Revolved {
   SpinConfig config;
   RevolutionMeasurements measured;
@@ -70,7 +70,8 @@ double nearest_rad(const std::vector<Vector3d>& axes, const Vector3d& axis) {
   return nearest;
 }
 
-/// The spin axis tilted against the Earth's, so that its flattening is seen askew; the Sun aside.
+/// Returns a scene with the spin axis tilted against the Earth's, so that the flattening is
+/// oblique, and the Sun aside.
 AxisScene tilted_scene(double tilt_deg, double earth_angle_deg, HorizonModel earth) {
   AxisScene scene{.earth = earth};
   scene.config.horizon.model = earth;
@@ -84,7 +85,8 @@ AxisScene tilted_scene(double tilt_deg, double earth_angle_deg, HorizonModel ear
   return scene;
 }
 
-/// All measurements, each chord alone, and that with the Sun's azimuth or angle alone.
+/// Quantities left out, so that all measurements remain, or one chord, or one chord with only the
+/// Sun's azimuth or only its angle.
 const std::vector<std::set<SpinQuantity>> kLeftOut = {
     {}, {SouthChord}, {NorthChord}, {SouthChord, SunAngle}, {NorthChord, SunAngle}};
 
@@ -115,12 +117,12 @@ TEST(HorizonRoots, TheTrueAxisIsAmongThem) {
   }
 }
 
-/// Seen from a root, the horizon leads to that root: whatever the steps that found it.
+/// Linearised at a root, the horizon must lead to that root again, independently of the iteration.
 TEST(HorizonRoots, EachIsWhatTheBeamsSeeFromIt) {
   for_all(HorizonModel::Ellipsoid, [](const AxisScene&, const Revolved& revolved) {
     const AxisSolutions found = solve_on_horizon(revolved.on_sphere());
     ASSERT_FALSE(found.places.empty());
-    // Where two roots come together steps get small before they have arrived.
+    // Where two roots merge, the steps get small before they have converged.
     const double at_rest_rad = found.near_tangent ? 1e-5 : 1e-8;
     for (const Vector3d& root : revolved.axes_of(found)) {
       EXPECT_LT(nearest_rad(revolved.axes_of(revolved.with_views_from(root)), root), at_rest_rad);
@@ -164,8 +166,8 @@ TEST(HorizonRoots, NoneIsThereTwice) {
   });
 }
 
-/// One chord and an azimuth near the limb: on the sphere there are roots that the flattened Earth
-/// does not have, and the other way round.
+/// With one chord and an azimuth near the limb, the sphere has roots that the ellipsoid lacks and
+/// the other way round.
 TEST(HorizonRoots, WhereTheTrueOneIsMissingTheySayThatTheyAreNearTangent) {
   int missing = 0;
   int fewer = 0;
@@ -191,7 +193,7 @@ TEST(HorizonRoots, WhereTheTrueOneIsMissingTheySayThatTheyAreNearTangent) {
 
 TEST(HorizonRoots, WhereTheSphereHasNoneThereIsNoneAndTheReasonIsKept) {
   Revolved revolved{tilted_scene(40.0, 90.0, HorizonModel::Ellipsoid), {SouthChord, SunAngle}};
-  // A disc that is narrower than the chord.
+  // The disc is narrower than the chord.
   revolved.sun_earth.disc_rad = 5.0 * kRadPerDeg;
   const AxisSolutions on_sphere = solve_axis_angles(revolved.on_sphere());
   ASSERT_TRUE(on_sphere.reason);
@@ -203,7 +205,7 @@ TEST(HorizonRoots, WhereTheSphereHasNoneThereIsNoneAndTheReasonIsKept) {
   EXPECT_FALSE(found.told_apart);
 }
 
-/// The disc ever narrower, until it is narrower than the chord.
+/// The disc shrinks until it is narrower than the chord.
 TEST(HorizonRoots, WhereAllVanishOnTheWayThereIsNoneAndAReason) {
   Revolved revolved{tilted_scene(80.0, 90.0, HorizonModel::Ellipsoid), {SouthChord, SunAngle}};
   int vanished = 0;

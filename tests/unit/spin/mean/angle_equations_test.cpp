@@ -18,10 +18,10 @@ namespace spindrift::angle_equations_test {
 using Scene = testing::AxisScene;
 using enum SpinQuantity;
 
-/// Small, so that angles are linear; and ten thousand times what whole nanoseconds leave.
+/// The step is small enough for linearity and ten thousand times the rounding to nanoseconds.
 constexpr double kStep_rad = 2e-5;
 
-/// Of one quantity, the others rejected.
+/// Returns the measurements with all quantities but one rejected.
 RevolutionMeasurements only(SpinQuantity quantity, const SpinConfig& config,
                             Revolution revolution) {
   if (quantity == MixedAzimuth) {
@@ -36,12 +36,12 @@ RevolutionMeasurements only(SpinQuantity quantity, const SpinConfig& config,
   return measured;
 }
 
-/// One unknown is what it is, the others are zero: r = H x + B b then is a slope times its step,
-/// and the right-hand side the normal matrix times the step.
+/// Expects equations that are linear in one unknown while the others are zero: the residual is the
+/// slope times the step, so the right-hand side is the normal matrix times the step.
 void expect_linear(const AngleEquations& equations, int unknown, double step_rad) {
   ASSERT_EQ(equations.angles(), 1);
   const Eigen::VectorXd slopes = equations.normal().col(unknown);
-  // The greatest deviation is the curvature of a chord, 20 times the step.
+  // The largest deviation is the curvature of a chord, 20 times the step.
   EXPECT_LT((equations.right() - slopes * step_rad).norm(), 1e-3 * slopes.norm() * kStep_rad);
   EXPECT_NEAR(equations.squares(), slopes(unknown) * step_rad * step_rad,
               2e-3 * slopes(unknown) * step_rad * step_rad + 1e-12);
@@ -73,8 +73,8 @@ TEST(AngleEquations, AnAxisBesideTheReferenceIsCountedFromThere) {
     AngleEquations equations{reference_icrf};
     equations.add(scene.config, measured, scene.sun_earth(), about_icrf);
     EXPECT_EQ(equations.angles(), 5);
-    // The angles are correlated and have a noise of degrees at most: all of it is the step's square
-    // and the radian that the reference counts for.
+    // The angles have at most degrees of correlated noise. What remains is the square of the step
+    // and the radian of the reference's weight.
     EXPECT_LT(angle_between_rad(equations.axis_icrf(), scene.axis_icrf), 2e-3 * kStep_rad);
   }
 }
@@ -137,7 +137,7 @@ TEST(AngleEquations, AChannelThatIsLateMovesTheAxisByItsOffset) {
                                       (axis_of(late).axis_icrf() - in_time.axis_icrf());
     const Eigen::Vector2d expected_rad =
         in_time.offset_shift().col(static_cast<Eigen::Index>(channel)) * late_s;
-    // The period has a noise of its own in the dihedrals, some percent of that of the edges.
+    // The period adds noise of its own to the dihedrals, a few percent of that of the edges.
     EXPECT_LT((moved_rad - expected_rad).norm(), 0.05 * expected_rad.norm() + 1e-3 * kStep_rad);
   }
 }
@@ -168,7 +168,7 @@ TEST(AngleEquations, CovarianceIsTheScatterOfTheAxis) {
         tangent_basis(scene.axis_icrf).transpose() * equations.axis_icrf();
     squares += testing::normalised_square(error_rad, equations.covariance_rad2());
   }
-  // 99.9 % of chi-square with 6000 degrees of freedom, standard deviation sqrt(12000).
+  // Chi-square with 6000 degrees of freedom has a standard deviation of sqrt(12000); 99.9 %.
   EXPECT_NEAR(squares, 2.0 * kDraws, 3.29 * 109.5);
 }
 

@@ -42,7 +42,7 @@ FixesByCase fixes_about(const Scene& scene, std::size_t stretch_fixes = 1000) {
   return fixes;
 }
 
-/// Of all events of one probability, a half-space shifts the mean the most: by the density at its
+/// Of all events of one probability a half-space shifts the mean the most: by the density at its
 /// edge over the probability.
 TEST(FixesByCase, ShiftIsThatOfAHalfSpaceAtLeastAndHalfAsMuchMoreAtMost) {
   for (double edge = -5.0; edge <= 5.0; edge += 0.25) {
@@ -92,7 +92,7 @@ TEST(FixesByCase, ACaseMostlyLeftOutIsNotInTheMeanOfOthers) {
   EXPECT_LT(angle_between_rad(mean.equations.axis_icrf(), others.axis_icrf()), 1e-12);
 }
 
-/// With nothing else, it is the mean; as uncertain as the shift of all its fixes makes it.
+/// A selection on its own is the mean, and its uncertainty is the possible shift of all its fixes.
 TEST(FixesByCase, ASelectionByItselfIsAsUncertainAsItsShift) {
   const Scene scene;
   std::mt19937_64 rng{33};
@@ -104,13 +104,13 @@ TEST(FixesByCase, ASelectionByItselfIsAsUncertainAsItsShift) {
   const MeanOfCases mean = fixes.mean();
   EXPECT_EQ(mean.count, 10U);
   EXPECT_NEAR(mean.settled_share, 0.1, 1e-4);
-  // sqrt(2 ln 10) sigma of ten fixes.
+  // The shift is sqrt(2 ln 10) sigma of ten fixes.
   const Eigen::Matrix2d expected =
       mean.equations.covariance_rad2() * (1.0 + 10.0 * 2.0 * std::log(10.0));
   EXPECT_TRUE(mean.covariance_rad2.isApprox(expected, 1e-4));
 }
 
-/// A selection that weighs little moves the mean little, however many its fixes.
+/// A selection with little weight hardly moves the mean, however many fixes it has.
 TEST(FixesByCase, ASelectionCountsByItsWeight) {
   const Scene sharp;
   Scene blunt = sharp;
@@ -129,7 +129,7 @@ TEST(FixesByCase, ASelectionCountsByItsWeight) {
   EXPECT_LT(mean.covariance_rad2.trace(), 1.1 * mean.equations.covariance_rad2().trace());
 }
 
-/// The geometry has turned, and noise leaves none out any more: those settled before are the
+/// After the geometry has changed, noise leaves no fix out. The earlier settled fixes form the
 /// selection, not these.
 TEST(FixesByCase, AStretchIsNoSelectionBecauseAnEarlierOneIs) {
   const Scene scene;
@@ -151,7 +151,7 @@ TEST(FixesByCase, AStretchIsNoSelectionBecauseAnEarlierOneIs) {
   EXPECT_LT(angle_between_rad(mean.equations.axis_icrf(), later.axis_icrf()), 1e-12);
 }
 
-/// As long as a stretch has few, chance may have settled all of them.
+/// While a stretch has few fixes, all of them may have been settled by chance.
 TEST(FixesByCase, AStretchThatBeginsCountsWithTheOneBefore) {
   const Scene scene;
   std::mt19937_64 rng{36};

@@ -82,8 +82,8 @@ TEST(MeanAxis, WeightsUnequalFixesForTheLeastVariance) {
 }
 
 TEST(MeanAxis, CovarianceAcrossThePoleKeepsItsDirections) {
-  // On either side of the pole, 0.01 deg off, "east" points opposite ways, and a quarter turn away
-  // it is the other's north. The uncertainty of both lies along the ICRF x axis.
+  // On opposite sides of the pole, 0.01 deg off, "east" points in opposite directions, and a
+  // quarter turn away it is the other's north. The uncertainty of all is along the ICRF x axis.
   const Eigen::Vector3d uncertain_icrf = Eigen::Vector3d::UnitX();
   MeanAxis mean;
   for (const double ra_deg : {0.0, 90.0, 180.0, 270.0}) {
@@ -93,7 +93,7 @@ TEST(MeanAxis, CovarianceAcrossThePoleKeepsItsDirections) {
   }
   const Eigen::Vector2d along = tangent_basis(mean.axis_icrf()).transpose() * uncertain_icrf;
   const Eigen::Matrix2d covariance_rad2 = mean.covariance_rad2();
-  // Second order in 0.01 deg.
+  // The error is of second order in 0.01 deg.
   EXPECT_NEAR(along.dot(covariance_rad2 * along), 0.25e-6, 1e-6 * std::pow(0.01 * kRadPerDeg, 2));
   EXPECT_NEAR(covariance_rad2.trace(), 0.25e-6, 1e-6 * std::pow(0.01 * kRadPerDeg, 2));
 }
@@ -114,7 +114,7 @@ TEST(MeanAxis, CovarianceIsTheScatterOfTheMean) {
       const double east = normal(rng);
       const Eigen::Vector2d off_rad = sigma_rad.cwiseProduct(Eigen::Vector2d{east, normal(rng)});
       const Eigen::Vector3d axis = (truth + basis * off_rad).normalized();
-      // The covariance is stated where the fix lies.
+      // The covariance is given in the tangent plane of the fix.
       const Eigen::Matrix2d turn = tangent_basis(axis).transpose() * basis;
       mean.add(fix_at(axis, turn * covariance_rad2 * turn.transpose()));
     }
@@ -122,7 +122,7 @@ TEST(MeanAxis, CovarianceIsTheScatterOfTheMean) {
         tangent_basis(mean.axis_icrf()).transpose() * (truth - mean.axis_icrf());
     squares += testing::normalised_square(error_rad, mean.covariance_rad2());
   }
-  // Chi-square with 2000 degrees of freedom: standard deviation sqrt(4000), four of them.
+  // Four standard deviations, sqrt(4000) each, of chi-square with 2000 degrees of freedom.
   EXPECT_NEAR(squares, 2.0 * kMeans, 4.0 * std::sqrt(4.0 * kMeans));
 }
 
@@ -145,7 +145,7 @@ TEST(MeanAxis, KnowsWhenFixesScatterMoreThanTheyState) {
         }
       }
       if (times > 1.0) {
-        // Chi-square with 198 degrees of freedom: four of its sigmas.
+        // Four sigmas of chi-square with 198 degrees of freedom.
         EXPECT_NEAR(mean.excess_scatter() / (times * times), 1.0, 4.0 * std::sqrt(2.0 / 198.0));
       }
     }

@@ -14,10 +14,11 @@
 
 namespace spindrift::mean_estimator_test {
 
-/// A body at rest, revolution after revolution.
+/// Feeds the estimator with revolutions of a constant scene.
 class Pass {
  public:
-  /// @param turned_rad The fix stands so far from what its angles say.
+  /// Adds one revolution.
+  /// @param turned_rad Rotation of the fix away from its angles.
   SpinEstimate next(double turned_rad = 0.0) {
     const Revolution revolution = testing::noisy(scene_, scene_.seen(), rng_);
     const RevolutionMeasurements measured = measure(scene_.config, revolution);

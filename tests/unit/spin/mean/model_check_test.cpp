@@ -45,8 +45,8 @@ Revolution with_noise(Revolution revolution, const PulseNoise& noise, std::mt199
   return revolution;
 }
 
-/// Of many revolutions of a body that is not quite what `config` says, with `noise_times` the noise
-/// that it states.
+/// Returns the equations of many revolutions whose sensors differ from `config`; the true noise is
+/// `noise_times` the stated one.
 AngleEquations equations_of(const SpinConfig& config, double noise_times = 1.0,
                             int revolutions = 400) {
   std::mt19937_64 rng{17};
@@ -73,7 +73,7 @@ TEST(ModelCheck, SaysNothingWithoutRevolutionsAndOfModelsThatAreRight) {
 }
 
 TEST(ModelCheck, DoesNotMindAnAxisBesideTheTrueOne) {
-  // Without noise, and so many that a slope wrong by a twentieth would show.
+  // Without noise and with so many revolutions a slope wrong by 1/20 would show.
   const SpinConfig config = testing::usual_config();
   const RevolutionMeasurements measured = measure(config, seen());
   const Eigen::Matrix<double, 3, 2> basis = tangent_basis(kAxis);
@@ -108,7 +108,8 @@ TEST(ModelCheck, SeesAnAzimuthThatIsWrong) {
 
 TEST(ModelCheck, SeesASunAngleAndALimbThatAreWrong) {
   SpinConfig slit = testing::usual_config();
-  // Across Sun and Earth both, as this axis nearly is, a sun angle hardly touches the others.
+  // With Sun and Earth perpendicular to the axis, as nearly here, the sun angle hardly affects the
+  // other angles.
   slit.sun_sensor.slit_separation_rad += 10.0 * kRadPerDeg;
   EXPECT_TRUE(test_model(equations_of(slit)).beyond_allowance);
   SpinConfig beam = testing::usual_config();
@@ -126,7 +127,7 @@ TEST(ModelCheck, ShowsWhatTheAllowanceExcusesWithoutDoubt) {
 
 TEST(ModelCheck, MeasuresNoiseThatIsMoreThanStated) {
   const ModelTest verdict = test_model(equations_of(testing::usual_config(), 3.0));
-  // 2000 angles: the scatter of their mean square is 3 %.
+  // The mean square of 2000 angles scatters by 3 %.
   EXPECT_NEAR(verdict.excess_noise, 9.0, 1.2);
   EXPECT_EQ(verdict.error_rad, 0.0);
 }

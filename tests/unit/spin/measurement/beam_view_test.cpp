@@ -12,7 +12,7 @@ namespace spindrift::beam_view_test {
 
 using Scene = testing::AxisScene;
 
-// Three edges at half a nanosecond.
+// Three edges, each rounded to 0.5 ns.
 constexpr double kNanosecond_rad = 1.5e-9;
 
 Scene oblique_scene() {
@@ -79,7 +79,8 @@ TEST(BeamView, SlopesAreThoseOfSmallStepsOfTheAxis) {
       const Eigen::Vector3d step_icrf = kStep_rad * basis.col(i);
       const BeamView after = views_at(scene.axis_icrf + step_icrf).at(index_of(side));
       const BeamView before = views_at(scene.axis_icrf - step_icrf).at(index_of(side));
-      // Relative to 1: a step of 1e-5 squared, and rounding of 1e-15 over it.
+      // The errors are the square of the step of 1e-5 and rounding of 1e-15 over the step, relative
+      // to 1.
       EXPECT_NEAR(here.disc_per_step_icrf.dot(basis.col(i)),
                   (after.disc_rad - before.disc_rad) / (2.0 * kStep_rad), 1e-8);
       EXPECT_NEAR(here.lead_per_step_icrf.dot(basis.col(i)),
@@ -111,7 +112,7 @@ TEST(BeamView, LeadsAreThoseOfTheBeamsThatAnAzimuthRestsOn) {
 }
 
 TEST(BeamView, OfABeamThatMissesIsOfOneThatDoesNot) {
-  // From the equator over the north pole: closed forms of both limbs there.
+  // The view from the equator over the north pole has closed forms of both limbs.
   Scene scene{.sun_icrf = Eigen::Vector3d::UnitY(),
               .earth_icrf = Eigen::Vector3d::UnitX(),
               .axis_icrf = Eigen::Vector3d::UnitZ()};

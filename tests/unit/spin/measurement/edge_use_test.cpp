@@ -12,7 +12,8 @@ namespace spindrift::edge_use_test {
 
 using enum PulseChannel;
 
-/// Of a revolution with a north chord, whose out-edge is rejected, and a sun angle.
+/// Returns the rejection of a channel in a revolution with a north chord, whose end is rejected,
+/// and a sun angle.
 std::optional<Rejection> use_of(PulseChannel channel, Rejection out_rejected_by,
                                 std::optional<Rejection> sun_angle_rejected_by = {}) {
   Revolution revolution{.number = 3,

@@ -19,12 +19,12 @@ using enum PulseChannel;
 
 constexpr double kPi = std::numbers::pi;
 constexpr double kRate_rad_s = 2.0 * kPi / 1.5;
-// Two edges, each rounded to half a nanosecond.
+// Two edges, each rounded to 0.5 ns.
 constexpr double kNanosecond_rad = kRate_rad_s * 1e-9;
 const TaiTime kStart = tai_from_ns(1'795'143'637'000'000'000);
 
-/// A body about ICRF z, the Sun and the Earth at these angles from it; the Earth follows the Sun
-/// by `dihedral_rad`.
+/// Holds a body that spins about ICRF z with the Sun and the Earth at these angles from it; the
+/// Earth follows the Sun by `dihedral_rad`.
 struct Scene {
   double sun_angle_rad = 80.0 * kRadPerDeg;
   double earth_angle_rad = 92.0 * kRadPerDeg;
@@ -54,7 +54,7 @@ TEST(SpinMeasurements, SunAngleIsThatOfTheOracle) {
     const Scene scene{.sun_angle_rad = angle_deg * kRadPerDeg};
     const auto measured = measure(scene.config, seen(scene)).sun_angle;
     ASSERT_TRUE(measured);
-    // d(theta_s) / d(lag) is 1 at most with a cant of 45 deg.
+    // d(theta_s) / d(lag) is at most 1 for a cant of 45 deg.
     EXPECT_NEAR(measured->value_rad, scene.sun_angle_rad, kNanosecond_rad);
   }
 }
@@ -64,7 +64,7 @@ TEST(SpinMeasurements, ADriftOfTheRateChangesNoAngle) {
   Revolution even = seen(scene);
   even.t_start = even.edge(Sun1).value();
   Revolution drifting = even;
-  // What takes t at an even rate takes t - t^2 / 200 s: the rate gains a hundredth in a second.
+  // What takes t at a constant rate takes t - t^2 / 200 s here: the rate gains 1 % a second.
   drifting.period.drift_per_s2 = 0.01 / even.period.period_s;
   for (auto& edge : drifting.edges) {
     const double t_s = seconds_between(even.t_start, edge.value());
@@ -279,7 +279,7 @@ TEST(SpinMeasurements, NoiseIsWhatEachEdgeMovesThemBy) {
       const RevolutionMeasurements earlier = moved_by(-sigma_s);
       for (const SpinQuantity quantity : kMeasuredAngles) {
         if (const auto value = value_of(exact, quantity)) {
-          // The nanosecond, and the third order of a sigma of 4e-4 rad.
+          // Rounding to nanoseconds, and the third order of a sigma of 4e-4 rad.
           EXPECT_NEAR(value->noise_rad(static_cast<Eigen::Index>(channel)),
                       0.5 * wrapped_rad(value_of(later, quantity)->value_rad -
                                         value_of(earlier, quantity)->value_rad),
@@ -319,7 +319,7 @@ TEST(SpinMeasurements, SigmaIsTheScatterThatTheNoiseMakes) {
       squares.at(i) += normalised * normalised;
     }
   }
-  // Four standard errors: of the mean 1 / sqrt(n), of the standard deviation 1 / sqrt(2 n). The
+  // Four standard errors: 1 / sqrt(n) of the mean, 1 / sqrt(2 n) of the standard deviation. The
   // curvature of theta_s over one sigma (6e-4 rad) is far below both.
   for (std::size_t i = 0; i < kAll.size(); ++i) {
     SCOPED_TRACE(name_of(kAll.at(i)));

@@ -15,13 +15,13 @@ constexpr double kPi = std::numbers::pi;
 const SunSensor kSensor{.slit_cant_rad = 40.0 * kRadPerDeg,
                         .slit_separation_rad = 35.0 * kRadPerDeg};
 
-/// Cosine of the angle between Sun and Earth, from the spherical triangle with the axis.
+/// Returns the cosine of the angle between Sun and Earth from the triangle with the axis.
 double cos_sun_earth(double sun_rad, double earth_rad, double dihedral_rad) {
   return std::cos(sun_rad) * std::cos(earth_rad) +
          std::sin(sun_rad) * std::sin(earth_rad) * std::cos(dihedral_rad);
 }
 
-/// What the handbook's cot(theta_s) = sin(lag) / tan I makes of a lag.
+/// Returns the sun angle of a lag by the handbook's cot(theta_s) = sin(lag) / tan I.
 double sun_angle_at(double lag_rad) {
   return std::atan2(std::tan(kSensor.slit_cant_rad), std::sin(lag_rad));
 }
@@ -54,7 +54,7 @@ TEST(MixedAzimuth, EveryRootSatisfiesTheTriangleAndOneIsTheTruth) {
     }
     if (!true_one) {
       ++missed;
-      // A pair less than a degree apart: the miss between them is a parabola's.
+      // The roots are less than a degree apart, and the miss between them follows a parabola.
       ASSERT_LT(found.nearest_miss, 1e-3);
     }
   }

@@ -1,5 +1,5 @@
 /// @file
-/// Edges of an even spin, each off by what a test says: what the search for nutation is fed.
+/// Residuals of a steady spin with errors chosen by the test, as input of the nutation search.
 
 #pragma once
 
@@ -15,14 +15,14 @@
 
 namespace spindrift::testing {
 
-/// An edge of every turn.
+/// Describes a channel with one edge a turn.
 struct SteadyChannel {
   PulseChannel channel;
   double behind_turns;
   Eigen::Vector2d per_tilt;
 };
 
-/// In the order of the channels.
+/// Sorted by channel.
 inline const std::vector<SteadyChannel> kSteadyChannels = {
     {PulseChannel::Sun1, 0.0, {0.1, 0.2}},
     {PulseChannel::Sun2, 0.1, {-0.6, 0.8}},
@@ -31,10 +31,10 @@ inline const std::vector<SteadyChannel> kSteadyChannels = {
 inline constexpr double kSteadyPeriod_s = 0.8;
 inline constexpr double kSteadySigma_rad = 1e-3;
 
-/// By how much an edge is late, rad.
+/// Returns the delay of an edge, rad.
 using Off = std::function<double(const SteadyChannel& channel, double turns)>;
 
-/// Turn by turn.
+/// Returns the residuals turn by turn.
 inline std::vector<UniformSpinResidual> edges_off(const std::vector<SteadyChannel>& channels,
                                                   int turns, const Off& off_rad) {
   std::vector<UniformSpinResidual> residuals;
@@ -69,8 +69,8 @@ inline Off sum_of(Off one, Off other) {
       };
 }
 
-/// The body is tipped by a rotation of constant size whose direction goes round evenly, and an edge
-/// moves by what its slope says.
+/// Returns the residuals of a body tilted by a rotation of constant size whose direction rotates at
+/// a constant rate.
 /// @param first_rad Direction of the rotation at turn 0.
 inline Off off_by_circle(double size_rad, double per_turn, double first_rad) {
   return [=](const SteadyChannel& channel, double turns) {

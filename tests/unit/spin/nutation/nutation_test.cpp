@@ -1,4 +1,4 @@
-/// Against tilts put together from their formula.
+/// The nutation search on tilts computed from their formula.
 
 #include "pipelines/spin/nutation/nutation.h"
 
@@ -36,7 +36,7 @@ const std::vector<Channel> kChannels = {{PulseChannel::Sun1, 0.0, {0.1, 0.2}},
                                         {PulseChannel::NorthIn, 0.4, {1.4, 0.3}},
                                         {PulseChannel::NorthOut, 0.6, {-1.1, -0.5}}};
 
-/// The rotation (real: x) that tips the body when it has made so many turns.
+/// Returns the rotation (real part about x) that tilts the body after this many turns.
 using Tilt = std::function<std::complex<double>(double turns)>;
 
 std::vector<UniformSpinResidual> tipped(const std::vector<Channel>& channels, int turns,
@@ -88,7 +88,7 @@ TEST(Nutation, OfAnExactCircleIsFoundExactly) {
     EXPECT_NEAR(found.period_s.value / (kPeriod_s / per_turn), 1.0, 1e-6);
     EXPECT_NEAR(found.per_turn, per_turn, 1e-6);
     EXPECT_NEAR(found.growth_per_s.value, 0.0, 1e-7);
-    // The rotation (1, 0) leans the axis to -90 deg.
+    // The rotation (1, 0) tilts the axis towards -90 deg.
     const double lean_rad =
         2.0 * std::numbers::pi * (per_turn * found.t_s / kPeriod_s - 0.25) + 0.4;
     EXPECT_NEAR(std::remainder(found.lean_azimuth_rad.value - lean_rad, 2.0 * std::numbers::pi),
@@ -121,7 +121,7 @@ TEST(Nutation, GrowsAsItDoes) {
       find_nutation(noisy(tipped(kChannels, 500, growing), kSigma_rad, 1)).value().found;
   ASSERT_TRUE(found);
   EXPECT_GT(found->growth_per_s.value, 5.0 * found->growth_per_s.sigma);
-  // To first order of 0.35 to each end; the square shifts it a little.
+  // The growth of 0.35 to each end is treated to first order; its square adds a small error.
   EXPECT_NEAR(found->growth_per_s.value / growth_per_s, 1.0,
               0.05 + 3.0 * found->growth_per_s.sigma / growth_per_s);
 }

@@ -25,7 +25,7 @@ using testing::off_by_circle;
 using testing::off_by_noise;
 using testing::SteadyChannel;
 
-/// Another parabola for each channel.
+/// Returns a different parabola for each channel.
 double parabola_rad(const SteadyChannel& channel, double turns) {
   const double x = turns / 100.0;
   return channel.per_tilt.x() + (0.3 - channel.behind_turns) * x + channel.per_tilt.y() * x * x;
@@ -43,7 +43,7 @@ TEST(TiltSignal, CountsTurnsFromTheEdgeInTheMiddle) {
   ASSERT_EQ(signal.edges(), 404);
   EXPECT_NEAR(signal.spin_period_s(), kSteadyPeriod_s, 1e-12);
   EXPECT_NEAR(signal.turns_in_stretch(), 100.0, 1e-12);
-  // Channel by channel, each from turn to turn.
+  // The rows are sorted by channel, then by turn.
   Eigen::Index i = 0;
   for (const SteadyChannel& channel : kSteadyChannels) {
     for (int turn = 0; turn < 101; ++turn, ++i) {
@@ -92,7 +92,7 @@ TEST(TiltSignal, HasNothingOfAParabolaOfEachChannel) {
 TEST(TiltSignal, HasNothingOfWhatAnErrorOfTheModelDoes) {
   auto residuals = edges_off(kSteadyChannels, 300, parabola_rad);
   for (UniformSpinResidual& residual : residuals) {
-    // As where a chord gets narrow.
+    // The slope grows as it does where a chord becomes narrow.
     residual.expected.phase_per_error[NorthLimb] = 1.0 / std::sqrt(310.0 - residual.turns);
     residual.off_rad += 0.01 * residual.expected.phase_per_error[NorthLimb];
   }
@@ -100,7 +100,7 @@ TEST(TiltSignal, HasNothingOfWhatAnErrorOfTheModelDoes) {
 }
 
 TEST(TiltSignal, HasParabolasOfTheirOwnEveryTenMinutes) {
-  // 1600 turns, 1280 s: three stretches of 533 turns.
+  // 1600 turns are 1280 s, which gives three stretches of 533 turns.
   const Off kinked = [](const SteadyChannel& channel, double turns) {
     const double stretch = std::floor((turns - channel.behind_turns) / 1599.0 * 3.0);
     return parabola_rad(channel, turns) * (stretch == 1.0 ? -2.0 : 1.0);
@@ -124,13 +124,13 @@ TEST(TiltSignal, TakingOutSlowChangesIsAProjection) {
   Eigen::MatrixXd twice = once;
   signal.take_out_slow_changes(twice);
   EXPECT_LT((twice - once).norm(), 1e-12 * once.norm());
-  // Symmetric, so that what is left is across what is taken out.
+  // The projection is symmetric, so the remainder is orthogonal to what is removed.
   EXPECT_NEAR(once.col(0).dot(columns.col(1)), columns.col(0).dot(once.col(1)), 1e-9);
   EXPECT_NEAR(once.col(0).dot(columns.col(0) - once.col(0)), 0.0, 1e-9);
   EXPECT_GT((columns - once).norm(), 1.0);
 }
 
-/// The share of unit noise that is left is the freedom.
+/// The share of unit noise that remains is the number of degrees of freedom.
 TEST(TiltSignal, HasOneSquareForEachDegreeOfFreedom) {
   double squares = 0.0;
   double freedom = 0.0;
@@ -142,7 +142,7 @@ TEST(TiltSignal, HasOneSquareForEachDegreeOfFreedom) {
   EXPECT_NEAR(squares / freedom, 1.0, 5.0 * std::sqrt(2.0 / freedom));
 }
 
-/// Named by how often it goes round in a turn.
+/// The parameter is the number of cycles in a turn.
 class Circle : public ::testing::TestWithParam<double> {
  protected:
   static constexpr double kSize_rad = 2e-3;
@@ -150,7 +150,7 @@ class Circle : public ::testing::TestWithParam<double> {
   static std::vector<UniformSpinResidual> tipped() {
     return edges_off(kSteadyChannels, 300, off_by_circle(kSize_rad, GetParam(), kFirst_rad));
   }
-  /// Its direction when the pass is at its middle.
+  /// Returns the direction of the rotation at the middle of the pass.
   static double towards_rad(const TiltSignal& signal) {
     return kTurn_rad * GetParam() * signal.middle_s() / kSteadyPeriod_s + kFirst_rad;
   }
@@ -173,7 +173,7 @@ TEST_P(Circle, IsOfOneSizeInWhateverFrame) {
   for (SteadyChannel& channel : turned) {
     channel.per_tilt = Eigen::Rotation2Dd{kTurned_rad} * channel.per_tilt;
   }
-  // The same edges, but that the frame stands elsewhere.
+  // The same edges in a rotated frame.
   auto residuals = tipped();
   const auto slopes = edges_off(turned, 300, [](const SteadyChannel&, double) { return 0.0; });
   for (std::size_t i = 0; i < residuals.size(); ++i) {

@@ -25,14 +25,14 @@ TiltSignal signal_of(const Off& off_rad, int turns = kTurns) {
   return TiltSignal{testing::edges_off(testing::kSteadyChannels, turns, off_rad)};
 }
 
-// What the length of the pass resolves.
+// Frequency resolution of the pass.
 constexpr double kResolved_per_turn = 1.0 / kTurns;
 
 bool is_seen(const TiltSignal& signal, double per_turn) {
   return std::abs(per_turn - std::round(per_turn)) > unseen_per_turn(signal);
 }
 
-/// |D|, by its definition, edge by edge.
+/// Returns |D| by its definition, edge by edge.
 double power(const TiltSignal& signal, double per_turn) {
   std::complex<double> sum;
   for (Eigen::Index i = 0; i < signal.edges(); ++i) {
@@ -42,7 +42,7 @@ double power(const TiltSignal& signal, double per_turn) {
   return std::norm(sum);
 }
 
-/// Over a grid ten times as fine as the length of the pass resolves.
+/// Returns the peak on a grid ten times finer than the resolution.
 double strongest_by_definition(const TiltSignal& signal, int turns) {
   double best_per_turn = 0.0;
   double best_power = 0.0;
@@ -82,8 +82,8 @@ TEST(TiltSpectrum, OfTwoTiltsTheStrongerWins) {
   EXPECT_NEAR(strongest(1e-3, 1.1e-3), 1.84, 0.25 * kResolved_per_turn);
 }
 
-/// Of noise, whose peaks are nowhere and everywhere. Beside a peak by a quarter of what is resolved
-/// the power is (sin(pi / 4) / (pi / 4))^2 of it, 0.81.
+/// Noise has peaks everywhere. A quarter of the resolution beside a peak the power is (sin(pi / 4)
+/// / (pi / 4))^2 = 0.81 of it.
 TEST(TiltSpectrum, ItsPeakIsThatOfTheDefinition) {
   constexpr int kFew = 60;
   for (unsigned seed = 1; seed <= 5; ++seed) {
@@ -97,7 +97,7 @@ TEST(TiltSpectrum, ItsPeakIsThatOfTheDefinition) {
   }
 }
 
-/// What is nearer to a whole number is little of what it was once the slow changes are out.
+/// Frequencies closer to a whole number are mostly removed with the slow changes.
 TEST(TiltSpectrum, UnseenIsWhatSlowChangesTakeAlong) {
   const auto share_left = [](double whole, double beside) {
     const TiltSignal still = signal_of(circle(0.0, 0.0));

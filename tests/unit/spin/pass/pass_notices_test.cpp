@@ -30,7 +30,7 @@ Association of_one_revolution() {
           .left_over = {}};
 }
 
-/// As people read them.
+/// Returns the notices as sentences.
 std::vector<std::string> taken(PassNotices& notices) {
   std::vector<std::string> sentences;
   for (const Notice& notice : notices.take()) {
@@ -68,7 +68,7 @@ SpinFix fix_of(int geometry_case, Resolution resolution, bool near_tangent = fal
           .near_tangent = near_tangent};
 }
 
-/// What the end says of an axis that is ambiguous, of the mission with its prior or without.
+/// Returns the final notice on an ambiguous axis for a mission with or without a prior.
 std::string said_of_ambiguous(const Assessment& assessment, const std::optional<SpinPrior>& prior,
                               std::optional<PriorVerdict> verdict, bool contradicted = false) {
   SpinConfig config = kConfig;
@@ -84,7 +84,7 @@ std::string said_of_ambiguous(const Assessment& assessment, const std::optional<
   return said.size() == 1 ? said.front() : "not one notice";
 }
 
-/// So many edges, and so many of them left out for that reason.
+/// Returns `edges` edges, of which `left_out` are rejected for this reason.
 std::vector<SpinProduct> used(std::int64_t edges, std::int64_t left_out, Rejection rejection) {
   std::vector<SpinProduct> products;
   for (std::int64_t i = 0; i < edges; ++i) {

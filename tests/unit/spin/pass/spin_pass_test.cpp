@@ -90,7 +90,7 @@ TEST(SpinPass, RejectsTheBadEdgesOfADirtyPassAndKeepsTheGood) {
   EXPECT_LE(static_cast<double>(good_rejected), 0.01 * good);
 }
 
-/// Two receivers, whose times differ by nothing that matters, or by a noise of their own.
+/// Two receivers with equal times or with independent noise.
 TEST(SpinPass, OfCopiesWithinTheNoiseEveryAnswerIsDoubtful) {
   const RecordedPass pass = recorded_pass("nominal");
   for (const double jitter_s : {0.0, 1e-4}) {
@@ -114,7 +114,7 @@ TEST(SpinPass, OfCopiesWithinTheNoiseEveryAnswerIsDoubtful) {
 TEST(SpinPass, WithOneBeamNoFixIsOfTwo) {
   int one_chord = 0;
   for (const SpinFix& fix : all_of<SpinFix>(run(recorded_pass("north-only")))) {
-    // Where the sun angle fails its test, chord and dihedral are left.
+    // When the sun angle fails its test, chord and dihedral remain.
     ASSERT_THAT(fix.geometry_case, AnyOf(2, 5));
     one_chord += fix.geometry_case == 2 ? 1 : 0;
   }
@@ -147,7 +147,7 @@ TEST(SpinPass, SaysOnceWhatBecameOfEveryEdge) {
 }
 
 TEST(SpinPass, TakesAnIntervalOfMoreThanAPeriodForAnEdgeOfTheNextRevolution) {
-  // So slow that what comes behind a second is late.
+  // At this period an edge that is more than a second behind counts as late.
   constexpr double kPeriod_s = 10.0;
   const RecordedPass pass = recorded_pass("coded");
   std::vector<CodedFrame> frames;
@@ -202,7 +202,7 @@ TEST(SpinPass, AcceptsNearlyAllOfACleanPass) {
   const auto uses = all_of<PulseUse>(run(recorded_pass("nominal")));
   const auto rejected =
       std::count_if(uses.begin(), uses.end(), [](const PulseUse& use) { return use.rejected_by; });
-  // Three sigma leaves out 0.3 % of the measurements; an edge falls with both of its own only.
+  // Three sigma reject 0.3 % of the measurements; an edge is rejected only with both of its own.
   EXPECT_LT(static_cast<double>(rejected), 0.01 * static_cast<double>(uses.size()));
 }
 
@@ -212,8 +212,8 @@ TEST(SpinPass, MeasurementsOfARevolutionAreToldOnce) {
     ASSERT_TRUE(told.emplace(measurement.revolution, measurement.quantity).second)
         << measurement.revolution << " " << name_of(measurement.quantity);
   }
-  // Six quantities in 600 revolutions; the first ends no interval.
-  EXPECT_EQ(told.size(), 6U * 600U - 1U + 1U);  // One sun1 fails its test: a mixed azimuth more.
+  // Six quantities in 600 revolutions, except the period of the first.
+  EXPECT_EQ(told.size(), 6U * 600U - 1U + 1U);  // One sun1 fails its test and adds a mixed azimuth.
 }
 
 TEST(SpinPass, TheSameInputGivesTheSameProducts) {
@@ -225,7 +225,7 @@ TEST(SpinPass, TheSameInputGivesTheSameProducts) {
 
 TEST(SpinPass, DuplicatesChangeNothingHoweverLateTheyArrive) {
   const RecordedPass pass = recorded_pass("nominal");
-  for (const std::size_t behind : {0U, 100U, 2000U}) {  // Six pulses a second.
+  for (const std::size_t behind : {0U, 100U, 2000U}) {  // The pass has six pulses a second.
     std::vector<Pulse> twice;
     for (std::size_t i = 0; i < pass.pulses.size() + behind; ++i) {
       if (i < pass.pulses.size()) {
@@ -263,7 +263,8 @@ TEST(SpinPass, ALatePulseIsToldAndLeftOut) {
   std::vector<Pulse> arrivals = pass.pulses;
   const auto held_back = arrivals.begin() + 300;
   const Pulse late = *held_back;
-  std::rotate(held_back, held_back + 1, held_back + 60);  // Ten revolutions of one second.
+  std::rotate(held_back, held_back + 1,
+              held_back + 60);  // 60 pulses are ten revolutions of one second.
   const SpinOutput output = run(SpinPass{pass.config, pass.orbit}, arrivals);
   int told = 0;
   for (const PulseUse& use : all_of<PulseUse>(output)) {
@@ -293,7 +294,7 @@ TEST(SpinPass, AWrongEdgeIsRejectedByTheTestItFails) {
   const auto fix = std::find_if(fixes.begin(), fixes.end(),
                                 [&](const SpinFix& f) { return f.revolution == use->revolution; });
   ASSERT_NE(fix, fixes.end());
-  EXPECT_EQ(fix->geometry_case, 3);  // The others of that revolution are kept.
+  EXPECT_EQ(fix->geometry_case, 3);  // The other measurements of that revolution are kept.
 }
 
 TEST(SpinPass, AnEdgeWithoutItsPartnerIsUsed) {
@@ -308,7 +309,7 @@ TEST(SpinPass, AnEdgeWithoutItsPartnerIsUsed) {
     if (use.pulse.channel == PulseChannel::SouthOut && use.pulse.t > lost &&
         use.pulse.t < shifted(lost, 0.5)) {
       EXPECT_TRUE(use.revolution);
-      EXPECT_FALSE(use.rejected_by);  // By `sequential`.
+      EXPECT_FALSE(use.rejected_by);  // `sequential` uses the edge.
       ++partners;
     }
   }
@@ -330,7 +331,7 @@ TEST(SpinPass, OutsideTheOrbitMeasurementsStandWithoutAFix) {
       ASSERT_THAT(measurement.rejected_by, AnyOf(Rejection::NoOrbit, Rejection::Phase));
     }
   }
-  // The first such revolution, and at the end how many there were.
+  // One notice for the first such revolution and one for their total at the end.
   ASSERT_EQ(output.notices.size(), 2U);
   EXPECT_EQ(output.notices.front().code, NoticeCode::OutsideOrbit);
   EXPECT_EQ(output.notices.back().code, NoticeCode::MuchOutsideOrbit);
@@ -381,7 +382,7 @@ TEST(SpinPass, SaysInTheEndWhyThereIsNoMeanAndWhyThePriorDoesNotSettleTheAxis) {
   EXPECT_TRUE(testing::has(output.notices, NoticeCode::AmbiguousPriorNoHelp));
 }
 
-/// Of estimates from that instant on.
+/// Expects doubt about the orbit in estimates from `from` on.
 void expect_doubts_of_orbit(const SpinOutput& output, TaiTime from) {
   for (const SpinEstimate& estimate : all_of<SpinEstimate>(output)) {
     const bool both_sides = estimate.t > from;
@@ -405,7 +406,7 @@ TEST(SpinPass, DoubtsWhatRestsOnBothSidesOfAStepOfTheOrbit) {
     ASSERT_TRUE(testing::has(output.notices, NoticeCode::OrbitStepsInPass));
     expect_doubts_of_orbit(output, orbit.segments()[1].usable_from);
   }
-  // Segments that go on, and a step beside the pass.
+  // The orbit continues smoothly, or its step lies outside the pass.
   for (const double after_s : {240.0, -100.0}) {
     pass.orbit = Orbit{
         testing::stepped(segment, shifted(begins, after_s), after_s > 0.0 ? none : off, none)};
@@ -427,7 +428,7 @@ TEST(SpinPass, AMarkedManoeuvreLeavesTheStepOfTheOrbitBehind) {
   EXPECT_FALSE(has(estimate.assessment, ReasonCode::OrbitSteps));
 }
 
-/// 60 rpm, and times cut to a millisecond: each channel has one error all over the pass.
+/// 60 rpm with times truncated to a millisecond: each channel has a constant error during the pass.
 TEST(SpinPass, TimesOnAGridAreSaidAndInTheSigmaOfEveryEstimate) {
   const RecordedPass pass = recorded_pass("../faults/times-in-ms");
   const SpinOutput output = run(pass);
@@ -470,7 +471,7 @@ TEST(SpinPass, TheAxisStandsWhileThePassRuns) {
   for (std::size_t i = 0; i < 180; ++i) {
     estimates += all_of<SpinEstimate>(spin.push(pass.pulses[i])).size();
   }
-  // Of thirty revolutions, one second and six pulses each, the last two are still open.
+  // The last two of thirty revolutions, with six pulses a second, are still open.
   EXPECT_GE(estimates, 27U);
 }
 

@@ -1,5 +1,3 @@
-/// The turn that is to be expected, against the oracle's.
-
 #include "pipelines/spin/planning/expected_revolution.h"
 
 #include <gtest/gtest.h>
@@ -37,7 +35,7 @@ struct Scene {
 TEST(ExpectedRevolution, HasTheOraclesEdges) {
   const Scene scene;
   std::mt19937_64 rng{3};
-  // Beams a seventh of a turn apart, one of them crossing sun1 time and again.
+  // The beams are a seventh of a turn apart, so that one of them crosses sun1 repeatedly.
   for (int trial = 0; trial < 40; ++trial) {
     SCOPED_TRACE(trial);
     auto body = testing::random_body(scene.around, 0.05, rng);
@@ -48,7 +46,7 @@ TEST(ExpectedRevolution, HasTheOraclesEdges) {
     for (std::size_t i = 0; i < kPulseChannels; ++i) {
       SCOPED_TRACE(i);
       ASSERT_TRUE(seen.edges.at(i) && expected.revolution.edges.at(i));
-      // The Sun moves on by 2e-7 rad a second, through the slow ones by 2e-6 rad.
+      // The Sun moves 2e-7 rad a second, up to 2e-6 rad in a slow turn.
       EXPECT_NEAR(seconds_between(*seen.edges.at(i), *expected.revolution.edges.at(i)), 0.0, 3e-6);
       EXPECT_FALSE(expected.revolution.edge_rejections.at(i));
     }
@@ -74,11 +72,11 @@ TEST(ExpectedRevolution, LeavesOutEdgesThatMeet) {
   const Scene scene;
   std::mt19937_64 rng{3};
   auto body = testing::random_body(scene.around, 0.05, rng);
-  // Chords that differ, so that only their beginnings can be made to meet.
+  // The chords differ, so that only their beginnings can coincide.
   body.config.south->mount_angle_rad = 100.0 * std::numbers::pi / 180.0;
   const ExpectedRevolution apart = scene.expected(body, testing::kTransferStart);
   EXPECT_TRUE(apart.meeting.empty());
-  // South's beginning is put 3 ms before north's, which is more than 2.5 sigma of both (1.8 ms).
+  // South's beginning is placed 3 ms before north's, more than 2.5 sigma of both (1.8 ms).
   const double gap_s =
       seconds_between(*apart.revolution.edge(NorthIn), *apart.revolution.edge(SouthIn));
   body.config.south->azimuth_rad -= (gap_s + 3e-3) * body.rate_rad_s;

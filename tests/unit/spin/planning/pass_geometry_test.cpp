@@ -1,4 +1,4 @@
-/// What an instant of a pass holds, against closed forms and the figures of
+/// The geometry at one time of a pass, compared with closed forms and with
 /// pipelines/spin/README.md.
 
 #include "pipelines/spin/planning/pass_geometry.h"
@@ -43,7 +43,7 @@ TEST(PassGeometry, HasTheFiguresOfTheNominalPass) {
   const auto pass = testing::recorded_pass("nominal");
   const PassGeometry first =
       at(pass.config, pass.orbit, pass.true_axis_icrf, pass.pulses.front().t, pass.true_rate_rad_s);
-  // Its truth.json, which is of the first instant of the pass, up to half a turn before.
+  // Source: truth.json, which holds for the start of the pass, up to half a turn earlier.
   EXPECT_NEAR(first.angles.sun_angle_rad / kRadPerDeg, 96.23210, 1e-3);
   EXPECT_NEAR(first.angles.earth_angle_rad / kRadPerDeg, 90.88075, 0.01);
   EXPECT_NEAR(first.disc_rad / kRadPerDeg, 27.46558, 0.01);
@@ -63,7 +63,7 @@ TEST(PassGeometry, ExpectsOfAFixWhatFixesOfTheNominalPassScatter) {
     const PassGeometry geometry = scene.at(shifted(pass.pulses.front().t, 10.0 * i)).value();
     sum_rad2 += geometry.fix.sigma_rad.value() * geometry.fix.sigma_rad.value();
   }
-  // pipelines/spin/README.md: the two-chord fix measures 0.426 deg over its 600 turns: that is
+  // pipelines/spin/README.md: the two-chord fix scatters by 0.426 deg over 600 turns, which is
   // known to 3 %.
   EXPECT_NEAR(std::sqrt(sum_rad2 / kTimes) / kRadPerDeg, 0.426, 3.0 * 0.03 * 0.426);
 }
@@ -79,13 +79,14 @@ TEST(PassGeometry, SeesChordsByTheClosedForm) {
     config.north->mount_angle_rad = (5.0 + 170.0 * uniform(rng)) * kRadPerDeg;
     const Eigen::Vector3d axis_icrf = direction_icrf(
         {.ra_rad = 6.28 * uniform(rng), .dec_rad = std::asin(2.0 * uniform(rng) - 1.0)});
-    // Half of them low over the Earth, where it fills the sky. So fast that it hardly moves.
+    // In half of the trials the Earth is close and fills the sky. The spin is so fast that the
+    // Earth hardly moves within a turn.
     const double t_s = trial % 2 == 0 ? 34'400.0 + 800.0 * uniform(rng) : 40'000.0 * uniform(rng);
     const PassGeometry geometry =
         at(config, orbit, axis_icrf, shifted(testing::kTransferStart, t_s), 1000.0);
     const BeamGeometry& beam = geometry.beams.at(index_of(Side::North));
     ++views.at(static_cast<std::size_t>(beam.view));
-    // The beam turns on a circle about the axis: the nearest and farthest of it to the Earth.
+    // The beam moves on a circle about the axis; these are its extreme distances from the Earth.
     const double mount_rad = config.north->mount_angle_rad;
     const double sum_rad = mount_rad + geometry.angles.earth_angle_rad;
     const double nearest_rad = std::abs(mount_rad - geometry.angles.earth_angle_rad);
@@ -102,8 +103,8 @@ TEST(PassGeometry, SeesChordsByTheClosedForm) {
         EXPECT_TRUE(meets);
         break;
       case BeamSight::Crosses: {
-        // In the 6 ms of a turn it moves by 6e-6 rad, to which a chord near the limb is ten times
-        // as sensitive at either end.
+        // In a turn of 6 ms the Earth moves by 6e-6 rad, to which a chord near the limb is ten
+        // times as sensitive at either end.
         const auto chord_rad =
             predict_chord_rad(mount_rad, geometry.angles.earth_angle_rad, geometry.disc_rad);
         EXPECT_TRUE(meets);
@@ -159,7 +160,7 @@ TEST(PassGeometry, WithOneBeamTheFixIsByItsChord) {
   EXPECT_THAT(words, Not(Contains(HasSubstr("south"))));
 }
 
-/// Passes over the Earth's centre on the line to the Sun, `offset_rad` along the orbit from it.
+/// Returns an orbit that passes `offset_rad` from the line between Earth and Sun.
 Orbit orbit_through_the_sun(TaiTime t, double range_km, double offset_rad) {
   const RaDec sun = ra_dec_of(geometric_sun_icrf_km(t));
   const double inclination_rad = 40.0 * kRadPerDeg;
@@ -176,7 +177,7 @@ Orbit orbit_through_the_sun(TaiTime t, double range_km, double offset_rad) {
                    .value()};
 }
 
-/// Across the Sun and the Earth: both beams see the Earth.
+/// Returns the axis perpendicular to Sun and Earth, with which both beams see the Earth.
 Eigen::Vector3d axis_across(const Orbit& orbit, TaiTime t) {
   return geometric_sun_icrf_km(t).cross(orbit.at(t).value().position_icrf_km).normalized();
 }
@@ -229,7 +230,7 @@ TEST(PassGeometry, SaysWhichSlitCannotSeeTheSun) {
         at(config, orbit,
            std::cos(angle_rad) * sun_icrf + std::sin(angle_rad) * sun_icrf.unitOrthogonal(), t));
   };
-  // A slit canted by 45 deg ends 45 deg from the axis.
+  // A slit canted by 45 deg reaches to 45 deg from the axis.
   EXPECT_THAT(words_at(50.0), Not(Contains(HasSubstr("slit"))));
   EXPECT_THAT(words_at(40.0), Contains("slit 2 cannot see the Sun"));
   EXPECT_THAT(words_at(0.3), Contains("the Sun stands too near the spin axis for either slit"));
@@ -252,7 +253,7 @@ TEST(PassGeometry, SaysWhatSpoilsAFix) {
   config.geometry = {.determinant_usable = 1.0, .determinant_ambiguous = 0.5};
   EXPECT_THAT(words(), Contains("|Delta| <= 0.5 (north): a fix by its chord alone is ambiguous"));
   EXPECT_THAT(words(), Contains("fix by case 1: one axis"));
-  // Longer than half a turn: all channels meet.
+  // The window is longer than half a turn, so all channels meet.
   config.screening.interference_s = 1.0;
   EXPECT_THAT(words(), Contains("interference: sun1 and south_out meet"));
   EXPECT_THAT(words(), Contains("no fix (case 0): nothing that tells of the axis"));

@@ -1,5 +1,5 @@
-/// The plan of a pass, against the limits of pipelines/spin/README.md and of the oracle, and
-/// against closed forms.
+/// The plan of a pass, compared with the limits of pipelines/spin/README.md and of the oracle, and
+/// with closed forms.
 
 #include "pipelines/spin/planning/pass_plan.h"
 
@@ -18,7 +18,7 @@
 
 namespace spindrift::pass_plan_test {
 
-/// Of a body over an orbit that comes to the Earth and leaves it again within twelve hours.
+/// Plans a pass in an orbit that approaches the Earth and leaves it again within twelve hours.
 PassPlan plan(double from_s, double to_s, double step_s,
               const testing::SpinningBody& body = testing::body_across_the_earth()) {
   return plan_pass(body.config, testing::orbit_across_the_earth(),
@@ -30,7 +30,7 @@ PassPlan plan(double from_s, double to_s, double step_s,
       .value();
 }
 
-/// From its first edge on.
+/// Plans a recorded pass from its first edge on.
 Expected<PassPlan> plan(const testing::RecordedPass& pass, double duration_s, double step_s) {
   const TaiTime from = pass.pulses.front().t;
   return plan_pass(pass.config, pass.orbit,
@@ -43,8 +43,8 @@ Expected<PassPlan> plan(const testing::RecordedPass& pass, double duration_s, do
 
 TEST(PassPlan, ExpectsThePublishedLimitAfterAHundredTurns) {
   const PassPlan found = plan(testing::recorded_pass("nominal"), 100.0, 50.0).value();
-  // pipelines/spin/README.md; the geometry turns meanwhile, which its figure (0.405 deg / 10, and
-  // 1 % more) leaves out.
+  // pipelines/spin/README.md gives 0.405 deg / 10 plus 1 %, which neglects that the geometry
+  // changes.
   EXPECT_NEAR(found.steps.back().sigma_rad.value() / kRadPerDeg, 0.0409, 0.02 * 0.0409);
 }
 
@@ -54,7 +54,7 @@ TEST(PassPlan, ExpectsTheLimitOfTheOraclesEdges) {
   constexpr double kDuration_s = 60.0;
   const Eigen::Matrix2d limit = testing::cramer_rao_rad2(
       body, testing::seen_from(orbit, testing::spherical_horizon_km(40.0)), kDuration_s);
-  // Whose rate is known not to drift.
+  // The oracle's limit assumes a rate without drift.
   EXPECT_NEAR(plan(0.0, kDuration_s, kDuration_s, body).steps.back().sigma_rad.value() /
                   std::sqrt(limit.trace()),
               1.0, 0.02);
@@ -78,7 +78,7 @@ TEST(PassPlan, NeverKnowsTheAxisWorseThanBefore) {
   double before_rad = 1.0;
   for (const PassStep& step : steps) {
     if (step.sigma_rad) {
-      // Within the rounding of sums of 1e12.
+      // The tolerance is the rounding of sums of 1e12.
       EXPECT_LE(*step.sigma_rad, before_rad * (1.0 + 1e-6));
       before_rad = *step.sigma_rad;
     }
@@ -92,7 +92,7 @@ TEST(PassPlan, DoesNotDependOnTheStep) {
   EXPECT_NEAR(*coarse.steps.back().sigma_rad / *fine.steps.back().sigma_rad, 1.0, 0.01);
   ASSERT_EQ(coarse.events.size(), fine.events.size());
   for (const PassEvent& event : fine.events) {
-    // Either searches to a second; events that begin together may change places.
+    // Both plans search to a second, so events that begin together may change places.
     const auto same = std::find_if(coarse.events.begin(), coarse.events.end(), [&](const auto& e) {
       return e.condition == event.condition && std::abs(seconds_between(e.from, event.from)) < 2.0;
     });
@@ -131,8 +131,8 @@ TEST(PassPlan, ChordsVanishWhereTheDiscLeavesTheBeam) {
 }
 
 TEST(PassPlan, WhatHoldsForSecondsIsFoundWhereverItFalls) {
-  // Slit 1 and the north beam's limb drift past each other at the rate of the Earth's azimuth: with
-  // the window's width chosen so, they meet for four seconds.
+  // Slit 1 and the north beam's limb drift apart at the rate of the Earth's azimuth; the window is
+  // chosen so that they meet for four seconds.
   auto body = testing::body_across_the_earth();
   PassScene scene{body.config, testing::orbit_across_the_earth(), body.axis_icrf, body.rate_rad_s};
   const auto apart_rad = [&](double t_s) {
@@ -142,7 +142,7 @@ TEST(PassPlan, WhatHoldsForSecondsIsFoundWhereverItFalls) {
   };
   constexpr double kMiddle_s = 1005.0;
   const double drift_rad_s = 0.1 * (apart_rad(kMiddle_s + 5.0) - apart_rad(kMiddle_s - 5.0));
-  // The beam mounted so that both come at once in the middle.
+  // The beam is mounted so that both come at the same time in the middle.
   body.config.north->azimuth_rad -= apart_rad(kMiddle_s);
   body.config.noise = {.sun_s = 1e-9, .infrared_s = 1e-9};
   body.config.screening.interference_s = 2.0 * std::abs(drift_rad_s) / body.rate_rad_s;
@@ -162,7 +162,7 @@ TEST(PassPlan, AnOrbitThatEndsIsAnError) {
   const auto found = plan(testing::recorded_pass("nominal"), 3600.0, 60.0);
   ASSERT_FALSE(found);
   EXPECT_EQ(found.error().code, ErrorCode::NoCoverage);
-  // It ends two minutes behind the pass of ten.
+  // The orbit ends two minutes after the ten-minute pass.
   EXPECT_THAT(found.error().message, ::testing::HasSubstr("2880"));
 }
 

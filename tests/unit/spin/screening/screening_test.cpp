@@ -44,7 +44,7 @@ TEST(Residuals, VanishAtTheTrueAxis) {
   const auto found = residuals(testing::usual_config(), seen(), kSightlines, kAxis_icrf);
   ASSERT_EQ(found.size(), 5U);
   for (const AngleResidual& residual : found) {
-    // Three edges at half a nanosecond.
+    // Three edges, each rounded to 0.5 ns.
     EXPECT_NEAR(residual.value_rad, 0.0, 1.5e-9 * kRate_rad_s) << name_of(residual.quantity);
     EXPECT_GT(residual.sigma_rad, 0.0);
   }
@@ -65,7 +65,7 @@ TEST(Residuals, AreMeasuredMinusPredicted) {
 }
 
 TEST(Residuals, OfADihedralAreWrapped) {
-  // Half a turn of the axis' dihedral: measured just below pi, predicted just above -pi.
+  // The dihedral is measured just below pi and predicted just above -pi.
   RevolutionMeasurements measured = seen();
   const double dihedral_rad = measured.crossings[0]->dihedral->value_rad;
   measured.crossings[0]->dihedral->value_rad = wrapped_rad(dihedral_rad + 2.0 * kPi - 0.001);
@@ -101,7 +101,7 @@ TEST(Residuals, OfAnOblateEarthVanishAtTheTrueAxisWhereItsShapeIsTaken) {
   SpinConfig config = testing::usual_config();
   testing::SunEarthEphemeris around = testing::at_rest(kSun_icrf, kRange_km * kEarth_icrf);
   around.horizon_km = testing::ellipsoidal_horizon_km(40.0);
-  // Inclined, so that the limb's shape moves the middles of chords as well.
+  // The view is inclined, so that the shape of the limb also moves the middles of the chords.
   const Eigen::Vector3d axis_icrf = Eigen::Vector3d{0.5, 0.0, 1.0}.normalized();
   config.north->mount_angle_rad = angle_between_rad(axis_icrf, kEarth_icrf) - 0.1;
   config.south->mount_angle_rad = angle_between_rad(axis_icrf, kEarth_icrf) + 0.1;
@@ -123,10 +123,9 @@ TEST(Residuals, OfAnOblateEarthVanishAtTheTrueAxisWhereItsShapeIsTaken) {
   EXPECT_GT(worst_rad(HorizonModel::Sphere), 0.02 * kRadPerDeg);
 }
 
-/// Sun at rest, the Earth passing as from a low perigee, a slow body whose beams meet it half a
-/// turn apart.
+/// The Earth passes as from a low perigee, and the beams of a slow body meet it half a turn apart.
 TEST(Residuals, VanishAtTheTrueAxisWhileTheEarthMoves) {
-  const Eigen::Vector3d motion_icrf_s{-8e-4, 1e-4, 3e-4};  // 0.05 deg/s.
+  const Eigen::Vector3d motion_icrf_s{-8e-4, 1e-4, 3e-4};  // The Earth moves at 0.05 deg/s.
   SpinConfig config = testing::usual_config();
   config.south->azimuth_rad = config.north->azimuth_rad + kPi;
   testing::SunEarthEphemeris around = testing::at_rest(kSun_icrf, kRange_km * kEarth_icrf);
@@ -165,7 +164,7 @@ TEST(Residuals, OfWhatIsRejectedAlreadyAreNotFormed) {
 }
 
 TEST(Residuals, AChordThatTheAxisSaysIsImpossibleHasNone) {
-  // The Earth 60 deg from the axis lies beyond the reach of both beams.
+  // The Earth at 60 deg from the axis is beyond the reach of both beams.
   const Eigen::Vector3d axis =
       Eigen::AngleAxisd{60.0 * kRadPerDeg, kEarth_icrf.unitOrthogonal()} * kEarth_icrf;
   const auto found = residuals(testing::usual_config(), seen(), kSightlines, axis);
@@ -181,7 +180,7 @@ AngleResidual residual_of(double value_rad, SpinQuantity quantity = SunAngle) {
   return {.quantity = quantity, .value_rad = value_rad, .sigma_rad = kSigma_rad};
 }
 
-/// A window that has seen `count` residuals of Gaussian noise about `level_rad`.
+/// Returns a window with `count` residuals of Gaussian noise about `level_rad`.
 ScreeningWindow settled(int count, double level_rad, std::mt19937_64& rng) {
   std::normal_distribution<double> normal{level_rad, kSigma_rad};
   ScreeningWindow window{SpinScreening{}};
@@ -222,7 +221,8 @@ TEST(ScreeningWindow, KeepsQuantitiesApart) {
   ScreeningWindow window = settled(100, 0.0, rng);
   EXPECT_TRUE(adds_and_keeps(window, residual_of(1.0, NorthChord)));
   EXPECT_FALSE(keeps(window, residual_of(1.0, SunAngle)));
-  EXPECT_FALSE(keeps(window, residual_of(0.0, SouthChord)));  // Nothing known of it yet.
+  // The window has no residuals of this quantity yet.
+  EXPECT_FALSE(keeps(window, residual_of(0.0, SouthChord)));
 }
 
 TEST(ScreeningWindow, FollowsALevelThatHasReallyChanged) {
@@ -246,8 +246,8 @@ TEST(ScreeningWindow, RejectsTheShareOfGaussianNoiseThatLiesBeyondThreeSigma) {
   for (int i = 0; i < kResiduals; ++i) {
     rejected += adds_and_keeps(window, residual_of(normal(rng))) ? 0 : 1;
   }
-  // 0.37 % by an independent simulation of 30000 residuals (in Python): somewhat more than the
-  // 0.31 % of a scatter known exactly. Four standard errors of the difference: 0.18 %.
+  // 0.37 % from an independent simulation of 30000 residuals (in Python), somewhat more than the
+  // 0.31 % with an exactly known scatter. Four standard errors of the difference are 0.18 %.
   EXPECT_NEAR(static_cast<double>(rejected) / kResiduals, 0.0037, 0.0018);
 }
 

@@ -1,5 +1,5 @@
-/// What edges say of the axis, against the figures of pipelines/spin/README.md and against how the
-/// oracle's edges move when its body is moved.
+/// The information of edges on the axis, compared with pipelines/spin/README.md and with the
+/// response of the oracle's edges to changes of the body.
 
 #include "pipelines/spin/sensor_model/edge_information.h"
 
@@ -28,7 +28,7 @@ Eigen::Matrix3d frame_about(const Eigen::Vector3d& axis_icrf) {
   return R_spin_icrf;
 }
 
-/// One turn in the midst of the first hundred of the pass that those figures are of.
+/// Holds a turn from the middle of the first hundred of the pass to which those figures refer.
 struct Turn {
   testing::RecordedPass pass = testing::recorded_pass("nominal");
   Sky sky = testing::sky_at(pass.orbit, shifted(pass.pulses.front().t, 50.0));
@@ -54,7 +54,7 @@ TEST(EdgeInformation, OfOneTurnAtAKnownRateIsThePublishedLimit) {
   const Turn turn;
   EdgeInformation information;
   turn.add_to(information, kAll, 0.0);
-  // pipelines/spin/README.md. The limit falls by 2 % a minute as the geometry turns.
+  // pipelines/spin/README.md; the bound falls by 2 % a minute as the geometry changes.
   EXPECT_NEAR(sigma_deg(information), 0.405, 0.004);
 }
 
@@ -77,7 +77,7 @@ TEST(EdgeInformation, IsThatOfTheOraclesEdges) {
     }
     const Eigen::Matrix2d limit = testing::cramer_rao_rad2(body, around, kDuration_s);
     const Eigen::Matrix2d found = information.axis_covariance_rad2().value();
-    // The oracle knows that the rate does not drift, which tells little of the axis.
+    // The oracle assumes a rate without drift, which hardly affects the axis.
     EXPECT_LT((found - limit).norm(), 0.02 * limit.norm()) << found << "\n" << limit;
   }
 }
@@ -116,10 +116,10 @@ TEST(EdgeInformation, DoesNotDependOnWhenTimeBeginsNorOnTheFrame) {
     turn.add_to(later, kAll, 5000.0 + i);
     in_turned_frame.add_to(turned, kAll, i);
   }
-  // Drifts of a hundred turns are told apart with eight digits less by a count from so far away.
+  // Counting turns from so far away costs eight digits in the drift over a hundred turns.
   EXPECT_NEAR(sigma_deg(later) / sigma_deg(here), 1.0, 1e-4);
   EXPECT_NEAR(sigma_deg(turned) / sigma_deg(here), 1.0, 1e-9);
-  // Directions in the turned frame have their components turned.
+  // Directions in the rotated frame have rotated components.
   const Eigen::Matrix2d R_turned_here = Eigen::Rotation2Dd{1.1}.toRotationMatrix();
   const Eigen::Matrix2d expected =
       R_turned_here * here.axis_covariance_rad2().value() * R_turned_here.transpose();

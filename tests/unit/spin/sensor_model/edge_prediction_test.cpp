@@ -1,5 +1,5 @@
-/// What errors of the model do to an edge, against finite differences and the formulas that
-/// measure angles. (The edges themselves are tested with the filter, against the oracle.)
+/// The effect of model errors on an edge, compared with finite differences and with the formulas of
+/// the measured angles. (The edges themselves are tested with the filter against the oracle.)
 
 #include "pipelines/spin/sensor_model/edge_prediction.h"
 
@@ -35,7 +35,7 @@ struct Scene {
 
 TEST(EdgePrediction, ALimbFartherOutMovesTheEdgesOfItsBeamApart) {
   const Scene scene;
-  // By 1 km, which is so much as an angle.
+  // Compare with 1 km of altitude, converted to an angle.
   SpinConfig higher = scene.body.config;
   higher.horizon.co2_altitude_km += 1.0;
   const double range_km = scene.sky.spacecraft.position_icrf_km.norm();
@@ -80,11 +80,12 @@ TEST(EdgePrediction, TheSunHasAnAzimuthUpToHalfADegreeFromTheAxis) {
                         frame_about(axis_icrf).conjugate().toRotationMatrix(),
                         {.t = scene.sky.t, .channel = Sun1});
   };
-  // An edge that no candidate could have would be held against the one near the Sun.
+  // The edge is predicted even near the Sun: an edge that no candidate could have is compared with
+  // it.
   EXPECT_TRUE(sun1_at(5.0));
   EXPECT_TRUE(sun1_at(0.7));
   EXPECT_FALSE(sun1_at(0.5));
-  // The azimuth turns by so much as the axis moves across the Sun's direction.
+  // The azimuth changes by this ratio as the axis moves across the Sun's direction.
   EXPECT_NEAR(sun1_at(2.0)->phase_per_rotation.head<2>().norm(),
               1.0 / std::tan(2.0 * std::numbers::pi / 180.0), 1e-9);
 }
@@ -105,7 +106,7 @@ TEST(EdgePrediction, WhatLeadsToAnEdgeIsTheEdgeItselfWhereThereIsOne) {
 
 TEST(EdgePrediction, AStepTowardsAnEdgeLeadsFromABeamThatMissesTheEarthToOneThatHasIt) {
   const Scene scene;
-  // Half a degree beyond the limb.
+  // The beam passes half a degree beyond the limb.
   SpinConfig config = scene.body.config;
   const Eigen::Vector3d earth_spin =
       -(scene.R_spin_icrf * scene.sky.spacecraft.position_icrf_km).normalized();

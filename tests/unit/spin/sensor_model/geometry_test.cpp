@@ -14,7 +14,7 @@
 namespace spindrift::geometry_test {
 
 constexpr double kPi = std::numbers::pi;
-// Half a unit of the ninth decimal of a degree, as the golden values are printed.
+// Half a unit of the ninth decimal of a degree, the precision of the golden values.
 constexpr double kPrinted_rad = 0.5e-9 * kRadPerDeg;
 // Some tens of ulps of a number of order 1, for well-conditioned formulas.
 constexpr double kRounding = 1e-14;
@@ -23,8 +23,8 @@ Eigen::Vector3d at_deg(double ra_deg, double dec_deg) {
   return direction_icrf({.ra_rad = ra_deg * kRadPerDeg, .dec_rad = dec_deg * kRadPerDeg});
 }
 
-// Two cones that meet in two axes; all values worked out in 30 digits by mpmath. The reference
-// prints the false right ascension as ...408178 for ...41808, where its own cones do not meet.
+// Two cones that intersect in two axes, computed with 30 digits in mpmath. The reference prints the
+// false right ascension as ...408178 instead of ...41808, where its own cones do not intersect.
 const Eigen::Vector3d kSun_icrf = at_deg(10.0, 4.3);
 const Eigen::Vector3d kEarth_icrf = at_deg(80.0, -20.0);
 const Eigen::Vector3d kAxis_icrf = at_deg(268.625, 68.4485);
@@ -70,8 +70,8 @@ TEST(SpinGeometry, TheOppositeDihedralGivesTheMirrorImageInThePlaneOfSunAndEarth
 }
 
 TEST(SpinGeometry, AnglesThatContradictEachOtherShowInTheLengthOfTheAxis) {
-  // Sun and Earth a right angle apart, both 60 deg from the axis: squared length
-  // 1/4 + 1/4 + (3/4 sin(lambda))^2, which is 1 for cos(lambda) = -1/3 only.
+  // With Sun and Earth 90 deg apart and both 60 deg from the axis, the squared length is 1/4 + 1/4
+  // + (3/4 sin(lambda))^2, which is 1 only for cos(lambda) = -1/3.
   const auto length_at = [](double dihedral_rad) {
     return axis_icrf(AxisInput<double>{.sun_icrf = Eigen::Vector3d::UnitX(),
                                        .earth_icrf = Eigen::Vector3d::UnitY(),
@@ -122,8 +122,8 @@ TEST(SpinGeometry, BeamsLessThanAHundredthApartAreMountedAlike) {
 }
 
 TEST(SpinGeometry, AChordAtItsWidestIsPredictedFromItsThreeSides) {
-  // Beam, Earth and axis with the Earth on the beam's cone: the half chord c satisfies
-  // sin(rho / 2) = sin(g) sin(c / 2), an isosceles triangle.
+  // With the Earth on the beam's cone, the half chord c satisfies sin(rho / 2) = sin(g) sin(c / 2),
+  // from an isosceles triangle.
   const double mount_rad = 70.0 * kRadPerDeg;
   const double disc_rad = 20.0 * kRadPerDeg;
   const double half_rad = 2.0 * std::asin(std::sin(0.5 * disc_rad) / std::sin(mount_rad));
@@ -139,7 +139,7 @@ TEST(SpinGeometry, ABeamThatNeverLeavesTheDiscHasNoChord) {
   EXPECT_FALSE(predict_chord_rad(5.0 * kRadPerDeg, 2.0 * kRadPerDeg, 10.0 * kRadPerDeg));
 }
 
-/// The roots of the chord equation.
+/// Returns the roots of the chord equation.
 std::vector<double> earth_angles(double mount_rad, double chord_rad, double disc_rad) {
   return cone_roots(std::cos(mount_rad), std::sin(mount_rad) * std::cos(0.5 * chord_rad),
                     std::cos(disc_rad))
@@ -159,8 +159,7 @@ TEST(SpinGeometry, BothRootsOfTheChordEquationGiveTheChordThatWasMeasured) {
 }
 
 TEST(SpinGeometry, ARootOutsideTheSphereIsNoRoot) {
-  // The beam 5 deg from the axis, the disc's edge 8 deg from its centre: the lesser root is
-  // negative.
+  // With the beam 5 deg from the axis and a disc of radius 8 deg, the smaller root is negative.
   const double mount_rad = 5.0 * kRadPerDeg;
   const double disc_rad = 8.0 * kRadPerDeg;
   const double chord_rad = predict_chord_rad(mount_rad, 8.0 * kRadPerDeg, disc_rad).value();
@@ -194,7 +193,7 @@ TEST(SpinGeometry, AChordWiderThanTheDiscHasNoRootAndSaysByHowMuch) {
 }
 
 TEST(SpinGeometry, DeterminantVanishesWhereBothEquationsAreTheSame) {
-  // Sun on the equator, a quarter turn from the Earth.
+  // The Sun is on the equator, a quarter turn from the Earth.
   const OneChordInput<double> input{
       .chord = {.mount_angle_rad = 85.0 * kRadPerDeg, .chord_rad = 0.5},
       .sun_angle_rad = kPi / 2.0,
@@ -216,7 +215,7 @@ TEST(SpinGeometry, DeterminantIsThatOfTheTwoLinearEquations) {
   EXPECT_NEAR(determinant(input), equations.determinant(), kRounding);
 }
 
-/// A random place of Sun and Earth about a body that sees both, and its revolution as observed.
+/// Holds a random scene in which the body sees Sun and Earth, and its observed revolution.
 struct Scene {
   double rate_rad_s;
   Eigen::Vector3d sun_icrf;
@@ -262,7 +261,7 @@ double between(const Scene& scene, PulseChannel from, PulseChannel to) {
 }
 
 constexpr int kScenes = 200;
-// Two edges, each to half a nanosecond, at a turn in six seconds.
+// Two edges, each rounded to 0.5 ns, at a turn in six seconds.
 constexpr double kNanosecond_rad = 2.0 * kPi / 6.0 * 1e-9;
 
 TEST(SpinGeometry, PredictedChordsAreThoseOfTheOracle) {
@@ -296,7 +295,7 @@ TEST(SpinGeometry, EarthAngleOfTwoChordsIsThatOfTheOracle) {
                                           .chord_rad = between(scene, NorthIn, NorthOut)},
                                     Chord{.mount_angle_rad = scene.config.south->mount_angle_rad,
                                           .chord_rad = between(scene, SouthIn, SouthOut)});
-    // d(theta_e) / d(chord) <= sin(g) / 2 / |cos gN - cos gS| = 2.9, for each chord.
+    // d(theta_e) / d(chord) <= sin(g) / 2 / |cos gN - cos gS| = 2.9 for each chord.
     ASSERT_NEAR(angle_rad, angle_between_rad(scene.axis_icrf, scene.earth_icrf),
                 2.0 * 2.9 * kNanosecond_rad);
     ++compared;
@@ -326,7 +325,7 @@ TEST(SpinGeometry, EarthAngleOfOneChordIsThatOfTheOracle) {
     if (std::abs(determinant(input)) < 0.03) {
       continue;
     }
-    // The chord's error, at most halved, over the determinant.
+    // At most half the chord's error, divided by the determinant.
     ASSERT_NEAR(earth_angle_linear(input), angles.earth_angle_rad, kNanosecond_rad / 0.03);
     ++linear;
   }

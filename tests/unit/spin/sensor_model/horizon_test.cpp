@@ -1,4 +1,4 @@
-/// The predicted edges against the spinning body, which searches for them and knows no formula.
+/// The predicted edges, compared with the oracle, which searches for them and shares no formula.
 
 #include "pipelines/spin/sensor_model/horizon.h"
 
@@ -25,7 +25,7 @@ Eigen::Vector3d random_direction(std::mt19937_64& rng) {
   return Eigen::Vector3d{normal(rng), normal(rng), normal(rng)}.normalized();
 }
 
-/// A body that sees the Earth from some height, and what it should be told of the sky.
+/// Holds a body that sees the Earth from some distance, and the predictor's input for it.
 struct Scene {
   testing::SpinningBody body;
   testing::SunEarthEphemeris around;
@@ -62,7 +62,7 @@ Scene random_scene(HorizonModel model, std::mt19937_64& rng) {
   return scene;
 }
 
-/// The frame `spin` of the oracle: its body before the first turn.
+/// Returns the oracle's frame `spin`: its body before the first turn.
 Eigen::Matrix3d spin_frame(const testing::SpinningBody& body) {
   return frame_about(body.axis_icrf).conjugate().toRotationMatrix();
 }
@@ -80,12 +80,13 @@ TEST_P(EdgesOnHorizons, EveryEdgeComesAtThePhasePredicted) {
       const auto predicted = predict_edge(scene.body.config, scene.sky(t), spin_frame(scene.body),
                                           {.t = t, .channel = edge.channel});
       if (!predicted) {
-        ++unpredicted;  // All but grazing: the next test says how much so.
+        // Only grazing edges may lack a prediction; the next test limits how grazing.
+        ++unpredicted;
         continue;
       }
       const double phase_rad = scene.body.first_turn_rad + scene.body.rate_rad_s * edge.t_s;
-      // The oracle is good to 1e-12 s; a grazing beam magnifies that by up to 30 (kSteepest) and
-      // the rounding of a flat crossing likewise.
+      // The oracle is accurate to 1e-12 s; a grazing beam amplifies that, and the rounding of a
+      // flat crossing, up to 30 times (kSteepest).
       ASSERT_NEAR(wrapped_rad(phase_rad - predicted->phase_rad), 0.0, 3e-9)
           << "trial " << trial << ' ' << name_of(edge.channel);
       ++seen.at(index_of(edge.channel));
@@ -98,14 +99,14 @@ TEST_P(EdgesOnHorizons, EveryEdgeComesAtThePhasePredicted) {
 }
 
 TEST_P(EdgesOnHorizons, DerivativesAreThoseOfThePrediction) {
-  // Central differences of 1e-6 rad: truncation 1e-12 f'''/6, rounding 1e-15 / 1e-6. Near grazing
-  // (slopes up to 30) the third derivative grows as the fifth power of the slope.
+  // Central differences of 1e-6 rad have a truncation error of 1e-12 f'''/6 and a rounding error of
+  // 1e-15 / 1e-6. Near grazing (slopes up to 30) f''' grows as the fifth power of the slope.
   constexpr double kStep_rad = 1e-6;
   std::mt19937_64 rng{8};
   int compared = 0;
   for (int trial = 0; trial < 300; ++trial) {
     const Scene scene = random_scene(GetParam(), rng);
-    // Off the solution: the frame is another one.
+    // The frame is displaced from the solution.
     const Eigen::Matrix3d off =
         (Eigen::AngleAxisd{0.02, random_direction(rng)} * spin_frame(scene.body)).matrix();
     for (std::size_t channel = 0; channel < kPulseChannels; ++channel) {
@@ -136,7 +137,7 @@ TEST_P(EdgesOnHorizons, DerivativesAreThoseOfThePrediction) {
 }
 
 TEST_P(EdgesOnHorizons, TheBeamThatMissesHasNoCrossing) {
-  // From 42 164 km the disc is 8.8 deg wide: a beam at 85 deg, the Earth at 60 deg from the axis.
+  // From 42 164 km the disc is 8.8 deg wide; the beam is at 85 deg, the Earth 60 deg from the axis.
   const HorizonAxes axes = horizon_axes({.model = GetParam(), .co2_altitude_km = 40.0});
   const auto crossing = [&](double earth_angle_deg) {
     const double angle_rad = earth_angle_deg * kRadPerDeg;
@@ -168,7 +169,7 @@ INSTANTIATE_TEST_SUITE_P(EdgePrediction, EdgesOnHorizons,
                          });
 
 TEST(Horizon, GrazingTheFlattenedPoleIsAMiss) {
-  // Polar view: the beam passes 10 km above the ellipsoid's pole and 11 km inside the sphere.
+  // In a polar view the beam passes 10 km above the ellipsoid's pole and 11 km inside the sphere.
   const HorizonAxes ellipsoid =
       horizon_axes({.model = HorizonModel::Ellipsoid, .co2_altitude_km = 40.0});
   const HorizonAxes sphere = horizon_axes({.model = HorizonModel::Sphere, .co2_altitude_km = 40.0});

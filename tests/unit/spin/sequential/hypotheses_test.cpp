@@ -1,5 +1,3 @@
-/// Candidates that compete by the likelihood of the same edges.
-
 #include "pipelines/spin/sequential/hypotheses.h"
 
 #include <gtest/gtest.h>
@@ -22,7 +20,7 @@ StartingPoint at(const Eigen::Vector3d& axis_icrf) {
           .covariance_rad2 = kFixSigma_rad * kFixSigma_rad * Eigen::Matrix2d::Identity()};
 }
 
-/// The true axis, and a false one that the edges have beaten.
+/// Holds the true axis and a false one that the edges have ruled out.
 struct Race {
   explicit Race(bool with_sun) {
     seen = scene.seen(0.0, 120.0);
@@ -47,7 +45,7 @@ struct Race {
     }
   }
   void name_the_true_axis() { hypotheses.note({.points = {at(scene.body.axis_icrf)}, .fixes = 5}); }
-  /// On the cone about the Earth: only the Sun's edges tell it from the true one at once.
+  /// Returns an axis on the cone about the Earth, which only sun edges rule out at once.
   Eigen::Vector3d on_cone() const {
     return scene.turned_about(seen.at(next).sky.spacecraft.position_icrf_km, 10.0);
   }
@@ -76,7 +74,8 @@ TEST(Hypotheses, OneThatComesLateIsJudgedBeforeAnythingIsSettled) {
 }
 
 TEST(Hypotheses, OneThatComesLateIsNotBeatenForHavingKnownLittleAtFirst) {
-  // Its first edges are e^3 times less likely for that alone, and those that follow tell little.
+  // The late candidate's first edges are e^3 times less likely because it is poorly known, and
+  // later edges contribute little.
   Race race{false};
   race.add(race.on_cone());
   race.name_the_true_axis();

@@ -9,12 +9,12 @@
 
 namespace spindrift::model_evidence_test {
 
-// Of one number, noise alone goes farther once in ten thousand times.
+// Noise alone exceeds this once in ten thousand times for a single number.
 constexpr double kSeenFrom_sigmas = 3.8906;
 constexpr double kOff_rad = 1.5 * kRadPerDeg;
 
-/// Edges, six hundred of them, that all together say of the azimuth of the north beam that it is
-/// off by `kOff_rad`, so many standard deviations of what they know.
+/// Returns the evidence of 600 edges that together put the azimuth of the north beam off by
+/// `kOff_rad`, at this many standard deviations.
 ModelEvidence of_errors(double sigmas) {
   ErrorInformation errors;
   errors.information(NorthAzimuth, NorthAzimuth) = sigmas * sigmas / (kOff_rad * kOff_rad);
@@ -48,13 +48,13 @@ TEST(ModelEvidence, WhereTheNoiseIsMoreAnErrorMustBeMore) {
 }
 
 TEST(ModelEvidence, AfterFadingErrorsAreWhatAHundredEdgesSay) {
-  // A sixth of 600 edges: the root of it in standard deviations.
+  // A sixth of 600 edges has 1 / sqrt(6) of the significance.
   for (const auto& [sigmas, seen] : {std::pair{2.4, false}, std::pair{2.5, true}}) {
     ModelEvidence evidence = of_errors(sigmas * kSeenFrom_sigmas);
     EXPECT_GT(test(evidence).error_rad, 0.0);
     evidence.fade();
     EXPECT_EQ(test(evidence).error_rad > 0.0, seen);
-    evidence.fade();  // Of a hundred, which are left, all stay.
+    evidence.fade();  // All of the remaining hundred are kept.
     EXPECT_EQ(test(evidence).error_rad > 0.0, seen);
   }
 }

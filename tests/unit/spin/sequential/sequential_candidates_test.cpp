@@ -1,5 +1,5 @@
-/// Where fixes name more axes than one: `sequential` follows them all, and says AMBIGUOUS until one
-/// is settled.
+/// When fixes name several axes, `sequential` follows them all and reports AMBIGUOUS until one is
+/// settled.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -38,7 +38,7 @@ SpinFix ambiguous(SpinFix fix, const Eigen::Vector3d& first, const Eigen::Vector
 }
 
 TEST(Sequential, AFixThatComesNearABranchOfAlternatesDoesNotStartThere) {
-  // Poor fixes that a prior settles name a false axis beside the true one, until it is known well;
+  // Poor fixes settled by a prior name a false axis beside the true one until it is known well;
   // then a settled fix lies nearer to the false one.
   constexpr double kPoor_rad = 8.0 * kRadPerDeg;
   constexpr std::size_t kByPrior = 14;
@@ -48,7 +48,7 @@ TEST(Sequential, AFixThatComesNearABranchOfAlternatesDoesNotStartThere) {
   const auto all = estimates(scene.body.config, seen, [&](std::size_t i) {
     SpinFix fix = testing::drawn_fix(scene.body.axis_icrf, kPoor_rad, scene.rng);
     if (i < kByPrior) {
-      // The candidate itself is known worse, so that it does not start a filter before.
+      // The candidate's own sigma is larger, so that it does not start a filter before.
       fix.covariance_rad2 *= 4.0;
       fix.alternates = {{.axis_icrf = testing::drawn_fix(elsewhere, kPoor_rad, scene.rng).axis_icrf,
                          .covariance_rad2 = kPoor_rad * kPoor_rad * Eigen::Matrix2d::Identity()}};
@@ -89,9 +89,9 @@ TEST(Sequential, NearTangentFixesStartItWhereThereAreNoOthersAndSettleNothing) {
 }
 
 TEST(Sequential, NeverFollowsAFalseAxisSilently) {
-  // False first fixes all about the true axis, and nothing after them: where the filter does not
-  // find the truth by itself, its status is not OK. Where it does, the doubt that a false start
-  // raises has faded by then, but for one at most.
+  // The first fixes are false and none follows. Unless the filter finds the true axis by itself,
+  // its status must not be OK. If it does, the doubt from the false start has faded, with at most
+  // one exception.
   Scene scene;
   const auto seen = scene.seen(0.0, 60.0);
   const Eigen::Matrix<double, 3, 2> basis = tangent_basis(scene.body.axis_icrf);
@@ -115,11 +115,12 @@ TEST(Sequential, NeverFollowsAFalseAxisSilently) {
     }
   }
   EXPECT_LE(right_and_doubted, 1);
-  EXPECT_GT(lost, 16);  // All that are 30 deg off and more.
+  EXPECT_GT(lost, 16);  // All that are at least 30 deg off.
 }
 
 TEST(Sequential, SaysAmbiguousUntilAFixSettlesIt) {
-  // A cone about the Earth: two axes on it, the true one second.
+  // Without the Sun, the axes form a cone about the Earth; two of them are named, the true one
+  // second.
   Scene scene;
   const auto seen = without_sun(scene.seen(0.0, 30.0));
   const std::size_t settled_at = 20;
@@ -173,7 +174,7 @@ TEST(Sequential, EdgesBeyondDoubtSettleIt) {
 }
 
 TEST(Sequential, TheLikeliestCandidateOfOneFixIsNotTheAxisForThat) {
-  // Stray edges may make one; that one candidate is less unlikely than the other says nothing.
+  // Stray edges may create a candidate; being less unlikely than the other proves nothing.
   Scene scene;
   const auto seen = scene.seen(0.0, 40.0);
   const Eigen::Vector3d other = scene.turned_about(scene.around.sun_icrf(0.0), 6.0);
@@ -186,7 +187,7 @@ TEST(Sequential, TheLikeliestCandidateOfOneFixIsNotTheAxisForThat) {
 }
 
 TEST(Sequential, WhereNearlyAllFixesAreNearTangentNoneNamesAllCandidates) {
-  // One in ten is not near-tangent by its noise, and lacks the true axis like the others.
+  // Noise makes one fix in ten not near tangent, but it lacks the true axis like the others.
   Scene scene;
   const auto seen = scene.seen(0.0, 100.0);
   const Eigen::Vector3d sun_icrf = scene.around.sun_icrf(0.0);
@@ -216,7 +217,7 @@ TEST(Sequential, TheBetterOfTwoFalseAxesIsNotTrue) {
 }
 
 TEST(Sequential, ACandidateThatOnlyLaterFixesNameIsFollowed) {
-  // The first AMBIGUOUS fix lacks the true axis, all others name it second.
+  // The first AMBIGUOUS fix lacks the true axis; all others name it second.
   Scene scene;
   const auto seen = scene.seen(0.0, 60.0);
   const Eigen::Vector3d sun_icrf = scene.around.sun_icrf(0.0);
@@ -235,7 +236,7 @@ TEST(Sequential, ACandidateThatOnlyLaterFixesNameIsFollowed) {
 }
 
 TEST(Sequential, WhatIsSettledIsOpenAgainWhereFixesNameOtherAxes) {
-  // Without the Sun no edge speaks against the false axis, and no later fix is settled.
+  // Without the Sun no edge contradicts the false axis, and no later fix is settled.
   Scene scene;
   const auto seen = without_sun(scene.seen(0.0, 60.0));
   SpinFix wrong = scene.fix();

@@ -96,7 +96,7 @@ TEST(Sequential, ManyPoorFixesStartItAsOneGoodOneDoes) {
   const auto all = estimates(scene.body.config, seen, [&](std::size_t) {
     return std::vector{testing::drawn_fix(scene.body.axis_icrf, kPoor_rad, scene.rng)};
   });
-  // 5 deg either way: 3 deg in all from the sixth on.
+  // A fix has 5 deg in either direction, and their mean is below 3 deg from the sixth on.
   EXPECT_EQ(all.size(), seen.size() - 5);
   EXPECT_TRUE(is_unopposed(all.back().assessment.quality));
   EXPECT_FALSE(testing::restarted(all.back().assessment));
@@ -104,7 +104,7 @@ TEST(Sequential, ManyPoorFixesStartItAsOneGoodOneDoes) {
 }
 
 TEST(Sequential, LeavesTheAxisThatPoorFixesContradictTogether) {
-  // Each of them is known to 8 deg and contradicts nothing; without the Sun no edge does.
+  // Each fix has a sigma of 8 deg and contradicts nothing by itself; without the Sun no edge does.
   constexpr double kPoor_rad = 8.0 * kRadPerDeg;
   Scene scene;
   const auto seen = without_sun(scene.seen(0.0, 200.0));
@@ -155,7 +155,7 @@ TEST(Sequential, DoubtfulEdgesAreNotUsed) {
 }
 
 TEST(Sequential, LeavesTheAxisThatMostEdgesContradict) {
-  // A false first fix, 6 deg off; the fixes of the following revolutions are true.
+  // The first fix is false by 6 deg; those of the following revolutions are true.
   Scene scene;
   const auto seen = scene.seen(0.0, 60.0);
   SpinFix wrong = scene.fix();
@@ -170,7 +170,7 @@ TEST(Sequential, LeavesTheAxisThatMostEdgesContradict) {
 }
 
 TEST(Sequential, LeavesTheAxisThatTheFixesContradict) {
-  // Without the Sun no edge tells one axis round the Earth from another: only the fixes do.
+  // Without the Sun, the edges do not separate the axes on a cone about the Earth; only fixes do.
   Scene scene;
   const auto seen = without_sun(scene.seen(0.0, 60.0));
   SpinFix wrong = scene.fix();
@@ -267,7 +267,7 @@ TEST(Sequential, EdgesThatScatterMoreThanTheirNoiseAreDoubted) {
   }
 }
 
-/// So noisy that single fixes contradict any axis; one in ten leaves a second one open.
+/// Returns a fix with so much noise that single ones contradict any axis; one in ten is ambiguous.
 SpinFix noisy_fix(Scene& scene, std::size_t i) {
   constexpr double kTimes = 5.0;
   SpinFix fix = scene.fix();
@@ -334,8 +334,8 @@ TEST_P(Silence, TheFilterGoesOnAfterwards) {
 INSTANTIATE_TEST_SUITE_P(Seconds, Silence, ::testing::Values(60.0, 600.0, 18000.0));
 
 TEST(Sequential, FollowsARateThatDrifts) {
-  // 1e-6 rad/s^2 for 200 s: without following it the phase would be off by 0.02 rad, 30 sigmas of
-  // a sun edge. Times are warped; orbit and Sun move by a few metres less.
+  // At 1e-6 rad/s^2 for 200 s, a constant rate would put the phase off by 0.02 rad, 30 sigmas of a
+  // sun edge. Times are warped; the orbit and the Sun move slightly less.
   constexpr double kDrift_rad_s2 = 1e-6;
   constexpr double kDuration_s = 200.0;
   Scene scene;

@@ -37,21 +37,22 @@ double sigma_deg(const SpinFilter& filter) {
   return std::sqrt(filter.axis_covariance_rad2().trace()) / kRadPerDeg;
 }
 
-/// Squared error in sigmas: chi-square of two degrees of freedom.
+/// Returns the normalised squared error (NEES): chi-square with two degrees of freedom.
 double squared_error(const SpinFilter& filter, const Eigen::Vector3d& true_icrf) {
   const Eigen::Vector2d error_rad = testing::error_rad(filter.axis_icrf(), true_icrf);
   return testing::normalised_square(error_rad, filter.axis_covariance_rad2());
 }
 
-constexpr double kOneInTenThousand = 18.42;  // chi-square, two degrees of freedom.
+// Chi-square quantile for a probability of 1e-4 and two degrees of freedom.
+constexpr double kOneInTenThousand = 18.42;
 
 TEST(SpinFilter, ReachesTheInformationLimitOfTheDesign) {
-  // pipelines/spin/README.md: GTO at 13,900 km, 60 rpm, 0.1 and 0.5 ms: 0.405 deg per
-  // revolution, 0.0409 deg after 100. The chords and the distance change during the pass: 5 %.
+  // pipelines/spin/README.md: GTO at 13,900 km, 60 rpm, 0.1 and 0.5 ms give 0.405 deg for one
+  // revolution and 0.0409 deg after 100. Chords and distance change by 5 % during the pass.
   const auto pass = testing::recorded_pass("nominal");
   const auto seen = testing::observed(pass.config, pass.orbit, pass.pulses);
   Revolution first = seen[0].revolution;
-  first.period = seen[100].revolution.period;  // The figures suppose that the rate is known.
+  first.period = seen[100].revolution.period;  // The figures assume that the rate is known.
   SpinFilter filter = SpinFilter::about(pass.true_axis_icrf, round_covariance(5.0 * kRadPerDeg),
                                         pass.config, first, seen[0].sky)
                           .value();
@@ -64,7 +65,7 @@ TEST(SpinFilter, ReachesTheInformationLimitOfTheDesign) {
   EXPECT_LT(squared_error(filter, pass.true_axis_icrf), kOneInTenThousand);
 }
 
-/// The axis that the edges of the pass lead to.
+/// Returns the filter after the edges of the pass.
 SpinFilter filtered(const testing::RecordedPass& pass,
                     const std::vector<ObservedRevolution>& seen) {
   SpinFilter filter = SpinFilter::about(pass.true_axis_icrf, round_covariance(1.0 * kRadPerDeg),
@@ -94,7 +95,8 @@ TEST(SpinFilter, AChannelThatIsLateMovesTheAxisByWhatItsOffsetAddsToTheCovarianc
         kLate_s * kLate_s;
     const double moved_rad =
         angle_between_rad(filtered(pass, late).axis_icrf(), in_time.axis_icrf());
-    // A fifth of the noise of an edge: another edge may be gated, and slopes change a little.
+    // The shift is a fifth of an edge's noise: another edge may be gated, and slopes change
+    // slightly.
     EXPECT_NEAR(moved_rad, std::sqrt(in_time.offsets_rad2(offsets_s2).trace()), 0.03 * moved_rad);
   }
 }
@@ -152,7 +154,7 @@ TEST(SpinFilter, ASpuriousEdgeIsGatedAndLeavesNoTrace) {
   without.revolution.edges.at(index_of(PulseChannel::NorthIn)).reset();
   ObservedRevolution spurious = seen[20];
   auto& north_in = spurious.revolution.edges.at(index_of(PulseChannel::NorthIn));
-  north_in = shifted(*north_in, 0.01);  // 20 sigmas.
+  north_in = shifted(*north_in, 0.01);  // 20 sigmas of its noise.
 
   SpinFilter unharmed = filter;
   for (const Observation& edge : work_in(unharmed, pass.config, without).edges()) {
@@ -187,7 +189,8 @@ TEST(SpinFilter, TheOrderOfTheEdgesHasNoWeight) {
   EXPECT_TRUE(forward.axis_covariance_rad2().isApprox(backward.axis_covariance_rad2(), 1e-6));
 }
 
-/// Axes where right ascension breaks, each with an orbit that shows the Earth across it.
+/// Names axes where right ascension is singular or wraps, each with an orbit in which the Earth is
+/// across the axis.
 struct Place {
   const char* name;
   RaDec axis;

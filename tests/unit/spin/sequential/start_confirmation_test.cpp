@@ -19,7 +19,7 @@ StartingPoint known_to(double sigma_rad, double off_rad = 0.0) {
           .covariance_rad2 = 0.5 * sigma_rad * sigma_rad * Eigen::Matrix2d::Identity()};
 }
 
-/// After so many fixes of the axis.
+/// Returns the confirmation after this many fixes of the axis.
 StartConfirmation after(int fixes, const StartingPoint& followed,
                         const std::function<void(SpinFix&)>& change = {}) {
   std::mt19937_64 rng{5};
@@ -44,7 +44,7 @@ TEST(StartConfirmation, AnAxisKnownToADegreeNeedsNoConfirmation) {
 }
 
 TEST(StartConfirmation, FixesConfirmItWhenTheirMeanIsKnownToADegree) {
-  // 4 deg along either direction: the mean of 32 is known to a degree.
+  // With 4 deg in either direction the mean of 32 fixes is known to a degree.
   const StartingPoint followed = known_to(0.5 * kRadPerDeg);
   EXPECT_TRUE(after(30, followed).unconfirmed());
   EXPECT_FALSE(after(40, followed).unconfirmed());

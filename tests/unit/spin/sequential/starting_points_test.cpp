@@ -37,7 +37,7 @@ TEST(StartingPoints, OneSharpCandidateIsItsOwnBranch) {
 }
 
 TEST(StartingPoints, PoorCandidatesAreAveragedUntilTheyAreKnownWell) {
-  // 7 deg both ways together: below 3 deg from the sixth on.
+  // The sigma is 7 deg over both directions, so the mean is below 3 deg from the sixth on.
   std::mt19937_64 rng{2};
   const Eigen::Vector3d axis = axis_at(359.9, 80.0);
   StartingPoints points;
@@ -48,7 +48,7 @@ TEST(StartingPoints, PoorCandidatesAreAveragedUntilTheyAreKnownWell) {
       EXPECT_EQ(known->fixes, count);
       const StartingPoint& point = known->points.front();
       const double sigma_rad = std::sqrt(point.covariance_rad2.trace());
-      // The tangent planes of the candidates are not quite that of their mean.
+      // The tangent planes of the candidates differ slightly from that of their mean.
       EXPECT_NEAR(sigma_rad / kRadPerDeg, 7.0 / std::sqrt(count), 0.1);
       EXPECT_LT(angle_between_rad(point.axis_icrf, axis), 4.0 * sigma_rad);
     }
@@ -80,19 +80,20 @@ TEST(StartingPoints, BranchesStayApartInWhateverOrderTheirCandidatesCome) {
                 5.0 * std::sqrt(known->points[i].covariance_rad2.trace()));
     }
   }
-  // 5.7 deg both ways together: from the fourth on.
+  // The sigma is 5.7 deg over both directions, so the mean is good enough from the fourth on.
   EXPECT_EQ(times_known, 37);
 }
 
 TEST(StartingPoints, OneFixNeverNamesABranchTwice) {
-  // Half a degree apart: within what may be wrong with the model, and yet two candidates.
+  // The candidates are half a degree apart, within the allowance for model errors, and yet
+  // distinct.
   std::mt19937_64 rng{4};
   const std::vector both{drawn(axis_at(100.0, 0.0), 0.01, rng),
                          drawn(axis_at(100.4, 0.0), 0.01, rng)};
   StartingPoints points{3};
   for (int count = 1; count <= 6; ++count) {
     const auto known = points.add(both);
-    // However well they are known, three fixes speak together here.
+    // Three fixes are required even though each is precise.
     ASSERT_EQ(known.has_value(), count >= 3);
     if (known) {
       ASSERT_EQ(known->points.size(), 2U);

@@ -89,7 +89,7 @@ TEST(Interference, SpoiltEdgesComeOutInOrderAmongTheOthers) {
                                InterferenceWindow::Judged{pulse_at(2400, SouthIn), true}));
 }
 
-// The cost of an edge does not grow with the number of those that are held: this comes to an end.
+// The test ends only if the cost of an edge does not grow with the number of held edges.
 TEST(Interference, AFloodWithinOneWindowComesOutWholeAndInOrder) {
   constexpr std::size_t kFlood = 1'000'000;
   std::vector<Pulse> flood(kFlood);

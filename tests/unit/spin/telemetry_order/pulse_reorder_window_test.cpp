@@ -118,7 +118,7 @@ TEST(ReorderWindow, FewFarAheadAtTheEndAreOutOfTime) {
   EXPECT_EQ(rest.out_of_time.size(), 7U);
 }
 
-// A restarted service reads them back without their duplicates.
+// A restarted service reads the samples back without their duplicates.
 TEST(ReorderWindow, DuplicatesOfHeldSamplesChangeNothing) {
   ReorderWindow window;
   for (std::int64_t i = 0; i < 8; ++i) {

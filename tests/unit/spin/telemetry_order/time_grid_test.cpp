@@ -11,14 +11,15 @@ constexpr PulseNoise kNoise{.sun_s = 1e-4, .infrared_s = 5e-4};
 constexpr std::int64_t kStart_ns = 1'795'143'637'000'000'000;
 constexpr std::int64_t kTurn_ns = 1'000'000'000;
 
-/// Six channels at 60 rpm, with the noise that is stated.
+/// Simulates six channels at 60 rpm with the stated noise.
 class Train {
  public:
-  /// @param cut So many channels are, sun1 first.
+  /// @param cut Number of channels whose times are truncated, sun1 first.
   explicit Train(std::int64_t grid_ns, std::size_t cut = kPulseChannels)
       : grid_ns_{grid_ns}, cut_{cut} {}
 
-  /// One turn more. @param steps_ns Of the delays behind sun1, as on-board counters have them.
+  /// Adds a turn.
+  /// @param steps_ns Step of the delays after sun1, as from on-board counters.
   void turn(TimeGrid& grid, std::int64_t steps_ns = 1) {
     const std::int64_t sun1_ns = on_grid(kStart_ns + turns_++ * kTurn_ns + noise_ns(kNoise.sun_s));
     grid.note({.t = tai_from_ns(sun1_ns), .channel = PulseChannel::Sun1});
@@ -103,7 +104,7 @@ TEST(TimeGrid, MayBeOfSomeChannelsOnly) {
   }
 }
 
-/// Edges without noise at a round rate, some of them lost.
+/// Noise-free edges at a round rate, some lost, are no grid.
 TEST(TimeGrid, IsNoneOfTurnsOfOneLength) {
   TimeGrid grid{kNoise};
   for (std::int64_t turn = 0; turn < 1'000; turn += turn % 7 == 0 ? 2 : 1) {
@@ -126,7 +127,7 @@ TEST(TimeGrid, MayBeginInThePass) {
   EXPECT_DOUBLE_EQ(grid.width_s(), 1e-3);
 }
 
-/// 6,000 runs; by chance one in eleven such passes has a run with the double.
+/// The pass has 6,000 runs; by chance one in eleven such passes has a run with twice the width.
 TEST(TimeGrid, StaysAsWideAsItIs) {
   Train train{100'000};
   TimeGrid grid{kNoise};

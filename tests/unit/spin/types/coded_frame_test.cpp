@@ -36,7 +36,7 @@ Pulse edge_at(double t_s, PulseChannel channel) {
   return {.t = shifted(kStart, t_s), .channel = channel};
 }
 
-/// The rows of tests/data/spin/coded.
+/// Reads the rows of tests/data/spin/coded.
 std::vector<CodedFrame> recorded_frames() {
   std::ifstream file{recorded_passes() / "coded" / "coded.csv"};
   std::string line;
@@ -80,9 +80,9 @@ Association associate(const std::vector<CodedFrame>& frames) {
 
 TEST(CodedFrame, ItsEdgesComeInOrderOfTime) {
   CodedFrame frame = frame_at(0.0);
-  frame.delay_s.at(index_of(NorthIn)) = -0.3;   // 0.7, modulo the period.
-  frame.delay_s.at(index_of(SouthOut)) = 2.05;  // 0.05.
-  frame.delay_s.at(index_of(Sun2)) = 1.1;       // Of the revolution behind.
+  frame.delay_s.at(index_of(NorthIn)) = -0.3;   // Equals 0.7 modulo the period.
+  frame.delay_s.at(index_of(SouthOut)) = 2.05;  // Equals 0.05 modulo the period.
+  frame.delay_s.at(index_of(Sun2)) = 1.1;       // Belongs to the next revolution.
   frame.delay_s.at(index_of(SouthIn)) = std::nullopt;
   EXPECT_THAT(edges_of(frame),
               ElementsAre(edge_at(0.0, Sun1), edge_at(0.05, SouthOut), edge_at(0.5, NorthOut),
@@ -124,7 +124,8 @@ TEST(CodedFrame, AChordThatStraddlesSun1StandsInTwoFrames) {
                           edge_at(0.7, SouthIn), edge_at(0.9, SouthOut), edge_at(0.95, NorthIn)));
   const Association all = associate(frames);
   ASSERT_EQ(all.closed.size(), frames.size());
-  EXPECT_EQ(all.left_over.size(), 1U);  // The end of the chord that began ahead of all frames.
+  // The only leftover is the end of the chord that began before all frames.
+  EXPECT_EQ(all.left_over.size(), 1U);
   for (const Revolution& revolution : all.closed) {
     const auto turn = static_cast<double>(revolution.number);
     EXPECT_EQ(revolution.good_edge(NorthIn), shifted(kStart, turn + 0.95));
@@ -157,7 +158,8 @@ TEST(CodedFrame, ChordsThatStraddleSun1AreWholeBetweenGapsHoweverSlowTheSpin) {
         EXPECT_FALSE(use.pulse.channel != NorthOut || has_begun) << name_of(use.pulse.channel);
       }
     }
-    // On the last turn ahead of a gap a chord has no end, and on the last of the gap no beginning.
+    // In the last turn before a gap a chord has no end, and in the last turn of the gap no
+    // beginning.
     for (int turn = 0; turn < 59; ++turn) {
       const std::array<int, 7> edges = {6, 6, 6, 5, 0, 0, 1};
       EXPECT_EQ(edges_of_turn[turn], edges.at(static_cast<std::size_t>(turn % 7))) << turn;
@@ -209,11 +211,11 @@ TEST(CodedFrame, ARecordedPassIsWhole) {
       rejected += rejection ? 1U : 0U;
     }
   }
-  EXPECT_LE(rejected, 18U);  // 1 % of 1794: at three sigma 0.27 % are expected.
+  EXPECT_LE(rejected, 18U);  // 1 % of 1794; three sigma reject 0.27 %.
 }
 
-/// Of what two senders give, a frame with another delay is left out with all its edges, whoever
-/// comes first; the rest is as if it had not come at all.
+/// A frame that two senders give with different delays is left out with all its edges, whoever
+/// comes first. The rest is as if it had not been received.
 TEST(CodedFrame, FramesThatContradictEachOtherAreLeftOut) {
   const testing::RecordedPass pass = testing::recorded_pass("coded");
   const std::vector<CodedFrame>& frames = pass.frames;
@@ -259,7 +261,7 @@ TEST(CodedFrame, FramesThatContradictEachOtherAreLeftOut) {
   for (const auto& arrivals : both) {
     const auto [texts, contradicted_edges] = made_of(arrivals);
     EXPECT_EQ(texts, expected);
-    // Seven where the frame is whole: sun2 by either.
+    // Seven edges for a whole frame, because each sender gives a sun2.
     EXPECT_GT(contradicted_edges, 6U * (frames.size() - uncontested.size()));
   }
   for (const auto& arrivals : preferring) {
@@ -283,7 +285,7 @@ TEST(FrameReorderWindow, SortsFramesTwoTurnsOutOfOrder) {
       received.push_back(due);
     }
   }
-  EXPECT_EQ(received.size(), 17U);  // Two and a half turns wait.
+  EXPECT_EQ(received.size(), 17U);  // Two and a half turns are still waiting.
   for (const CodedFrame& rest : window.release_all().in_time) {
     received.push_back(rest);
   }
