@@ -149,7 +149,7 @@ TEST_F(ArchiveTest, EdgesOfARevolutionAreFoundByAnIndex) {
 TEST_F(ArchiveTest, TheVocabularyOfRejectionsIsThatOfThePipelines) {
   const auto archive = open();
   std::set<std::string> names;
-  for (int i = 0; i <= static_cast<int>(Rejection::Innovation); ++i) {
+  for (int i = 0; i < kRejections; ++i) {
     names.emplace(name_of(static_cast<Rejection>(i)));
   }
   SQLite::Database database = reader();
