@@ -9,7 +9,7 @@
 
 namespace spindrift {
 
-inline constexpr std::size_t kMostShown = 200;  ///< In characters.
+inline constexpr std::size_t kMostShown = 200;  ///< Longest text that is shown, characters.
 
 /// Returns `text`, which may be invalid UTF-8, with control characters, line separators,
 /// bidirectional marks and invalid bytes replaced by \xNN. Longer text is cut after kMostShown

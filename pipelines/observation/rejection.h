@@ -29,7 +29,7 @@ enum class Rejection {
   Unit,        ///< Star fixes show that the gyro's rates are in another unit.
   Innovation,  ///< It is too far from the estimator's prediction, or there is no prediction.
   Period,      ///< It failed the spin-period test.
-  SunAngle,    ///< From here on: it failed the 3-sigma test of the named quantity.
+  SunAngle,    ///< It failed the 3-sigma test of this quantity, as do all below.
   NorthChord,
   SouthChord,
   NorthDihedral,

@@ -35,7 +35,7 @@ constexpr int kMostIterations = 100;
 /// all nodes, which the links leave free.
 constexpr double kTrustRegion = 1e16;
 constexpr double kFarLoss_sigmas = 3.0;
-constexpr double kFullWeight = 16.0;  ///< In sigmas squared, as `kNoWeight`.
+constexpr double kFullWeight = 16.0;  ///< Squared deviation, in sigmas squared.
 constexpr double kNoWeight = 64.0;
 
 class NearLoss final : public ceres::LossFunction {

@@ -34,7 +34,7 @@ struct LauncherAttitude {
 
 struct LauncherCheck {
   Eigen::Quaterniond q_icrf_body;  ///< Attitude reported by the launcher.
-  AttitudeDifference difference;   ///< From the launcher's attitude to the reconstructed one.
+  AttitudeDifference difference;   ///< Turn from the launcher's attitude to the reconstructed.
   /// Probability of at least this difference by errors alone: chi-square, 3 degrees of freedom.
   double chance;
 };

@@ -197,7 +197,7 @@ auto SpinEdges<Motion>::earth_due(const TrueInfrared& sensor, bool in, const Vie
     return unseen;
   }
   const double outside_rad = *deepest_rad + (in ? -std::numbers::pi : std::numbers::pi);
-  // Where the chord shrinks to nothing or grows to the whole turn, its edge goes on there, unseen.
+  // A chord that is empty or a whole turn has no visible edge; its edge is continued from there.
   if (!(beam.at(*deepest_rad).depth > 0.0)) {
     return {.azimuth_rad = *deepest_rad + sensor.azimuth_rad, .seen = false};
   }
