@@ -46,6 +46,19 @@ inline double real_of(const std::filesystem::path& db, const std::string& query)
   return database.execAndGet(query).getDouble();
 }
 
+/// Returns the number of stored samples of three-axis telemetry before an instant. A service may be
+/// killed between two halves of a pass when all samples of the first are stored.
+inline std::int64_t three_axis_samples_before(const std::filesystem::path& db,
+                                              std::int64_t t_tai_ns) {
+  std::int64_t samples = 0;
+  for (const char* const table :
+       {"gyro_sample", "sun_sample", "star_sample", "magnetometer_sample", "orbit_state_sample"}) {
+    samples +=
+        number_of(db, fmt::format("SELECT count(*) FROM {} WHERE t_tai_ns < {}", table, t_tai_ns));
+  }
+  return samples;
+}
+
 /// Returns all products of all runs, without the names of the runs.
 inline std::vector<std::string> product_rows(const std::filesystem::path& db) {
   std::vector<std::string> rows;

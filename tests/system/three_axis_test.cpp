@@ -154,6 +154,10 @@ TEST(ThreeAxis, ServeGivesWhatProcessGivesAlsoWhenItIsKilledInThePass) {
     ASSERT_TRUE(eventually(
         [&] { return number_of(service.db(), "SELECT max(t_tai_ns) FROM attitude") >= reached; }));
     if (first) {
+      ASSERT_TRUE(eventually([&] {
+        return three_axis_samples_before(service.db(), middle) ==
+               three_axis_samples_before(outcome.db, middle);
+      }));
       service.program().signal(SIGKILL);
       service.program().exit_status();
       service.start();
