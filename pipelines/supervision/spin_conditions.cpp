@@ -32,8 +32,8 @@ SpinConditions::SpinConditions(const SpinConfig& config, Orbit orbit, const Aler
     : limits_{limits},
       target_{std::move(target)},
       channels_{config, std::move(orbit), limits.silent_revolutions},
-      irrational_{limits.period.revolutions},
-      left_out_{limits.rejection.revolutions},
+      irrational_{limits.period.revolutions, 1},
+      left_out_{limits.rejection.revolutions, kPulseChannels},
       interference_{AlertCode::SpinInterference, "s", {.raise_s = 0.0, .clear_s = 60.0}},
       period_{AlertCode::SpinPeriod, "%"},
       rejection_{AlertCode::SpinRejection, "%"},
@@ -61,15 +61,11 @@ ConditionChanges SpinConditions::see(const PulseUse& use) {
   const bool is_copy = use.rejected_by == Rejection::Copy;
   ConditionChanges changes = is_copy ? ConditionChanges{} : channels_.see(use.pulse, axis);
   add(interference_.see(use.pulse.t, use.rejected_by == Rejection::Interference), changes);
-  std::optional<double> percent;
-  if (use.revolution) {
-    percent = left_out_.count(*use.revolution, use.rejected_by.has_value());
-  } else if (is_copy || use.rejected_by == Rejection::Unassociated) {
-    percent = left_out_.count_without_revolution();
-  }
-  if (percent) {
-    add(rejection_.see(use.pulse.t, {.value = *percent, .limit = limits_.rejection.percent}),
-        changes);
+  if (use.revolution || is_copy || use.rejected_by == Rejection::Unassociated) {
+    if (const auto percent = left_out_.count(use.revolution, use.rejected_by.has_value())) {
+      add(rejection_.see(use.pulse.t, {.value = *percent, .limit = limits_.rejection.percent}),
+          changes);
+    }
   }
   return changes;
 }

@@ -13,10 +13,10 @@
 
 #include "pipelines/spin/batch/batch_solution.h"
 #include "pipelines/spin/types/products.h"
+#include "pipelines/statistics/turn_share.h"
 #include "pipelines/supervision/channel_presence.h"
 #include "pipelines/supervision/condition_watch.h"
 #include "pipelines/supervision/limits.h"
-#include "pipelines/supervision/recent_share.h"
 
 namespace spindrift {
 
@@ -49,8 +49,8 @@ class SpinConditions {
   std::optional<SpinTarget> target_;
   std::multimap<TaiTime, Eigen::Vector3d> targets_;  ///< Future target axes, ICRF.
   ChannelPresence channels_;
-  RecentShare irrational_;
-  RecentShare left_out_;
+  TurnShare irrational_;
+  TurnShare left_out_;
   ConditionWatch interference_;
   ConditionWatch period_;
   ConditionWatch rejection_;
