@@ -1,5 +1,8 @@
 /// @file
 /// Detects channels of a spinner that should give edges and do not.
+///
+/// Silence is counted in edges of another channel, not in time, so that a silent link raises
+/// nothing.
 
 #pragma once
 

@@ -1,5 +1,7 @@
 /// @file
 /// The alert conditions for a spacecraft's link and for the service that supervises it.
+///
+/// The clocks are part of the given state: supervision reads none itself.
 
 #pragma once
 

@@ -1,5 +1,13 @@
 /// @file
 /// Decides whether the time of a stream has jumped ahead or some time stamps are stray.
+///
+/// A clock may be wrong for 20 s in a row, and as long do the first products wait after a silence
+/// of a minute. Eight samples in a row as the only criterion were rejected, because a glitch of one
+/// second makes as many; a minute was rejected, because an operator would wait for it in vain.
+///
+/// Not recognised: a clock that is wrong for longer while nobody else sends, and one that is ahead
+/// by more than a second from the first sample on. Stray samples at the end of all telemetry are
+/// taken for a second contact, unless they are of one kind among several.
 
 #pragma once
 

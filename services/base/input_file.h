@@ -1,5 +1,8 @@
 /// @file
 /// An input file given by the user.
+///
+/// Only regular files are accepted: a device has no end, opening a pipe may block for ever, and
+/// files of /proc and /sys report no size.
 
 #pragma once
 

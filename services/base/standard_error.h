@@ -1,5 +1,8 @@
 /// @file
 /// A standard error stream that never blocks the writer.
+///
+/// spdlog's asynchronous logger was rejected: it joins its thread at the end, however long a write
+/// takes.
 
 #pragma once
 

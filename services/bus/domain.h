@@ -12,8 +12,7 @@
 
 namespace spindrift::bus {
 
-/// Highest id in DDS. The UDP ports of a domain follow from its id; see
-/// deploy/cyclonedds/README.md.
+/// Highest id in DDS. The UDP ports of a domain follow from its id; see deploy/README.md.
 inline constexpr std::uint32_t kMaxDomainId = 230;
 
 /// A process can create a domain only once, so all members share it; the last one deletes it.

@@ -1,5 +1,9 @@
 /// @file
 /// The result of one check, a value independent of how it is printed.
+///
+/// Each subject has a file X_facts.cpp, which looks at the world, and a file X_checks.cpp, which
+/// judges the facts and is pure. The doctor changes nothing and disturbs nobody: it has no reader
+/// or writer on a topic in a partition of others, and takes no lock on an archive.
 
 #pragma once
 

@@ -1,5 +1,9 @@
 /// @file
 /// The embedded International Geomagnetic Reference Field, 14th generation.
+///
+/// IGRF14.shc is IAGA's file as stored in IAGA-VMOD/ppigrf, commit 5c45795b. It covers 1900 to
+/// 2030: it is definitive from 1945 to 2020, may be revised from then to 2025, and is a prediction
+/// after that. The file of the next generation will replace it.
 
 #pragma once
 

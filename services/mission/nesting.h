@@ -1,5 +1,8 @@
 /// @file
 /// Limits the nesting of tables and arrays in a TOML text before it is parsed.
+///
+/// toml++ limits the nesting of values, but not of dotted keys, and destroys a deep tree by
+/// recursion.
 
 #pragma once
 

@@ -1,5 +1,9 @@
 /// @file
 /// Checks an orbit file for things that a person should look at.
+///
+/// A doubt is no problem: the file is used, and every command that uses it warns. A jump turns the
+/// nadir by its size over the distance, and the axis by that or several times that; no sigma
+/// includes it.
 
 #pragma once
 

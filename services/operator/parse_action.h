@@ -1,5 +1,10 @@
 /// @file
 /// Parses an operator's action from JSON.
+///
+/// A new action needs a type in spin_action.h or attitude_action.h, its effect on the pass (`act`),
+/// its name and arguments in parse_action.cpp, and its name in schemas/tables.sql. Arguments are
+/// stored as JSON and parsed by the same function again, so that what is repeated after a restart
+/// is what was done.
 
 #pragma once
 

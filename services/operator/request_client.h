@@ -1,5 +1,8 @@
 /// @file
 /// Sends a request to the program that holds an archive.
+///
+/// Nobody answers on the socket of a killed program. The caller then does the work itself, and the
+/// next holder of the archive removes the socket.
 
 #pragma once
 

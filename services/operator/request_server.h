@@ -1,5 +1,9 @@
 /// @file
 /// Answers requests of other programs to the holder of an archive.
+///
+/// The socket stands beside the archive as ARCHIVE.sock and only its user may open it. A caller is
+/// refused when 16 others wait, and disconnected when it sends nothing for five seconds or more
+/// than a mebibyte.
 
 #pragma once
 

@@ -1,5 +1,8 @@
 /// @file
 /// A local socket in the file system, and the exchange of lines over it.
+///
+/// The kernel takes paths of at most 107 bytes. The folder is therefore opened, and the socket is
+/// named by the folder's descriptor.
 
 #pragma once
 

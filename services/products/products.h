@@ -1,5 +1,8 @@
 /// @file
 /// The kinds of products.
+///
+/// A new kind needs its traits file, its line here and its table in schemas/; if it has a topic,
+/// also its `to_idl` in services/publisher. What is missing does not compile.
 
 #pragma once
 

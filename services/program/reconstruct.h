@@ -25,7 +25,7 @@ struct ReconstructOptions {
   bool json = false;
 };
 
-/// The `do` of a request to the service that holds the archive (services/requests).
+/// The `do` of a request to the service that holds the archive (services/operator).
 inline constexpr std::string_view kReconstructRequest = "reconstruct";
 
 /// Answers such a request and stores a run. Safe to call from any thread.

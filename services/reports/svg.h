@@ -1,5 +1,9 @@
 /// @file
 /// A page of scalable vector graphics: shapes and text in pixels, x to the right, y down.
+///
+/// A document is complete in itself, without script, font or link, and prints at any size. PNG was
+/// rejected, because it needs a rasteriser and fonts. In all plots names stand beside their curves,
+/// not in a legend.
 
 #pragma once
 

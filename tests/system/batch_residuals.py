@@ -2,7 +2,7 @@
 """batch_residuals.py ARCHIVE MISSION: recomputes what each edge said to the estimator `batch` from the axis, the rate and
 the drift that the archive has, and prints the largest difference from the archive's residuals in seconds.
 
-It shares no code with spindrift: slits and beams are those of pipelines/spin/README.md, the horizon is a sphere, the Sun
+It shares no code with spindrift: slits and beams are those of edge_prediction.h, the horizon is a sphere, the Sun
 is ERFA's. The phase of the body, which the archive does not have, is the one that fits the residuals best.
 """
 import datetime

@@ -1,5 +1,9 @@
 /// @file
 /// True or false solution (Wang 2015): decides which candidate of a revolution is the axis.
+///
+/// Near-tangent fixes may lack the true candidate. An axis known to worse than 3 deg chooses among
+/// their candidates as if it were known to 3 deg, since within three large sigmas there is soon a
+/// false one.
 
 #pragma once
 

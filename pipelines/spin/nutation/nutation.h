@@ -17,6 +17,9 @@
 /// *Unseen*: frequencies within three cycles per ten minutes (or per pass, if shorter) of 0, 1 or 2
 /// cycles a turn, which look like misplaced sensors or another axis. A body that is not
 /// axisymmetric has an elliptic cone, of which the circular part is found.
+///
+/// A periodogram of the sun angle was rejected: a sensor that looks once a turn confuses
+/// frequencies.
 
 #pragma once
 

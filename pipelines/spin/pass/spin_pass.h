@@ -11,7 +11,9 @@
 /// The first kFirstRevolutions revolutions are held back to tell outliers from the level; later
 /// ones are settled as they close. When the axis has moved, screening and mean begin anew.
 ///
-/// An operator action applies from its instant on to edges and revolutions not yet computed.
+/// An operator action applies from its instant on to edges and revolutions not yet computed. A
+/// marked manoeuvre begins everything anew; a prior does so only where the pass has settled on
+/// another axis. The silence of a beam that is left out speaks against no candidate.
 
 #pragma once
 

@@ -1,6 +1,6 @@
 /// @file
 /// Conditions that a person should know at an instant of a coming pass, as codes with values;
-/// services/geometry makes the sentences of them.
+/// services/reports makes the sentences of them.
 
 #pragma once
 

@@ -1,6 +1,10 @@
 /// @file
 /// A coming pass: what each sensor will see, when a fix is possible, how well the axis can be known
 /// after a while.
+///
+/// The plan sends a revolution of predicted edges without noise through measurement and fix, so
+/// that case, candidates and sigma are those that the pass will have. Formulas for each case were
+/// rejected.
 
 #pragma once
 

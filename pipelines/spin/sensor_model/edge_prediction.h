@@ -11,6 +11,10 @@
 ///
 /// The biases of the sensors (sensor_biases.h) change theta_s, psi0, the mounting angle, the limb's
 /// height, a and the ends of the chord.
+///
+/// Leaving out the edges of beams that just miss the limb by the state was rejected: a filter then
+/// stayed beside the truth (linearise_by_depth). Leaving out sun edges within 6 deg of the axis was
+/// rejected as well: the candidate near the Sun then lost against a false one.
 
 #pragma once
 

@@ -7,6 +7,10 @@
 /// A divisor is taken over each run of twenty differences, so that single edges of another clock
 /// spoil one run only. A run without a grid has a divisor of k ns or more with a chance below
 /// k^-19.
+///
+/// One divisor for the whole pass was rejected, since a single edge off the grid makes it a
+/// nanosecond. Divisors of each channel's own times were rejected as the only ones: at a rate
+/// commensurate with the grid they are whole periods.
 
 #pragma once
 

@@ -1,5 +1,8 @@
 /// @file
 /// Coded telemetry: intervals that a spin-stabilised satellite times on board, one frame a turn.
+///
+/// Adding a period to the end of a chord that precedes its beginning was rejected: the edge would
+/// be a turn late. It is in the next frame, and association joins the two.
 
 #pragma once
 
