@@ -7,10 +7,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <functional>
 #include <string>
 #include <vector>
 
 #include "services/doctor/check.h"
+#include "services/doctor/report.h"
 
 namespace spindrift::doctor {
 
@@ -27,6 +29,36 @@ inline void expect_advice(const std::vector<Check>& checks) {
       EXPECT_THAT(check.advice, ::testing::Not(::testing::IsEmpty())) << check.name;
     }
     EXPECT_THAT(check.found, ::testing::Not(::testing::IsEmpty())) << check.name;
+  }
+}
+
+/// What one check says of facts that are in order but for a change.
+template <class Facts>
+struct Judged {
+  const char* when;
+  std::function<void(Facts&)> change;
+  const char* check;
+  Verdict verdict;
+  const char* found = "";  ///< A part of what it found.
+};
+
+/// Expects facts in order to pass all checks, and each change of them to be judged as stated, with
+/// advice.
+template <class Facts, class AllChecks>
+void expect_judged(const Facts& in_order, const AllChecks& checks_of,
+                   const std::vector<Judged<Facts>>& rows) {
+  for (const Check& check : checks_of(in_order)) {
+    EXPECT_EQ(check.verdict, Verdict::Ok) << check.name;
+  }
+  for (const Judged<Facts>& row : rows) {
+    SCOPED_TRACE(row.when);
+    Facts facts = in_order;
+    row.change(facts);
+    const std::vector<Check> checks = checks_of(facts);
+    EXPECT_EQ(named(checks, row.check).verdict, row.verdict);
+    EXPECT_THAT(named(checks, row.check).found, ::testing::HasSubstr(row.found));
+    EXPECT_TRUE(row.verdict != Verdict::Ok || worst_of(checks) == Verdict::Ok);
+    expect_advice(checks);
   }
 }
 

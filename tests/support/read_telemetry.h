@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "services/telemetry/telemetry_stream.h"
+#include "tests/support/outcome.h"
 #include "tests/support/temporary_folder.h"
 
 namespace spindrift {
@@ -37,21 +38,18 @@ struct ReadTelemetry {
 
 inline ReadTelemetry read(const std::vector<std::filesystem::path>& paths,
                           std::size_t buffer_bytes = TelemetryStream::kBufferBytes) {
-  const auto files = scan_telemetry(paths);
-  EXPECT_TRUE(files) << files.error().message;
-  auto stream = TelemetryStream::open(*files, "SPINNER", buffer_bytes);
-  EXPECT_TRUE(stream) << stream.error().message;
+  const auto files = value_or_throw(scan_telemetry(paths));
+  auto stream = value_or_throw(TelemetryStream::open(files, "SPINNER", buffer_bytes));
   ReadTelemetry all;
   while (true) {
-    const auto batch = stream->next();
-    EXPECT_TRUE(batch) << batch.error().message;
-    EXPECT_LE(count_of(batch->samples), TelemetryStream::kBatch);
-    EXPECT_LE(batch->rejected.size(), TelemetryStream::kBatch);
-    if (is_empty(*batch)) {
-      EXPECT_EQ(stream->bytes_given(), stream->bytes_total());
+    const auto batch = value_or_throw(stream.next());
+    EXPECT_LE(count_of(batch.samples), TelemetryStream::kBatch);
+    EXPECT_LE(batch.rejected.size(), TelemetryStream::kBatch);
+    if (is_empty(batch)) {
+      EXPECT_EQ(stream.bytes_given(), stream.bytes_total());
       return all;
     }
-    in_order_of_arrival(batch->samples, [&]<class Value>(const TelemetrySample<Value>& sample) {
+    in_order_of_arrival(batch.samples, [&]<class Value>(const TelemetrySample<Value>& sample) {
       all.times.push_back(sample.value.t);
       if constexpr (std::is_same_v<Value, Pulse>) {
         all.samples.push_back(sample);
@@ -59,8 +57,15 @@ inline ReadTelemetry read(const std::vector<std::filesystem::path>& paths,
         all.coded.push_back(sample);
       }
     });
-    all.rejected.insert(all.rejected.end(), batch->rejected.begin(), batch->rejected.end());
+    all.rejected.insert(all.rejected.end(), batch.rejected.begin(), batch.rejected.end());
   }
+}
+
+/// Reads a text as pulses.csv.
+inline ReadTelemetry read_text(std::string_view text,
+                               std::size_t buffer_bytes = TelemetryStream::kBufferBytes) {
+  const TemporaryFolder folder;
+  return read({folder.write("pulses.csv", text)}, buffer_bytes);
 }
 
 }  // namespace spindrift

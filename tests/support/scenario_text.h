@@ -3,23 +3,34 @@
 
 #pragma once
 
-#include <gtest/gtest.h>
-
 #include <string>
+#include <vector>
 
 #include "services/simulation/scenario.h"
+#include "tests/support/matchers.h"
+#include "tests/support/outcome.h"
 #include "tests/support/temporary_folder.h"
 
 namespace spindrift::testing {
 
-inline Expected<Scenario> loaded(const std::string& text) {
+inline Expected<Scenario> load(const std::string& text) {
   const TemporaryFolder folder;
   return load_scenario(folder.write("scenario.toml", text));
 }
 
+inline Scenario loaded(const std::string& text) { return value_or_throw(load(text)); }
+
 inline std::string error_of(const std::string& text) {
-  const auto scenario = loaded(text);
+  const auto scenario = load(text);
   return scenario ? "no error" : scenario.error().message;
+}
+
+/// Expects all of these problems in the refusal of a text.
+inline void expect_problems(const std::string& text, const std::vector<std::string>& problems) {
+  const std::string error = error_of(text);
+  for (const std::string& problem : problems) {
+    EXPECT_THAT(error, HasSubstr(problem));
+  }
 }
 
 /// Replaces the first occurrence of `from`, which must exist.

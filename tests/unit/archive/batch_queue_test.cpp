@@ -1,16 +1,14 @@
 #include "services/archive/batch_queue.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include <chrono>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
-namespace spindrift::batch_queue_test {
+#include "tests/support/matchers.h"
 
-using ::testing::ElementsAre;
+namespace spindrift::batch_queue_test {
 
 ArchiveBatch batch_of(const std::string& run_id) {
   ArchiveBatch batch;
@@ -42,6 +40,11 @@ ArchiveBatch details(std::size_t count, const std::string& run_id = "details") {
   return batch;
 }
 
+template <class... Batches>
+void push(BatchQueue& queue, Batches... batches) {
+  ASSERT_TRUE((queue.push(std::move(batches)) && ...));
+}
+
 std::vector<std::string> names_of(const std::vector<ArchiveBatch>& batches) {
   std::vector<std::string> names;
   for (const ArchiveBatch& batch : batches) {
@@ -52,9 +55,7 @@ std::vector<std::string> names_of(const std::vector<ArchiveBatch>& batches) {
 
 TEST(BatchQueue, GivesSamplesFirstAndAllWhenThereAreFew) {
   BatchQueue queue{1000};
-  ASSERT_TRUE(queue.push(results(10)));
-  ASSERT_TRUE(queue.push(samples(10)));
-  ASSERT_TRUE(queue.push(results(10)));
+  push(queue, results(10), samples(10), results(10));
   EXPECT_THAT(names_of(queue.take()), ElementsAre("samples", "results", "results"));
 }
 
@@ -63,37 +64,30 @@ TEST(BatchQueue, BeginsARunBeforeItsSamplesWhateverIsToldWithIt) {
   ArchiveBatch first = batch_of("first");
   first.start.emplace();
   first.products.emplace_back(RunNotice{});
-  ASSERT_TRUE(queue.push(std::move(first)));
-  ASSERT_TRUE(queue.push(samples(10)));
+  push(queue, std::move(first), samples(10));
   EXPECT_THAT(names_of(queue.take()), ElementsAre("first", "samples"));
 }
 
 TEST(BatchQueue, LetsProductsWaitInABurstOfSamplesButNotForEver) {
   BatchQueue queue{100'000};
-  ASSERT_TRUE(queue.push(results(500)));
-  ASSERT_TRUE(queue.push(results(500)));
-  ASSERT_TRUE(queue.push(samples(3200)));
+  push(queue, results(500), results(500), samples(3200));
   EXPECT_THAT(names_of(queue.take()), ElementsAre("samples", "results"));
-  ASSERT_TRUE(queue.push(samples(800)));
+  push(queue, samples(800));
   EXPECT_THAT(names_of(queue.take()), ElementsAre("samples"));
-  ASSERT_TRUE(queue.push(samples(800)));
+  push(queue, samples(800));
   EXPECT_THAT(names_of(queue.take()), ElementsAre("samples", "results"));
 }
 
 TEST(BatchQueue, ForgetsWhatABurstOwesOnceItIsOver) {
   BatchQueue queue{100'000};
-  ASSERT_TRUE(queue.push(results(50'000)));
-  ASSERT_TRUE(queue.push(results(10)));
-  ASSERT_TRUE(queue.push(samples(200)));
+  push(queue, results(50'000), results(10), samples(200));
   EXPECT_THAT(names_of(queue.take()), ElementsAre("samples", "results"));
   EXPECT_THAT(names_of(queue.take()), ElementsAre("results"));
 }
 
 TEST(BatchQueue, LetsDetailsWaitForACommitWithoutResults) {
   BatchQueue queue{100'000};
-  ASSERT_TRUE(queue.push(details(100)));
-  ASSERT_TRUE(queue.push(results(1)));
-  ASSERT_TRUE(queue.push(samples(1)));
+  push(queue, details(100), results(1), samples(1));
   EXPECT_THAT(names_of(queue.take()), ElementsAre("samples", "results"));
   EXPECT_EQ(queue.size(), 1U);
   EXPECT_THAT(names_of(queue.take()), ElementsAre("details"));
@@ -101,8 +95,7 @@ TEST(BatchQueue, LetsDetailsWaitForACommitWithoutResults) {
 
 TEST(BatchQueue, TakesManyDetailsAlongWithResults) {
   BatchQueue queue{100'000};
-  ASSERT_TRUE(queue.push(details(9000)));
-  ASSERT_TRUE(queue.push(results(1)));
+  push(queue, details(9000), results(1));
   EXPECT_THAT(names_of(queue.take()), ElementsAre("results", "details"));
 }
 
@@ -110,8 +103,7 @@ TEST(BatchQueue, GivesAFewDetailsLate) {
   using std::chrono::steady_clock;
   BatchQueue queue{100'000};
   const auto start = steady_clock::now();
-  ASSERT_TRUE(queue.push(details(1)));
-  ASSERT_TRUE(queue.push(details(1)));
+  push(queue, details(1), details(1));
   EXPECT_THAT(names_of(queue.take()), ElementsAre("details", "details"));
   EXPECT_GE(steady_clock::now() - start, std::chrono::seconds{1});
 }
@@ -123,12 +115,12 @@ TEST(BatchQueue, GivesAFewSamplesAtOnceThoughDetailsWait) {
   for (int tries = 0; tries < 20; ++tries) {
     BatchQueue queue{100'000};
     const auto start = steady_clock::now();
-    ASSERT_TRUE(queue.push(details(1)));
+    push(queue, details(1));
     std::vector<ArchiveBatch> taken;
     std::thread writer{[&] { taken = queue.take(); }};
     // Let the writer wait for the details.
     std::this_thread::sleep_for(std::chrono::milliseconds{50});
-    ASSERT_TRUE(queue.push(samples(1)));
+    push(queue, samples(1));
     writer.join();
     if (steady_clock::now() - start < std::chrono::milliseconds{900}) {
       EXPECT_THAT(names_of(taken), ElementsAre("samples"));
@@ -143,9 +135,7 @@ TEST(BatchQueue, EndsARunAfterItsDetails) {
   BatchQueue queue{100'000};
   ArchiveBatch end = batch_of("A");
   end.finished_utc = "2026-11-20T04:00:00Z";
-  ASSERT_TRUE(queue.push(details(3, "B")));
-  ASSERT_TRUE(queue.push(details(3, "A")));
-  ASSERT_TRUE(queue.push(std::move(end)));
+  push(queue, details(3, "B"), details(3, "A"), std::move(end));
   const auto taken = queue.take();
   EXPECT_THAT(names_of(taken), ElementsAre("A", "A"));
   EXPECT_TRUE(taken.back().finished_utc);
@@ -155,9 +145,7 @@ TEST(BatchQueue, WithdrawsDetailsFromBeforeAndNotThoseMadeAgain) {
   BatchQueue queue{100'000};
   ArchiveBatch again = results(1, "A");
   again.continuation = Continuation{.t = TaiTime::min()};
-  ASSERT_TRUE(queue.push(details(3, "A")));
-  ASSERT_TRUE(queue.push(std::move(again)));
-  ASSERT_TRUE(queue.push(details(100, "A")));
+  push(queue, details(3, "A"), std::move(again), details(100, "A"));
   const auto taken = queue.take();
   ASSERT_THAT(names_of(taken), ElementsAre("A", "A"));
   EXPECT_TRUE(taken.back().continuation);
@@ -166,21 +154,19 @@ TEST(BatchQueue, WithdrawsDetailsFromBeforeAndNotThoseMadeAgain) {
 
 TEST(BatchQueue, HasOneBoundForResultsAndDetails) {
   BatchQueue queue{20};
-  ASSERT_TRUE(queue.push(details(10)));
-  ASSERT_TRUE(queue.push(results(10)));
+  push(queue, details(10), results(10));
   std::thread writer{[&] {
     std::this_thread::sleep_for(std::chrono::milliseconds{50});
     EXPECT_THAT(names_of(queue.take()), ElementsAre("results"));
   }};
-  ASSERT_TRUE(queue.push(results(1)));  // This push waits for the writer.
+  push(queue, results(1));  // This push waits for the writer.
   writer.join();
   EXPECT_EQ(queue.size(), 2U);
 }
 
 TEST(BatchQueue, GivesWhatIsLeftOnceClosedAndThenNothing) {
   BatchQueue queue{10};
-  ASSERT_TRUE(queue.push(details(5)));
-  ASSERT_TRUE(queue.push(results(5)));
+  push(queue, details(5), results(5));
   queue.close();
   EXPECT_FALSE(queue.push(samples(1)));
   EXPECT_THAT(names_of(queue.take()), ElementsAre("results"));
@@ -191,7 +177,7 @@ TEST(BatchQueue, GivesWhatIsLeftOnceClosedAndThenNothing) {
 TEST(BatchQueue, GivesNothingAtTheDeadlineAndIsNotDrained) {
   BatchQueue queue{1000};
   EXPECT_TRUE(queue.take(BatchQueue::Instant{}).empty());
-  ASSERT_TRUE(queue.push(details(1)));
+  push(queue, details(1));
   EXPECT_TRUE(queue.take(BatchQueue::Instant{}).empty());
   queue.close();
   EXPECT_FALSE(queue.is_drained());

@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <chrono>
-
 namespace spindrift::recent_durations_test {
 
 TEST(RecentDurations, P99IsTheSmallestThatNinetyNinePercentDoNotExceed) {

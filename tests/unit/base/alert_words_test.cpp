@@ -1,11 +1,9 @@
 #include "services/base/alert_words.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "tests/support/matchers.h"
 #include "tests/support/test_paths.h"
 #include "tests/support/text_of.h"
 
@@ -75,8 +73,7 @@ TEST(AlertWords, GiveEvidenceToPrograms) {
 TEST(AlertWords, AreDocumentedWithTheirKeys) {
   const std::string documented = text_of(source_folder() / "schemas/alerts.md");
   for (int i = 0; i < kAlertCodes; ++i) {
-    EXPECT_THAT(documented,
-                ::testing::HasSubstr("\n| `" + std::string{name_of(static_cast<AlertCode>(i))}));
+    EXPECT_THAT(documented, HasSubstr("\n| `" + std::string{name_of(static_cast<AlertCode>(i))}));
   }
 }
 

@@ -1,8 +1,6 @@
 #include "services/base/assessment_words.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
+#include "tests/support/matchers.h"
 #include "tests/support/test_paths.h"
 #include "tests/support/text_of.h"
 
@@ -71,13 +69,12 @@ TEST(AssessmentWords, StandWithoutAValueThatADamagedArchiveLost) {
 TEST(AssessmentWords, AreDocumentedWithTheirCodes) {
   const std::string documented = text_of(source_folder() / "schemas/status.md");
   for (int i = 0; i < kReasonCodes; ++i) {
-    EXPECT_THAT(
-        documented,
-        ::testing::HasSubstr("\n| `" + std::string{name_of(static_cast<ReasonCode>(i))} + "` |"));
+    EXPECT_THAT(documented,
+                HasSubstr("\n| `" + std::string{name_of(static_cast<ReasonCode>(i))} + "` |"));
   }
   for (int i = 0; i < kQualities; ++i) {
-    EXPECT_THAT(documented, ::testing::HasSubstr(
-                                "\n| `" + std::string{name_of(static_cast<Quality>(i))} + "` |"));
+    EXPECT_THAT(documented,
+                HasSubstr("\n| `" + std::string{name_of(static_cast<Quality>(i))} + "` |"));
   }
 }
 

@@ -1,9 +1,9 @@
 #include "services/base/contained.h"
 
-#include <gtest/gtest.h>
-
 #include <stdexcept>
 #include <thread>
+
+#include "tests/support/matchers.h"
 
 namespace spindrift::contained_test {
 
@@ -13,9 +13,7 @@ TEST(Contained, GivesWhatTheWorkGives) {
   const auto refused = contained("work", []() -> Expected<void> {
     return Unexpected{{ErrorCode::InvalidInput, "refused"}};
   });
-  ASSERT_FALSE(refused);
-  EXPECT_EQ(refused.error().code, ErrorCode::InvalidInput);
-  EXPECT_EQ(refused.error().message, "refused");
+  EXPECT_THAT(refused, IsRefused(ErrorCode::InvalidInput, "refused"));
 }
 
 TEST(Contained, MakesAnExceptionThatWouldEndTheProcessAnError) {
@@ -25,9 +23,7 @@ TEST(Contained, MakesAnExceptionThatWouldEndTheProcessAnError) {
     no_memory = contained("announcing", [] { throw std::bad_alloc{}; });
     other = contained("announcing", [] { throw std::runtime_error{"no clock"}; });
   }}.join();
-  ASSERT_FALSE(no_memory);
-  EXPECT_EQ(no_memory.error().code, ErrorCode::Unavailable);
-  EXPECT_EQ(no_memory.error().message, "announcing: out of memory");
+  EXPECT_THAT(no_memory, IsRefused(ErrorCode::Unavailable, "announcing: out of memory"));
   ASSERT_FALSE(other);
   EXPECT_EQ(other.error().message, "announcing: no clock");
 }

@@ -1,7 +1,5 @@
 #include "services/base/input_file.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -9,12 +7,10 @@
 
 #include "services/base/file_lines.h"
 #include "services/base/sha256.h"
+#include "tests/support/matchers.h"
 #include "tests/support/temporary_folder.h"
 
 namespace spindrift::input_file_test {
-
-using ::testing::EndsWith;
-using ::testing::HasSubstr;
 
 std::string refusal_of(const std::filesystem::path& path) {
   const auto text = read_text_file(path);
@@ -78,10 +74,9 @@ TEST(InputFile, ThatFailsWhileReadingIsAnError) {
   auto file = InputFile::open(path).value();
   close(descriptor);
   std::array<char, 4> buffer{};
-  const auto read = file.read(buffer);
-  ASSERT_FALSE(read);
-  EXPECT_EQ(read.error().code, ErrorCode::Unavailable);
-  EXPECT_EQ(read.error().message, path.string() + ": reading failed: Bad file descriptor");
+  EXPECT_THAT(
+      file.read(buffer),
+      IsRefused(ErrorCode::Unavailable, path.string() + ": reading failed: Bad file descriptor"));
 }
 
 TEST(InputFile, HasItsNameEscaped) {

@@ -1,8 +1,6 @@
 #include "services/base/progress_bar.h"
 
 #include <fcntl.h>
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <pty.h>
 #include <unistd.h>
 
@@ -12,10 +10,9 @@
 #include <functional>
 #include <string>
 
-namespace spindrift::progress_bar_test {
+#include "tests/support/matchers.h"
 
-using ::testing::EndsWith;
-using ::testing::HasSubstr;
+namespace spindrift::progress_bar_test {
 
 /// Returns what `work` writes to standard error when that is `descriptor`, read from `reading`.
 std::string standard_error_of(int descriptor, int reading, const std::function<void()>& work) {
@@ -37,11 +34,15 @@ std::string standard_error_of(int descriptor, int reading, const std::function<v
   return text;
 }
 
-TEST(ProgressBar, ShowsHowFarItIsOnATerminalAndLeavesTheLineClean) {
+std::string shown_on_a_terminal(const std::function<void()>& work) {
   int ours = 0;
   int theirs = 0;
-  ASSERT_EQ(openpty(&ours, &theirs, nullptr, nullptr, nullptr), 0);
-  const std::string text = standard_error_of(theirs, ours, [] {
+  EXPECT_EQ(openpty(&ours, &theirs, nullptr, nullptr, nullptr), 0);
+  return standard_error_of(theirs, ours, work);
+}
+
+TEST(ProgressBar, ShowsHowFarItIsOnATerminalAndLeavesTheLineClean) {
+  const std::string text = shown_on_a_terminal([] {
     ProgressBar bar{"processing", 200};
     bar.advance_to(50);
   });
@@ -50,11 +51,8 @@ TEST(ProgressBar, ShowsHowFarItIsOnATerminalAndLeavesTheLineClean) {
 }
 
 TEST(ProgressBar, DrawsSeldom) {
-  int ours = 0;
-  int theirs = 0;
-  ASSERT_EQ(openpty(&ours, &theirs, nullptr, nullptr, nullptr), 0);
   std::chrono::duration<double> took{};
-  const std::string text = standard_error_of(theirs, ours, [&took] {
+  const std::string text = shown_on_a_terminal([&took] {
     const auto start = std::chrono::steady_clock::now();
     ProgressBar bar{"processing", 10000};
     for (std::uint64_t i = 0; i < 10000; ++i) {
@@ -79,14 +77,10 @@ TEST(ProgressBar, IsSilentInAPipe) {
 }
 
 TEST(ProgressBar, IsSilentWhereThereIsNothingToDo) {
-  int ours = 0;
-  int theirs = 0;
-  ASSERT_EQ(openpty(&ours, &theirs, nullptr, nullptr, nullptr), 0);
-  EXPECT_EQ(standard_error_of(theirs, ours,
-                              [] {
-                                ProgressBar bar{"processing", 0};
-                                bar.advance_to(0);
-                              }),
+  EXPECT_EQ(shown_on_a_terminal([] {
+              ProgressBar bar{"processing", 0};
+              bar.advance_to(0);
+            }),
             "");
 }
 

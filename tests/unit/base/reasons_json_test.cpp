@@ -1,7 +1,6 @@
 #include "services/base/reasons_json.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
+#include "tests/support/matchers.h"
 
 namespace spindrift::reasons_json_test {
 
@@ -22,10 +21,10 @@ TEST(ReasonsJson, ComesBackAsItWas) {
 }
 
 TEST(ReasonsJson, LeavesOutWhatIsNoReason) {
-  EXPECT_THAT(reasons_of("no JSON"), ::testing::IsEmpty());
-  EXPECT_THAT(reasons_of(R"({"code":"fixes"})"), ::testing::IsEmpty());
+  EXPECT_THAT(reasons_of("no JSON"), IsEmpty());
+  EXPECT_THAT(reasons_of(R"({"code":"fixes"})"), IsEmpty());
   EXPECT_THAT(reasons_of(R"([7,{"count":2},{"code":"of a later program"},{"code":"fixes"}])"),
-              ::testing::ElementsAre(Reason{Fixes}));
+              ElementsAre(Reason{Fixes}));
 }
 
 }  // namespace spindrift::reasons_json_test

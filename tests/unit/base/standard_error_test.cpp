@@ -1,7 +1,5 @@
 #include "services/base/standard_error.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <unistd.h>
 
 #include <array>
@@ -11,9 +9,9 @@
 #include <string>
 #include <thread>
 
-namespace spindrift::standard_error_test {
+#include "tests/support/matchers.h"
 
-using ::testing::EndsWith;
+namespace spindrift::standard_error_test {
 
 /// Replaces standard error by a pipe during its lifetime.
 class Piped {

@@ -1,12 +1,8 @@
 #include "services/console/alert_request.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
+#include "tests/support/matchers.h"
 
 namespace spindrift::alert_request_test {
-namespace {
-
-using ::testing::HasSubstr;
 
 TEST(AlertRequest, HasAPathOfItsOwn) {
   const auto ack = alert_path("/api/v1/alerts/00ff/ack");
@@ -54,5 +50,4 @@ TEST(AlertRequest, SaysWhatIsWrongWithABody) {
   }
 }
 
-}  // namespace
 }  // namespace spindrift::alert_request_test

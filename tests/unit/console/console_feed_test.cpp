@@ -1,23 +1,18 @@
 #include "services/console/console_feed.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include <chrono>
 #include <memory>
 #include <string>
 
 #include "services/base/degrees.h"
 #include "services/mission/mission.h"
+#include "tests/support/matchers.h"
 #include "tests/support/recorded_files.h"
 #include "tests/support/some_health.h"
 
 namespace spindrift::console_feed_test {
-namespace {
 
 using namespace std::chrono_literals;
-using ::testing::HasSubstr;
-using ::testing::Not;
 
 // A time within the orbit of the recorded pass.
 const TaiTime kT = tai_from_ns(1'795'143'700'000'000'000);
@@ -242,5 +237,4 @@ TEST_F(Feed, HasTroubleWhenTheServiceDoesNotWork) {
   EXPECT_EQ(feed_->trouble(), "not storing: disk full");
 }
 
-}  // namespace
 }  // namespace spindrift::console_feed_test

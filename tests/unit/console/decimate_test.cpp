@@ -1,18 +1,14 @@
 #include "services/console/decimate.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <cstdint>
 #include <vector>
 
+#include "tests/support/matchers.h"
+
 namespace spindrift::decimate_test {
-namespace {
 
 using ::testing::Contains;
-using ::testing::ElementsAre;
-using ::testing::SizeIs;
 
 std::vector<SeriesPoint> flat(std::int64_t count) {
   std::vector<SeriesPoint> points;
@@ -72,5 +68,4 @@ TEST(Decimate, LeavesHalfToWhatWasAcceptedHoweverMuchWasRejected) {
             100);
 }
 
-}  // namespace
 }  // namespace spindrift::decimate_test

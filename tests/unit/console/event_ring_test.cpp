@@ -5,7 +5,6 @@
 #include <string>
 
 namespace spindrift::event_ring_test {
-namespace {
 
 TEST(EventRing, GivesWhatIsBehindAnId) {
   EventRing ring{100};
@@ -38,5 +37,4 @@ TEST(EventRing, ForgetsByBytes) {
   EXPECT_LT(ring.after(5).text.size(), 2 * mebibyte.size());
 }
 
-}  // namespace
 }  // namespace spindrift::event_ring_test

@@ -7,9 +7,7 @@
 #include <vector>
 
 namespace spindrift::go_no_go_test {
-namespace {
 
-using Texts = std::vector<std::string>;
 using Change = std::function<void(Standing&)>;
 
 Standing good() {
@@ -20,13 +18,13 @@ Standing good() {
           .to_target_deg = 2.2};
 }
 
-/// Returns "code: text" of each objection to a good standing after `change`.
-Texts against(const Change& change, const std::string& trouble = "") {
+/// Returns "code: text" of each objection to a good standing after `change`, a line each.
+std::string against(const Change& change, const std::string& trouble = "") {
   Standing standing = good();
   change(standing);
-  Texts all;
+  std::string all;
   for (const Objection& objection : go_no_go(standing, trouble, AlertLimits{})) {
-    all.push_back(std::string{objection.code} + ": " + objection.text);
+    all += std::string{objection.code} + ": " + objection.text + "\n";
   }
   return all;
 }
@@ -35,73 +33,71 @@ Alert alert(const char* key, AlertSeverity severity, AlertState state) {
   return {.key = key, .severity = severity, .state = state};
 }
 
-TEST(GoNoGo, IsGoWhenAllIsKnownAndNothingStandsAgainstIt) {
-  EXPECT_EQ(against([](Standing&) {}), Texts{});
-  EXPECT_EQ(against([](Standing& now) { now.to_target_deg.reset(); }), Texts{});
-  EXPECT_EQ(against([](Standing& now) {
-              now.alerts = {alert("link.restarted:S", AlertSeverity::Info, AlertState::Active)};
-            }),
-            Texts{});
-}
+struct Row {
+  const char* when;
+  Change change;
+  std::string against;
+};
 
-TEST(GoNoGo, IsNeverGoWhenItIsNotKnown) {
+TEST(GoNoGo, IsGoUnlessSomethingStandsAgainstIt) {
+  const std::vector<Row> rows{
+      {"all is known", [](auto& /*now*/) {}, ""},
+      {"no target", [](auto& now) { now.to_target_deg.reset(); }, ""},
+      {"an alert that informs",
+       [](auto& now) {
+         now.alerts = {alert("link.restarted:S", AlertSeverity::Info, AlertState::Active)};
+       },
+       ""},
+      {"nothing has come", [](auto& now) { now.link = LinkState::Waiting; },
+       "link: no telemetry has come yet\n"},
+      {"nothing comes",
+       [](auto& now) {
+         now.link = LinkState::Stale;
+         now.data_age_s = 12.3;
+       },
+       "link: no telemetry for 12 s\n"},
+      {"no quality", [](auto& now) { now.verdict.quality.reset(); }, "quality: no answer yet\n"},
+      {"no sigma", [](auto& now) { now.verdict.sigma_deg.reset(); }, "quality: no answer yet\n"},
+      {"ambiguous",
+       [](auto& now) {
+         now.verdict.quality = Quality::Ambiguous;
+         now.verdict.against = "AMBIGUOUS, another axis fits";
+       },
+       "quality: AMBIGUOUS, another axis fits\n"},
+      {"doubtful",
+       [](auto& now) {
+         now.verdict.quality = Quality::Doubtful;
+         now.verdict.against = "mean and batch disagree";
+       },
+       "quality: DOUBTFUL: mean and batch disagree\n"},
+      {"disagreement", [](auto& now) { now.verdict.against = "sequential and batch disagree"; },
+       "quality: sequential and batch disagree\n"},
+      {"lost", [](auto& now) { now.verdict.quality = Quality::Lost; }, "quality: LOST\n"},
+      {"wide sigma", [](auto& now) { now.verdict.sigma_deg = 1.5; },
+       "sigma: sigma 1.5 deg, limit 1\n"},
+      {"off the target", [](auto& now) { now.to_target_deg = 2.4; },
+       "target: 2.4 deg off the target, limit 2.3\n"},
+      {"wide sigma of three axes",
+       [](auto& now) {
+         now.kind = SpacecraftKind::ThreeAxis;
+         now.verdict.sigma_deg = 1.5;
+       },
+       ""},
+      {"alerts that somebody has seen",
+       [](auto& now) {
+         now.alerts = {alert("spin.nutation", AlertSeverity::Warning, AlertState::Acknowledged),
+                       alert("attitude.lost", AlertSeverity::Critical, AlertState::Shelved)};
+       },
+       "alert: warning spin.nutation, acknowledged\nalert: critical attitude.lost, shelved\n"}};
+  for (const Row& row : rows) {
+    EXPECT_EQ(against(row.change), row.against) << row.when;
+  }
   EXPECT_EQ(go_no_go({.kind = SpacecraftKind::Spin}, "", AlertLimits{}).size(), 2U);
-  EXPECT_EQ(against([](Standing& now) { now.link = LinkState::Waiting; }),
-            Texts{"link: no telemetry has come yet"});
-  EXPECT_EQ(against([](Standing& now) {
-              now.link = LinkState::Stale;
-              now.data_age_s = 12.3;
-            }),
-            Texts{"link: no telemetry for 12 s"});
-  EXPECT_EQ(against([](Standing& now) { now.verdict.quality.reset(); }),
-            Texts{"quality: no answer yet"});
-  EXPECT_EQ(against([](Standing& now) { now.verdict.sigma_deg.reset(); }),
-            Texts{"quality: no answer yet"});
-}
-
-TEST(GoNoGo, SaysWhyTheAnswerIsNotToBeUsed) {
-  EXPECT_EQ(against([](Standing& now) {
-              now.verdict.quality = Quality::Ambiguous;
-              now.verdict.against = "AMBIGUOUS, another axis fits";
-            }),
-            Texts{"quality: AMBIGUOUS, another axis fits"});
-  EXPECT_EQ(against([](Standing& now) {
-              now.verdict.quality = Quality::Doubtful;
-              now.verdict.against = "mean and batch disagree";
-            }),
-            Texts{"quality: DOUBTFUL: mean and batch disagree"});
-  EXPECT_EQ(against([](Standing& now) { now.verdict.against = "sequential and batch disagree"; }),
-            Texts{"quality: sequential and batch disagree"});
-  EXPECT_EQ(against([](Standing& now) { now.verdict.quality = Quality::Lost; }),
-            Texts{"quality: LOST"});
-}
-
-TEST(GoNoGo, HoldsAnAxisAgainstTheLimitsOfTheMission) {
-  EXPECT_EQ(against([](Standing& now) { now.verdict.sigma_deg = 1.5; }),
-            Texts{"sigma: sigma 1.5 deg, limit 1"});
-  EXPECT_EQ(against([](Standing& now) { now.to_target_deg = 2.4; }),
-            Texts{"target: 2.4 deg off the target, limit 2.3"});
-  EXPECT_EQ(against([](Standing& now) {
-              now.kind = SpacecraftKind::ThreeAxis;
-              now.verdict.sigma_deg = 1.5;
-            }),
-            Texts{});
-}
-
-TEST(GoNoGo, NamesWhatIsOpenWhoeverHasSeenIt) {
-  EXPECT_EQ(against([](Standing& now) {
-              now.alerts = {
-                  alert("spin.nutation", AlertSeverity::Warning, AlertState::Acknowledged),
-                  alert("attitude.lost", AlertSeverity::Critical, AlertState::Shelved)};
-            }),
-            (Texts{"alert: warning spin.nutation, acknowledged",
-                   "alert: critical attitude.lost, shelved"}));
 }
 
 TEST(GoNoGo, IsNotGoWhileTheServiceDoesNotWork) {
   EXPECT_EQ(against([](Standing&) {}, "not storing: disk full"),
-            Texts{"service: not storing: disk full"});
+            "service: not storing: disk full\n");
 }
 
-}  // namespace
 }  // namespace spindrift::go_no_go_test

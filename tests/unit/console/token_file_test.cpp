@@ -1,29 +1,25 @@
 #include "services/console/token_file.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include <filesystem>
 
+#include "tests/support/matchers.h"
+#include "tests/support/outcome.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text_of.h"
 
 namespace spindrift::token_file_test {
-namespace {
 
-using ::testing::HasSubstr;
 namespace fs = std::filesystem;
 
 TEST(TokenFile, IsMadeOnceForItsUserAlone) {
   const TemporaryFolder folder;
   const fs::path db = folder.path() / "pass.db";
-  const auto token = token_of(db);
-  ASSERT_TRUE(token) << token.error().message;
-  EXPECT_EQ(token->size(), 64U);
+  const auto token = value_or_throw(token_of(db));
+  EXPECT_EQ(token.size(), 64U);
   const fs::path file = folder.path() / "pass.db.token";
-  EXPECT_EQ(text_of(file), *token + "\n");
+  EXPECT_EQ(text_of(file), token + "\n");
   EXPECT_EQ(fs::status(file).permissions(), fs::perms::owner_read | fs::perms::owner_write);
-  EXPECT_EQ(token_of(db), *token);
+  EXPECT_EQ(token_of(db), token);
 }
 
 TEST(TokenFile, ThatIsNoneIsRefused) {
@@ -47,5 +43,4 @@ TEST(TokenFile, ComparesWholeTokens) {
   }
 }
 
-}  // namespace
 }  // namespace spindrift::token_file_test

@@ -1,18 +1,14 @@
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <algorithm>
 
 #include "services/doctor/network.h"
 #include "services/doctor/presence.h"
 #include "services/doctor/report.h"
 #include "tests/support/doctor_checks.h"
+#include "tests/support/matchers.h"
 
 namespace spindrift::doctor {
 namespace {
 
-using ::testing::HasSubstr;
-using namespace std::chrono_literals;
+using enum Verdict;
 
 // --- network
 
@@ -71,46 +67,28 @@ NetworkFacts good_network() {
           .free_indices = 99};
 }
 
-TEST(DoctorNetwork, IsContentWithTheLoopbackConfiguration) {
-  const auto checks = check_network(good_network());
-  EXPECT_EQ(worst_of(checks), Verdict::Ok);
-  EXPECT_THAT(named(checks, "network").found, HasSubstr("interfaces: lo"));
-}
-
-TEST(DoctorNetwork, FailsInTheWordsOfCycloneWhenItRefuses) {
-  NetworkFacts facts = good_network();
-  facts.settings = Unexpected{{ErrorCode::Unavailable, "unknown interface eth7"}};
-  const auto checks = check_network(facts);
-  EXPECT_EQ(worst_of(checks), Verdict::Failure);
-  EXPECT_THAT(checks.front().found, HasSubstr("unknown interface eth7"));
-  expect_advice(checks);
-}
-
-TEST(DoctorNetwork, WarnsWhenNobodyCanBeFound) {
-  NetworkFacts facts = good_network();
-  facts.settings->peers.clear();
-  EXPECT_EQ(named(check_network(facts), "network").verdict, Verdict::Warning);
-  facts.settings->multicast = "true";
-  EXPECT_EQ(named(check_network(facts), "network").verdict, Verdict::Ok);
-}
-
-TEST(DoctorNetwork, WarnsWhenFewMoreProgramsFit) {
-  NetworkFacts facts = good_network();
-  facts.free_indices = 4;
-  EXPECT_EQ(named(check_network(facts), "participants").verdict, Verdict::Ok);
-  facts.free_indices = 3;
-  const auto checks = check_network(facts);
-  EXPECT_EQ(named(checks, "participants").verdict, Verdict::Warning);
-  EXPECT_THAT(named(checks, "participants").found, HasSubstr("3 of 100"));
-  expect_advice(checks);
-}
-
-TEST(DoctorNetwork, WarnsOfAReceiveBufferBelowWhatCycloneAsksFor) {
-  NetworkFacts facts = good_network();
-  facts.settings->receive_buffer_bytes = 1048576;
-  EXPECT_EQ(named(check_network(facts), "receive buffer").verdict, Verdict::Ok);
-  facts.settings->receive_buffer_bytes = 1048575;
-  EXPECT_EQ(named(check_network(facts), "receive buffer").verdict, Verdict::Warning);
+TEST(DoctorNetwork, JudgesWhoCanBeFoundHowManyFitAndTheReceiveBuffer) {
+  EXPECT_THAT(named(check_network(good_network()), "network").found, HasSubstr("interfaces: lo"));
+  expect_judged<NetworkFacts>(
+      good_network(), check_network,
+      {{"refused by Cyclone",
+        [](auto& f) {
+          f.settings = Unexpected{{ErrorCode::Unavailable, "unknown interface eth7"}};
+        },
+        "network", Failure, "unknown interface eth7"},
+       {"nobody can be found", [](auto& f) { f.settings->peers.clear(); }, "network", Warning},
+       {"multicast finds all",
+        [](auto& f) {
+          f.settings->peers.clear();
+          f.settings->multicast = "true";
+        },
+        "network", Ok},
+       {"four more fit", [](auto& f) { f.free_indices = 4; }, "participants", Ok},
+       {"three more fit", [](auto& f) { f.free_indices = 3; }, "participants", Warning, "3 of 100"},
+       {"least buffer", [](auto& f) { f.settings->receive_buffer_bytes = 1048576; },
+        "receive buffer", Ok},
+       {"small buffer", [](auto& f) { f.settings->receive_buffer_bytes = 1048575; },
+        "receive buffer", Warning}});
 }
 
 TEST(DoctorNetwork, FailsWhenNoSampleComesThrough) {
@@ -136,39 +114,21 @@ PresenceFacts present(std::vector<Endpoint> endpoints) {
           .endpoints = std::move(endpoints)};
 }
 
-TEST(DoctorPresence, NamesThoseWhoPublishTelemetry) {
-  const auto checks = check_presence(present({pulses_in("live")}));
-  EXPECT_EQ(worst_of(checks), Verdict::Ok);
-  EXPECT_THAT(named(checks, "telemetry").found, HasSubstr("frontend (pid 7) on ant"));
-}
-
-TEST(DoctorPresence, TakesCodedFramesForTelemetry) {
-  Endpoint coded = pulses_in("live");
-  coded.topic = "spindrift/coded_frame";
-  EXPECT_EQ(named(check_presence(present({coded})), "telemetry").verdict, Verdict::Ok);
-}
-
-TEST(DoctorPresence, TakesAPartitionForThePatternThatItIs) {
-  EXPECT_EQ(worst_of(check_presence(present({pulses_in("li*")}))), Verdict::Ok);
-}
-
-TEST(DoctorPresence, WarnsWhenNobodyPublishesTelemetry) {
-  const auto checks = check_presence(present({}));
-  EXPECT_EQ(named(checks, "telemetry").verdict, Verdict::Warning);
-  expect_advice(checks);
-  Endpoint reader = pulses_in("live");
-  reader.writes = false;
-  Endpoint health = pulses_in("live");
-  health.topic = "spindrift/health";
-  EXPECT_EQ(named(check_presence(present({reader, health})), "telemetry").verdict,
-            Verdict::Warning);
-}
-
-TEST(DoctorPresence, SaysWhenTelemetryIsInAnotherPartition) {
-  const Check telemetry = named(check_presence(present({pulses_in("rehearsal")})), "telemetry");
-  EXPECT_EQ(telemetry.verdict, Verdict::Warning);
-  EXPECT_THAT(telemetry.found, HasSubstr("'rehearsal'"));
-  EXPECT_THAT(telemetry.advice, HasSubstr("--partition"));
+TEST(DoctorPresence, JudgesWhoPublishesTelemetryWhere) {
+  expect_judged<Endpoint>(
+      pulses_in("live"), [](const Endpoint& one) { return check_presence(present({one})); },
+      {{"pulses", [](auto& /*one*/) {}, "telemetry", Ok, "frontend (pid 7) on ant"},
+       {"coded frames", [](auto& one) { one.topic = "spindrift/coded_frame"; }, "telemetry", Ok},
+       {"a pattern", [](auto& one) { one.partitions = {"li*"}; }, "telemetry", Ok},
+       {"a reader", [](auto& one) { one.writes = false; }, "telemetry", Warning},
+       {"no telemetry", [](auto& one) { one.topic = "spindrift/health"; }, "telemetry", Warning},
+       {"another partition", [](auto& one) { one.partitions = {"rehearsal"}; }, "telemetry",
+        Warning, "'rehearsal'"}});
+  EXPECT_THAT(named(check_presence(present({pulses_in("rehearsal")})), "telemetry").advice,
+              HasSubstr("--partition"));
+  const auto nobody = check_presence(present({}));
+  EXPECT_EQ(named(nobody, "telemetry").verdict, Warning);
+  expect_advice(nobody);
 }
 
 TEST(DoctorPresence, FailsOnAMismatchOfThisPartitionAndNamesIt) {

@@ -1,8 +1,5 @@
 // The checks of `spindrift doctor` on machine, missions and archive with made-up facts.
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include "services/doctor/archive.h"
 #include "services/doctor/disk.h"
 #include "services/doctor/host.h"
@@ -10,13 +7,13 @@
 #include "services/doctor/missions.h"
 #include "services/doctor/report.h"
 #include "tests/support/doctor_checks.h"
+#include "tests/support/matchers.h"
 
 namespace spindrift::doctor {
 namespace {
 
-using ::testing::HasSubstr;
-using ::testing::IsEmpty;
 using namespace std::chrono_literals;
+using enum Verdict;
 
 constexpr TaiTime kNow = tai_from_ns(1'795'143'637'000'000'000);
 
@@ -31,31 +28,16 @@ HostFacts good_host() {
           .sqlite_version = 3051003};
 }
 
-TEST(DoctorHost, IsContentWithAHostInOrder) {
-  EXPECT_EQ(worst_of(check_host(good_host())), Verdict::Ok);
-}
-
-TEST(DoctorHost, JudgesTheClock) {
-  HostFacts facts = good_host();
-  facts.clock_synchronised = false;
-  EXPECT_EQ(named(check_host(facts), "clock").verdict, Verdict::Warning);
-  facts.clock_synchronised = std::nullopt;
-  EXPECT_EQ(named(check_host(facts), "clock").verdict, Verdict::Warning);
-  facts.clock_synchronised = true;
-  facts.year = 1970;
-  EXPECT_EQ(named(check_host(facts), "clock").verdict, Verdict::Failure);
-  facts.year = 2262;
-  EXPECT_EQ(named(check_host(facts), "clock").verdict, Verdict::Failure);
-}
-
-TEST(DoctorHost, WarnsOfTightLimits) {
-  HostFacts facts = good_host();
-  facts.open_files = 255;
-  facts.memory_bytes = 511LL << 20;
-  const auto checks = check_host(facts);
-  EXPECT_EQ(named(checks, "open files").verdict, Verdict::Warning);
-  EXPECT_EQ(named(checks, "memory").verdict, Verdict::Warning);
-  expect_advice(checks);
+TEST(DoctorHost, JudgesTheClockAndTightLimits) {
+  expect_judged<HostFacts>(
+      good_host(), check_host,
+      {{"clock that runs free", [](auto& f) { f.clock_synchronised = false; }, "clock", Warning},
+       {"clock of which nothing is known", [](auto& f) { f.clock_synchronised.reset(); }, "clock",
+        Warning},
+       {"clock never set", [](auto& f) { f.year = 1970; }, "clock", Failure},
+       {"clock beyond TAI", [](auto& f) { f.year = 2262; }, "clock", Failure},
+       {"few open files", [](auto& f) { f.open_files = 255; }, "open files", Warning},
+       {"little memory", [](auto& f) { f.memory_bytes = 511LL << 20; }, "memory", Warning}});
 }
 
 TEST(DoctorHost, NamesTheVersionsOfSqliteThatCanDamageAFile) {
@@ -94,27 +76,26 @@ LeapFacts leaps(std::chrono::sys_days day) {
           .machine = LeapTable{.tai_minus_utc_s = 37, .complete_until = 2026y / 6 / 28}};
 }
 
-TEST(DoctorLeapSeconds, WarnsWhenNoTableReachesToday) {
-  EXPECT_EQ(check_leap_seconds(leaps(2026y / 6 / 28)).verdict, Verdict::Ok);
-  const Check late = check_leap_seconds(leaps(2026y / 6 / 29));
-  EXPECT_EQ(late.verdict, Verdict::Warning);
-  EXPECT_THAT(late.found, HasSubstr("not known on "));
-  expect_advice({late});
-  LeapFacts alone = leaps(2023y / 1 / 1);
-  EXPECT_EQ(check_leap_seconds(alone).verdict, Verdict::Ok);
-  alone.machine.reset();
-  EXPECT_EQ(check_leap_seconds(alone).verdict, Verdict::Warning);
-}
-
-TEST(DoctorLeapSeconds, FailsWhenTheProgramMissesOne) {
-  LeapFacts facts = leaps(2026y / 5 / 1);
-  facts.machine->tai_minus_utc_s = 38;
-  EXPECT_EQ(check_leap_seconds(facts).verdict, Verdict::Failure);
-  // A program with a newer table than the machine's is right.
-  facts.machine->complete_until = 2016y / 12 / 28;
-  facts.machine->tai_minus_utc_s = 36;
-  facts.day = 2021y / 6 / 1;
-  EXPECT_EQ(check_leap_seconds(facts).verdict, Verdict::Ok);
+TEST(DoctorLeapSeconds, WarnsWhenNoTableReachesTodayAndFailsWhenTheProgramMissesOne) {
+  expect_judged<LeapFacts>(
+      leaps(2026y / 6 / 28), [](const LeapFacts& f) { return std::vector{check_leap_seconds(f)}; },
+      {{"day after the last", [](auto& f) { f.day = 2026y / 6 / 29; }, "leap seconds", Warning,
+        "not known on "},
+       {"machine reaches further", [](auto& f) { f.day = 2023y / 1 / 1; }, "leap seconds", Ok},
+       {"no table of the machine",
+        [](auto& f) {
+          f.day = 2023y / 1 / 1;
+          f.machine.reset();
+        },
+        "leap seconds", Warning},
+       {"program misses one", [](auto& f) { f.machine->tai_minus_utc_s = 38; }, "leap seconds",
+        Failure},
+       {"program has a newer table than the machine",
+        [](auto& f) {
+          f.machine = LeapTable{.tai_minus_utc_s = 36, .complete_until = 2016y / 12 / 28};
+          f.day = 2021y / 6 / 1;
+        },
+        "leap seconds", Ok}});
 }
 
 // --- missions
@@ -132,23 +113,24 @@ std::vector<Check> check_one(const MissionFacts& mission) {
   return check_missions(std::vector{mission}, {kNow, kNow});
 }
 
-TEST(DoctorMissions, WarnsWhenTheEphemerisEndsWithinADay) {
-  EXPECT_EQ(worst_of(check_one(spinner(24h))), Verdict::Ok);
-  const auto checks = check_one(spinner(24h - 1s));
-  EXPECT_EQ(named(checks, "orbit of SPINNER").verdict, Verdict::Warning);
-  EXPECT_THAT(named(checks, "orbit of SPINNER").found,
-              HasSubstr("from 2026-11-20T02:00:00Z to 2026-11-21T02:59:59Z, another 1 day"));
-  expect_advice(checks);
-}
-
-TEST(DoctorMissions, WarnsWhenThereIsNoOrbitNow) {
-  MissionFacts facts = spinner(48h);
-  facts.ephemeris->from = kNow + 3s;
-  facts.no_orbit_at = kNow;
-  facts.never_an_orbit = true;
-  const Check orbit = named(check_one(facts), "orbit of SPINNER");
-  EXPECT_EQ(orbit.verdict, Verdict::Warning);
-  EXPECT_THAT(orbit.found, HasSubstr("no orbit at 2026-11-20T03:00:00Z, 3 s before it begins"));
+TEST(DoctorMissions, JudgesASpinnerInAPassOfNow) {
+  expect_judged<MissionFacts>(
+      spinner(24h), check_one,
+      {{"ephemeris ends within a day", [](auto& f) { f.ephemeris->to -= 1s; }, "orbit of SPINNER",
+        Warning, "from 2026-11-20T02:00:00Z to 2026-11-21T02:59:59Z, another 1 day"},
+       {"no orbit now",
+        [](auto& f) {
+          f.ephemeris = Coverage{.from = kNow + 3s, .to = kNow + 48h};
+          f.no_orbit_at = kNow;
+          f.never_an_orbit = true;
+        },
+        "orbit of SPINNER", Warning, "no orbit at 2026-11-20T03:00:00Z, 3 s before it begins"},
+       {"elements", [](auto& f) { f.ephemeris.reset(); }, "orbit of SPINNER", Ok},
+       {"table of another kind", [](auto& f) { f.idle = {"three_axis"}; }, "mission SPINNER",
+        Warning, "[three_axis]"},
+       {"no infrared sensor", [](auto& f) { f.infrared = false; }, "mission SPINNER", Warning},
+       {"orbit of another", [](auto& f) { f.orbit_doubts = {"OBJECT_NAME = GMS-5"}; },
+        "mission SPINNER", Warning, "GMS-5"}});
 }
 
 TEST(DoctorMissions, FailsOnAPassOfWhichNoTimeHasAnOrbit) {
@@ -165,25 +147,10 @@ TEST(DoctorMissions, FailsOnAPassOfWhichNoTimeHasAnOrbit) {
   expect_advice(checks);
 }
 
-TEST(DoctorMissions, TakesElementsForAnyTime) {
-  MissionFacts facts = spinner(1h);
-  facts.ephemeris.reset();
-  EXPECT_EQ(worst_of(check_one(facts)), Verdict::Ok);
-}
-
 TEST(DoctorMissions, FailsOnASpacecraftDescribedTwice) {
   const auto checks = check_missions(std::vector{spinner(48h), spinner(48h)}, {kNow, kNow});
   EXPECT_EQ(worst_of(checks), Verdict::Failure);
   expect_advice(checks);
-}
-
-TEST(DoctorMissions, WarnsOfWhatHasNoEffect) {
-  MissionFacts facts = spinner(48h);
-  facts.idle = {"three_axis"};
-  EXPECT_THAT(named(check_one(facts), "mission SPINNER").found, HasSubstr("[three_axis]"));
-  facts.idle.clear();
-  facts.infrared = false;
-  EXPECT_EQ(named(check_one(facts), "mission SPINNER").verdict, Verdict::Warning);
 }
 
 TEST(DoctorMissions, AsksTheOrbitOfAComingPassToReachItsEndOnly) {
@@ -213,15 +180,6 @@ TEST(DoctorMissions, JudgesTheGroundModelForThePass) {
   expect_advice(check_one(facts));
 }
 
-TEST(DoctorMissions, WarnsOfAnOrbitThatMayBeThatOfAnother) {
-  MissionFacts facts = spinner(48h);
-  facts.orbit_doubts = {"the orbit file says OBJECT_NAME = GMS-5"};
-  const Check check = named(check_one(facts), "mission SPINNER");
-  EXPECT_EQ(check.verdict, Verdict::Warning);
-  EXPECT_THAT(check.found, HasSubstr("GMS-5"));
-  expect_advice(check_one(facts));
-}
-
 MissionFacts with_magnetometer(std::chrono::seconds field_left) {
   return {.spacecraft = "LEOSAT",
           .kind = SpacecraftKind::ThreeAxis,
@@ -232,26 +190,24 @@ MissionFacts with_magnetometer(std::chrono::seconds field_left) {
           .idle = {}};
 }
 
-TEST(DoctorMissions, WarnsWhenTheFieldOfAMagnetometerEndsWithinADay) {
+TEST(DoctorMissions, JudgesTheFieldAndTheOrbitThatAMagnetometerNeeds) {
   const std::string name = "field coefficients of LEOSAT";
-  EXPECT_EQ(worst_of(check_one(with_magnetometer(24h))), Verdict::Ok);
-  const auto checks = check_one(with_magnetometer(24h - 1s));
-  EXPECT_EQ(named(checks, name).verdict, Verdict::Warning);
-  EXPECT_THAT(named(checks, name).found, HasSubstr("IGRF-14 until 2026-11-21T02:59:59Z"));
-  expect_advice(checks);
+  expect_judged<MissionFacts>(with_magnetometer(24h), check_one,
+                              {{"field ends within a day", [](auto& f) { *f.field_to -= 1s; },
+                                name.c_str(), Warning, "IGRF-14 until 2026-11-21T02:59:59Z"},
+                               {"no orbit",
+                                [](auto& f) {
+                                  f.ephemeris.reset();
+                                  f.orbit_given = false;
+                                },
+                                "orbit of LEOSAT", Warning}});
+  MissionFacts without = with_magnetometer(24h);
+  without.ephemeris.reset();
+  without.orbit_given = false;
+  without.field_to.reset();
+  EXPECT_EQ(worst_of(check_one(without)), Ok);
   const auto of_pass = check_missions(std::vector{with_magnetometer(2h)}, {kNow, kNow + 1h});
-  EXPECT_EQ(named(of_pass, name).verdict, Verdict::Ok);
-}
-
-TEST(DoctorMissions, WarnsOfAMagnetometerWithoutAnOrbit) {
-  MissionFacts facts = with_magnetometer(24h);
-  facts.ephemeris.reset();
-  facts.orbit_given = false;
-  const auto checks = check_one(facts);
-  EXPECT_EQ(named(checks, "orbit of LEOSAT").verdict, Verdict::Warning);
-  expect_advice(checks);
-  facts.field_to.reset();
-  EXPECT_EQ(worst_of(check_one(facts)), Verdict::Ok);
+  EXPECT_EQ(named(of_pass, name).verdict, Ok);
 }
 
 // --- disk
@@ -260,32 +216,21 @@ DiskFacts disk(std::uint64_t free_bytes) {
   return {.folder = "/data", .writable = true, .free_bytes = free_bytes, .file_system = 0xEF53};
 }
 
-TEST(DoctorDisk, SaysHowManyHoursItLasts) {
+TEST(DoctorDisk, JudgesHowManyHoursItLastsAndWhatKindItIs) {
+  const auto for_one = [](const DiskFacts& facts) { return check_disk(facts, 1); };
   // 2300 bytes a row at 100 rpm are 13.8 MB an hour for one spacecraft.
-  EXPECT_EQ(worst_of(check_disk(disk(24 * 13'800'000ULL), 1)), Verdict::Ok);
+  expect_judged<DiskFacts>(
+      disk(24 * 13'800'000ULL), for_one,
+      {{"less than an hour", [](auto& f) { f.free_bytes = 13'700'000; }, "disk", Failure},
+       {"NFS", [](auto& f) { f.file_system = 0x6969; }, "file system", Failure, "NFS"},
+       {"tmpfs", [](auto& f) { f.file_system = 0x01021994; }, "file system", Warning},
+       {"not writable", [](auto& f) { f.writable = false; }, "write access", Failure}});
   const auto checks = check_disk(disk(24 * 13'800'000ULL), 2);
-  EXPECT_EQ(named(checks, "disk").verdict, Verdict::Warning);
+  EXPECT_EQ(named(checks, "disk").verdict, Warning);
   EXPECT_THAT(named(checks, "disk").found, HasSubstr("12 h of 2 spacecraft"));
-  EXPECT_EQ(named(check_disk(disk(13'700'000), 1), "disk").verdict, Verdict::Failure);
   expect_advice(checks);
-}
-
-TEST(DoctorDisk, RefusesFileSystemsOfTheNetwork) {
-  DiskFacts facts = disk(1ULL << 40U);
-  facts.file_system = 0x6969;
-  const Check found = named(check_disk(facts, 1), "file system");
-  EXPECT_EQ(found.verdict, Verdict::Failure);
-  EXPECT_THAT(found.found, HasSubstr("NFS"));
-  facts.file_system = 0x01021994;
-  EXPECT_EQ(named(check_disk(facts, 1), "file system").verdict, Verdict::Warning);
-}
-
-TEST(DoctorDisk, FailsWhereNothingCanBeWritten) {
-  DiskFacts facts = disk(1ULL << 40U);
-  facts.writable = false;
-  EXPECT_EQ(named(check_disk(facts, 1), "write access").verdict, Verdict::Failure);
   EXPECT_EQ(worst_of(check_disk(Unexpected{{ErrorCode::Unavailable, "/data: absent"}}, 1)),
-            Verdict::Failure);
+            Failure);
 }
 
 // --- archive
@@ -301,60 +246,37 @@ ArchiveFacts good_archive() {
           .content = ArchiveContent{.damages = {}, .tai_minus_utc_s = 37}};
 }
 
-TEST(DoctorArchive, IsContentWithAWholeOneAndWithNone) {
-  EXPECT_EQ(worst_of(check_archive(good_archive(), kTaiMinusUtc_s)), Verdict::Ok);
-  ArchiveFacts none = good_archive();
-  none.exists = false;
-  EXPECT_EQ(worst_of(check_archive(none, kTaiMinusUtc_s)), Verdict::Ok);
-}
-
-TEST(DoctorArchive, FailsOnOneThatCannotBeOpened) {
-  ArchiveFacts facts = good_archive();
-  facts.content = Unexpected{{ErrorCode::InvalidConfiguration, "a.db is not an archive"}};
-  const auto checks = check_archive(facts, kTaiMinusUtc_s);
-  EXPECT_EQ(worst_of(checks), Verdict::Failure);
-  EXPECT_THAT(checks.front().found, HasSubstr("not an archive"));
-  expect_advice(checks);
-}
-
-TEST(DoctorArchive, FailsOnDamageInTheWordsOfSqlite) {
-  ArchiveFacts facts = good_archive();
-  facts.content->damages = {"Tree 7 page 9: btreeInitPage() returns error code 11"};
-  const auto checks = check_archive(facts, kTaiMinusUtc_s);
-  EXPECT_EQ(named(checks, "integrity").verdict, Verdict::Failure);
-  EXPECT_THAT(named(checks, "integrity").found, HasSubstr("page 9"));
-  expect_advice(checks);
-  facts = good_archive();
-  facts.content->orphans = 5;
-  EXPECT_EQ(named(check_archive(facts, kTaiMinusUtc_s), "integrity").verdict, Verdict::Failure);
-}
-
-TEST(DoctorArchive, WarnsOfALogThatIsNotMoved) {
-  ArchiveFacts facts = good_archive();
-  facts.wal_bytes = 256ULL << 20U;
-  EXPECT_EQ(named(check_archive(facts, kTaiMinusUtc_s), "write-ahead log").verdict, Verdict::Ok);
-  ++facts.wal_bytes;
-  EXPECT_EQ(named(check_archive(facts, kTaiMinusUtc_s), "write-ahead log").verdict,
-            Verdict::Warning);
-}
-
-TEST(DoctorArchive, WarnsOfUnfinishedRunsUnlessOneIsWriting) {
-  ArchiveFacts facts = good_archive();
-  facts.content->unfinished_runs = 2;
-  EXPECT_EQ(named(check_archive(facts, kTaiMinusUtc_s), "runs").verdict, Verdict::Warning);
-  facts.writer = "pid 12 (spindrift serve) on ant";
-  const auto checks = check_archive(facts, kTaiMinusUtc_s);
-  EXPECT_EQ(named(checks, "runs").verdict, Verdict::Ok);
-  EXPECT_THAT(named(checks, "writer").found, HasSubstr("pid 12"));
-}
-
-TEST(DoctorArchive, ComparesTheLeapSeconds) {
-  ArchiveFacts facts = good_archive();
-  for (const int archive_s : {36, 38}) {
-    facts.content->tai_minus_utc_s = archive_s;
-    EXPECT_EQ(named(check_archive(facts, kTaiMinusUtc_s), "leap seconds of the archive").verdict,
-              Verdict::Warning);
-  }
+TEST(DoctorArchive, JudgesWhatItFindsInOne) {
+  const auto checks_of = [](const ArchiveFacts& facts) {
+    return check_archive(facts, kTaiMinusUtc_s);
+  };
+  expect_judged<ArchiveFacts>(
+      good_archive(), checks_of,
+      {{"none", [](auto& f) { f.exists = false; }, "archive", Ok},
+       {"not to be opened",
+        [](auto& f) {
+          f.content = Unexpected{{ErrorCode::InvalidConfiguration, "a.db is not an archive"}};
+        },
+        "archive", Failure, "not an archive"},
+       {"damaged",
+        [](auto& f) {
+          f.content->damages = {"Tree 7 page 9: btreeInitPage() returns error code 11"};
+        },
+        "integrity", Failure, "page 9"},
+       {"orphans", [](auto& f) { f.content->orphans = 5; }, "integrity", Failure},
+       {"longest log", [](auto& f) { f.wal_bytes = 256ULL << 20U; }, "write-ahead log", Ok},
+       {"log that is not moved", [](auto& f) { f.wal_bytes = (256ULL << 20U) + 1; },
+        "write-ahead log", Warning},
+       {"unfinished runs", [](auto& f) { f.content->unfinished_runs = 2; }, "runs", Warning},
+       {"fewer leap seconds", [](auto& f) { f.content->tai_minus_utc_s = 36; },
+        "leap seconds of the archive", Warning},
+       {"more leap seconds", [](auto& f) { f.content->tai_minus_utc_s = 38; },
+        "leap seconds of the archive", Warning}});
+  ArchiveFacts written = good_archive();
+  written.content->unfinished_runs = 2;
+  written.writer = "pid 12 (spindrift serve) on ant";
+  EXPECT_EQ(named(checks_of(written), "runs").verdict, Ok);
+  EXPECT_THAT(named(checks_of(written), "writer").found, HasSubstr("pid 12"));
 }
 
 // --- report

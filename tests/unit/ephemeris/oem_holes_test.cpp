@@ -1,22 +1,18 @@
 #include "pipelines/ephemeris/oem_holes.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <fstream>
-#include <sstream>
-#include <string>
 #include <utility>
 #include <vector>
 
 #include "pipelines/ephemeris/kepler_orbit.h"
 #include "pipelines/ephemeris/oem_writer.h"
+#include "tests/support/matchers.h"
+#include "tests/support/outcome.h"
 #include "tests/support/test_paths.h"
+#include "tests/support/text_of.h"
 
 namespace spindrift::oem_holes_test {
 
 using namespace std::chrono_literals;
-using ::testing::HasSubstr;
 
 constexpr TaiTime kPerigee = tai_from_ns(1'795'143'637'000'000'000);
 
@@ -111,12 +107,10 @@ TEST(OemHoles, PartsTooShortForTheInterpolationAreLeftOut) {
 }
 
 TEST(OemHoles, AnOrbitOfNothingElseIsRefusedByLine) {
-  const auto refused =
-      cut(states_at({-960.0, -930.0, -900.0, 900.0, 930.0, 960.0}, Interpolation::Lagrange, 5));
-  ASSERT_FALSE(refused);
-  EXPECT_EQ(refused.error().code, ErrorCode::InvalidConfiguration);
-  EXPECT_THAT(refused.error().message,
-              HasSubstr("line 17: too long after the data line before it"));
+  EXPECT_THAT(
+      cut(states_at({-960.0, -930.0, -900.0, 900.0, 930.0, 960.0}, Interpolation::Lagrange, 5)),
+      IsRefused(ErrorCode::InvalidConfiguration,
+                HasSubstr("line 17: too long after the data line before it")));
 }
 
 TEST(OemHoles, ASegmentEndsWhereItsUsableTimesEndToo) {
@@ -144,12 +138,11 @@ TEST(OemHoles, AGapBetweenSegmentsIsOne) {
 
 TEST(OemHoles, AreCutOutOfTheMessageThatIsRead) {
   const OemSegment segment = states_at(even_s(-7200.0, 7200.0, 60.0, -900.0, 900.0));
-  const auto read = parse_oem(oem_text("TEST", kPerigee, segment.points));
-  ASSERT_TRUE(read) << read.error().message;
-  const auto gaps = orbit_gaps(*read);
+  const auto read = value_or_throw(parse_oem(oem_text("TEST", kPerigee, segment.points)));
+  const auto gaps = orbit_gaps(read);
   ASSERT_EQ(gaps.size(), 1U);
   EXPECT_EQ(gaps[0].from, kPerigee - 900s);
-  EXPECT_EQ(read->at(kPerigee).error().code, ErrorCode::NoCoverage);
+  EXPECT_EQ(read.at(kPerigee).error().code, ErrorCode::NoCoverage);
 }
 
 TEST(OemHoles, OfRecordedOrbitsThereAreNone) {
@@ -157,12 +150,7 @@ TEST(OemHoles, OfRecordedOrbitsThereAreNone) {
        {"spin/nominal/orbit.oem", "spin/dirty/orbit.oem", "spin/coded/orbit.oem",
         "spin/north-only/orbit.oem", "spin/gms5/orbit.oem", "mission/orbit.oem"}) {
     SCOPED_TRACE(name);
-    const std::ifstream file{test_data() / name, std::ios::binary};
-    std::ostringstream text;
-    text << file.rdbuf();
-    const auto read = parse_oem(text.str());
-    ASSERT_TRUE(read) << read.error().message;
-    EXPECT_TRUE(orbit_gaps(*read).empty());
+    EXPECT_TRUE(orbit_gaps(value_or_throw(parse_oem(text_of(test_data() / name)))).empty());
   }
 }
 

@@ -1,14 +1,11 @@
 #include "pipelines/ephemeris/oem_writer.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <numbers>
+#include "tests/support/matchers.h"
+#include "tests/support/outcome.h"
 
 namespace spindrift::oem_writer_test {
 
 using namespace std::chrono_literals;
-using ::testing::HasSubstr;
 
 constexpr TaiTime kStart = tai_from_ns(1795143637123456789);
 
@@ -30,13 +27,12 @@ TEST(OemWriter, GivesTheOrbitBackWithinAMillimetre) {
     SCOPED_TRACE(a_km);
     const Orbit orbit = orbit_of(a_km, e);
     const auto points = sampled_orbit(orbit, kStart, kStart + 2h, 60s).value();
-    const auto read = parse_oem(oem_text("TEST 1", kStart, points));
-    ASSERT_TRUE(read) << read.error().message;
-    EXPECT_EQ(read->usable_from(), kStart);
-    EXPECT_EQ(read->usable_to(), kStart + 2h);
+    const auto read = value_or_throw(parse_oem(oem_text("TEST 1", kStart, points)));
+    EXPECT_EQ(read.usable_from(), kStart);
+    EXPECT_EQ(read.usable_to(), kStart + 2h);
     for (TaiTime t = kStart; t <= kStart + 2h; t += 7s) {
       const OrbitState expected = orbit.at(t).value();
-      const OrbitState state = read->at(t).value();
+      const OrbitState state = read.at(t).value();
       ASSERT_LT((state.position_icrf_km - expected.position_icrf_km).norm(), 1e-6);
       ASSERT_LT((state.velocity_icrf_km_s - expected.velocity_icrf_km_s).norm(), 1e-6);
     }
@@ -49,9 +45,8 @@ TEST(OemWriter, WritesThroughALeapSecond) {
   const auto points = sampled_orbit(orbit, before, before + 5min, 12s).value();
   const std::string text = oem_text("TEST", before, points);
   EXPECT_THAT(text, HasSubstr("\n2016-12-31T23:59:60.000000000 "));
-  const auto read = parse_oem(text);
-  ASSERT_TRUE(read) << read.error().message;
-  EXPECT_EQ(read->usable_to(), points.back().t);
+  const auto read = value_or_throw(parse_oem(text));
+  EXPECT_EQ(read.usable_to(), points.back().t);
 }
 
 TEST(OemWriter, ReachesTheEndAskedFor) {
@@ -63,9 +58,8 @@ TEST(OemWriter, ReachesTheEndAskedFor) {
 TEST(OemWriter, SaysWhereTheOrbitEnds) {
   const auto points = sampled_orbit(orbit_of(7000.0, 0.0), kStart, kStart + 1h, 60s).value();
   const Orbit ephemeris{parse_oem(oem_text("TEST", kStart, points)).value()};
-  const auto beyond = sampled_orbit(ephemeris, kStart, kStart + 2h, 60s);
-  ASSERT_FALSE(beyond);
-  EXPECT_EQ(beyond.error().code, ErrorCode::NoCoverage);
+  EXPECT_THAT(sampled_orbit(ephemeris, kStart, kStart + 2h, 60s),
+              IsRefused(ErrorCode::NoCoverage, _));
 }
 
 }  // namespace spindrift::oem_writer_test

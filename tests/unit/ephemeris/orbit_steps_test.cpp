@@ -1,19 +1,10 @@
 #include "pipelines/ephemeris/orbit_steps.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <utility>
-#include <vector>
-
 #include "pipelines/ephemeris/kepler_orbit.h"
+#include "tests/support/matchers.h"
 #include "tests/support/stepped_orbit.h"
 
 namespace spindrift::orbit_steps_test {
-
-using ::testing::IsEmpty;
-using ::testing::SizeIs;
 
 constexpr TaiTime kStart = tai_from_ns(1'795'143'637'000'000'000);
 const Eigen::Vector3d kNone = Eigen::Vector3d::Zero();

@@ -1,16 +1,12 @@
 #include "pipelines/geomagnetism/field_at_spacecraft.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include "pipelines/frames/celestial.h"
 #include "pipelines/time/utc.h"
 #include "services/mission/igrf.h"
+#include "tests/support/matchers.h"
 
 namespace spindrift::field_at_spacecraft_test {
 
 using Eigen::Vector3d;
-using ::testing::HasSubstr;
 
 TEST(FieldAtSpacecraft, IsThatOfTheEarthBelow) {
   const MainFieldModel model = igrf().value();
@@ -28,11 +24,9 @@ TEST(FieldAtSpacecraft, IsThatOfTheEarthBelow) {
 
 TEST(FieldAtSpacecraft, IsRefusedOutsideTheYearsOfTheModel) {
   TurningEarth earth;
-  const auto refused = field_icrf_nt(igrf().value(), parse_utc("2030-01-02T00:00:00").value(),
-                                     {7000.0, 0.0, 0.0}, earth);
-  ASSERT_FALSE(refused);
-  EXPECT_EQ(refused.error().code, ErrorCode::NoCoverage);
-  EXPECT_THAT(refused.error().message, HasSubstr("known from 1900 to 2030"));
+  EXPECT_THAT(field_icrf_nt(igrf().value(), parse_utc("2030-01-02T00:00:00").value(),
+                            {7000.0, 0.0, 0.0}, earth),
+              IsRefused(ErrorCode::NoCoverage, HasSubstr("known from 1900 to 2030")));
 }
 
 }  // namespace spindrift::field_at_spacecraft_test

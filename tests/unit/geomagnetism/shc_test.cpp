@@ -1,16 +1,13 @@
 #include "pipelines/geomagnetism/shc.h"
 
 #include <fmt/format.h>
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <string>
-#include <utility>
+
+#include "tests/support/matchers.h"
+#include "tests/support/outcome.h"
 
 namespace spindrift::shc_test {
-
-using ::testing::AllOf;
-using ::testing::HasSubstr;
 
 /// Returns a model with two epochs in which g11 is -2000 nT and -1990 nT and all else is 0.
 std::string small_model() {
@@ -39,13 +36,12 @@ std::string refused(const std::string& text) {
 }
 
 TEST(Shc, IsReadAsItStands) {
-  const auto model = parse_shc(small_model());
-  ASSERT_TRUE(model) << model.error().message;
-  EXPECT_EQ(model->first_year(), 2000.0);
-  EXPECT_EQ(model->last_year(), 2005.0);
+  const auto model = value_or_throw(parse_shc(small_model()));
+  EXPECT_EQ(model.first_year(), 2000.0);
+  EXPECT_EQ(model.last_year(), 2005.0);
   // On the equator at longitude 180 the field of a dipole along x is twice as strong and parallel
   // to it.
-  const auto field_nt = model->at(2002.5)->at({-kFieldRadius_km, 0.0, 0.0});
+  const auto field_nt = model.at(2002.5)->at({-kFieldRadius_km, 0.0, 0.0});
   EXPECT_NEAR(field_nt->x(), 2.0 * -1995.0, 1e-9);
   EXPECT_NEAR(field_nt->y(), 0.0, 1e-9);
 }

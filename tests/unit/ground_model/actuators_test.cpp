@@ -1,13 +1,10 @@
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include "pipelines/ground_model/control/thrusters.h"
 #include "pipelines/ground_model/control/wheels.h"
+#include "tests/support/matchers.h"
 
 namespace spindrift::actuators_test {
 
 using Eigen::Vector3d;
-using ::testing::HasSubstr;
 
 /// Source: Zhang 2019, 0.3 N m s at 6000 rpm.
 WheelDesign design() {

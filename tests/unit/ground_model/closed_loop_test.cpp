@@ -2,20 +2,17 @@
 
 #include "pipelines/ground_model/control/closed_loop.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
 #include "pipelines/frames/rotation_vector.h"
 #include "pipelines/ground_model/control/attitude_control.h"
 #include "pipelines/ground_model/control/gyro_propagation.h"
+#include "tests/support/matchers.h"
 #include "tests/support/stepped_body.h"
 
 namespace spindrift::closed_loop_test {
 
 using Eigen::Vector3d;
-using ::testing::HasSubstr;
 
 constexpr double kStep_s = 0.025;
 constexpr int kSteps = 4;  // 10 Hz.

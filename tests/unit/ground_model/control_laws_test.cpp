@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include "pipelines/frames/angle.h"
 #include "pipelines/frames/rotation_vector.h"
 #include "pipelines/ground_model/control/saturation.h"
 

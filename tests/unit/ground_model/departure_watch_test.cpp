@@ -1,9 +1,8 @@
 #include "pipelines/ground_model/comparison/departure_watch.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include <cmath>
+
+#include "tests/support/matchers.h"
 
 namespace spindrift::departure_watch_test {
 
@@ -108,7 +107,7 @@ TEST_F(DepartureWatchTest, KeepsTheFirstDepartureWhenFlightIsBackForAMinuteAndLe
     }
   }
   // The channel is away again within a minute, so it was never back.
-  EXPECT_THAT(changes, ::testing::ElementsAre(Change::Raised, Change::Cleared, Change::Raised));
+  EXPECT_THAT(changes, ElementsAre(Change::Raised, Change::Cleared, Change::Raised));
   EXPECT_EQ(rate().departure->since, shifted(kStart, 20.0));
 }
 
@@ -117,12 +116,11 @@ TEST_F(DepartureWatchTest, FindsASensorThatIsSilentWhereTheModelSends) {
   for (int t_s = 1; t_s < 15; ++t_s) {
     see_sensor(t_s, false);
   }
-  const auto departure = watch_.channels().at(kSensor).departure;
-  ASSERT_TRUE(departure);
-  EXPECT_EQ(departure->since, shifted(kStart, 1.0));
-  EXPECT_NEAR(departure->value, 10.0, 1e-9);
-  EXPECT_EQ(departure->limit, 10.0);
-  EXPECT_EQ(departure->unit, "s silent");
+  const auto departure = watch_.channels().at(kSensor).departure.value();
+  EXPECT_EQ(departure.since, shifted(kStart, 1.0));
+  EXPECT_NEAR(departure.value, 10.0, 1e-9);
+  EXPECT_EQ(departure.limit, 10.0);
+  EXPECT_EQ(departure.unit, "s silent");
 }
 
 TEST_F(DepartureWatchTest, CountsWhatComesLateAndJudgesNothingByIt) {

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include "pipelines/ephemeris/kepler_orbit.h"
-#include "pipelines/frames/angle.h"
 #include "pipelines/frames/rotation_vector.h"
 #include "pipelines/frames/wgs84.h"
 #include "tests/support/stepped_body.h"

@@ -1,16 +1,12 @@
 #include "pipelines/ground_model/control/loop_margins.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include <array>
 
 #include "pipelines/frames/angle.h"
 #include "pipelines/ground_model/control/control_laws.h"
+#include "tests/support/matchers.h"
 
 namespace spindrift::loop_margins_test {
-
-using ::testing::HasSubstr;
 
 const Eigen::Vector3d kMoments_kg_m2{0.6, 1.2, 1.12};
 constexpr double kFrequency_rad_s = 0.1;

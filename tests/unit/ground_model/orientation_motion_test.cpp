@@ -2,18 +2,14 @@
 
 #include "pipelines/ground_model/flights/orientation_motion.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include "pipelines/frames/angle.h"
-#include "pipelines/frames/celestial.h"
 #include "pipelines/frames/rotation_vector.h"
 #include "tests/support/low_orbit.h"
+#include "tests/support/matchers.h"
 
 namespace spindrift::orientation_motion_test {
 
 using Eigen::Vector3d;
-using ::testing::HasSubstr;
 
 constexpr TaiTime kStart = tai_from_ns(1'772'337'637'000'000'000);
 const Vector3d kMoments_kg_m2{0.6, 1.2, 1.12};

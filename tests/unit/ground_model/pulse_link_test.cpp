@@ -1,6 +1,5 @@
 #include "pipelines/ground_model/link/pulse_link.h"
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,19 +1,16 @@
 #include "pipelines/ground_model/dynamics/rigid_body.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include <complex>
 
 #include "pipelines/frames/angle.h"
 #include "pipelines/frames/rotation_vector.h"
 #include "pipelines/ground_model/dynamics/body_motion.h"
+#include "tests/support/matchers.h"
 #include "tests/support/stepped_body.h"
 
 namespace spindrift::rigid_body_test {
 
 using Eigen::Vector3d;
-using ::testing::HasSubstr;
 
 const BodyState kStart{.q_icrf_body = Eigen::Quaterniond{0.3, -0.5, 0.7, 0.4}.normalized(),
                        .rate_body_rad_s = {0.011, -0.006, 0.009}};
@@ -136,10 +133,8 @@ TEST(RigidBody, RefusesWhatNoBodyCanHave) {
   lopsided(0, 1) = 4.0;
   EXPECT_FALSE(RigidBody::make(lopsided));
   EXPECT_FALSE(RigidBody::make(Eigen::Matrix3d{Vector3d{1.0, -1.0, 1.0}.asDiagonal()}));
-  const auto impossible = RigidBody::make(Eigen::Matrix3d{Vector3d{1.0, 1.0, 2.1}.asDiagonal()});
-  ASSERT_FALSE(impossible);
-  EXPECT_EQ(impossible.error().code, ErrorCode::InvalidConfiguration);
-  EXPECT_THAT(impossible.error().message, HasSubstr("1, 1 and 2.1 kg m2"));
+  EXPECT_THAT(RigidBody::make(Eigen::Matrix3d{Vector3d{1.0, 1.0, 2.1}.asDiagonal()}),
+              IsRefused(ErrorCode::InvalidConfiguration, HasSubstr("1, 1 and 2.1 kg m2")));
   EXPECT_TRUE(RigidBody::make(Eigen::Matrix3d{Vector3d{1.0, 1.0, 2.0}.asDiagonal()}));
 }
 

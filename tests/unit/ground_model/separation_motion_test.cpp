@@ -1,19 +1,16 @@
 #include "pipelines/ground_model/flights/separation_motion.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include "pipelines/ephemeris/sun.h"
 #include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
 #include "pipelines/frames/rotation_vector.h"
 #include "pipelines/reconstruction/torque_free_arc.h"
 #include "tests/support/low_orbit.h"
+#include "tests/support/matchers.h"
 
 namespace spindrift::separation_motion_test {
 
 using Eigen::Vector3d;
-using ::testing::HasSubstr;
 
 constexpr TaiTime kSeparation = tai_from_ns(1'772'337'637'000'000'000);
 

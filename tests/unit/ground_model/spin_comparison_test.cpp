@@ -1,8 +1,5 @@
 #include "pipelines/ground_model/comparison/spin_comparison.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include <cmath>
 #include <map>
 #include <memory>
@@ -15,6 +12,7 @@
 #include "pipelines/ground_model/comparison/model_comparison.h"
 #include "pipelines/ground_model/link/coded_telemetry.h"
 #include "tests/support/departures.h"
+#include "tests/support/matchers.h"
 
 namespace spindrift::spin_comparison_test {
 
@@ -140,7 +138,7 @@ TEST(SpinComparison, IsOfUnitVarianceInCodedTelemetry) {
 TEST(SpinComparison, DoesNotCompareTheAbsolutePhase) {
   SpinTruth turned = truth();
   turned.motion.first_azimuth_rad = 2.0;
-  EXPECT_THAT(departures_s(compared(pulses(edges_of(turned)))), ::testing::IsEmpty());
+  EXPECT_THAT(departures_s(compared(pulses(edges_of(turned)))), IsEmpty());
 }
 
 TEST(SpinComparison, FindsARateStep) {
@@ -197,7 +195,7 @@ TEST(SpinComparison, IsNotMovedByLostAndSpuriousEdges) {
        receive(dirty, edges_of(truth()), kStart, kEnd_s, 600).pulses) {
     flight.push_back(received.pulse);
   }
-  EXPECT_THAT(departures_s(compared(flight)), ::testing::IsEmpty());
+  EXPECT_THAT(departures_s(compared(flight)), IsEmpty());
 }
 
 TEST(SpinComparison, SaysNothingOutsideTheModelsTime) {
@@ -219,7 +217,7 @@ TEST(SpinComparison, RefusesAModelWithoutNoiseOrRevolutions) {
   PulseLink blind = link(0);
   blind.channels.front().dead = true;
   EXPECT_THAT(spin_model(truth(), blind, kResolution_s, kOrbit, kEnd_s).error().message,
-              ::testing::HasSubstr("sun1"));
+              HasSubstr("sun1"));
 }
 
 }  // namespace spindrift::spin_comparison_test

@@ -1,8 +1,5 @@
 #include "pipelines/ground_model/sensors/spin_edges.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
@@ -15,11 +12,10 @@
 
 #include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
+#include "tests/support/matchers.h"
 #include "tests/support/spinning_body.h"
 
 namespace spindrift::spin_edges_test {
-
-using ::testing::HasSubstr;
 
 constexpr double kRpm = std::numbers::pi / 30.0;
 constexpr TaiTime kStart = tai_from_ns(1795143637000000000);  // 2026-11-20.
@@ -378,9 +374,7 @@ TEST(SpinEdges, SayWhereTheOrbitEnds) {
                                            .points = points}})
                         .value()};
   SpinEdges edges{truth_of(place(100.0, -55.0), 60.0, HorizonModel::Sphere), orbit};
-  const auto seen = edges.until(10.0);
-  ASSERT_FALSE(seen);
-  EXPECT_EQ(seen.error().code, ErrorCode::NoCoverage);
+  EXPECT_THAT(edges.until(10.0), IsRefused(ErrorCode::NoCoverage, _));
 }
 
 /// Integrates the same motion of a torque-free body that is symmetric about its third axis.
@@ -450,10 +444,8 @@ TEST(SpinEdges, SayWhereTheMotionEnds) {
   const auto free = integrated(truth_of(place(100.0, -55.0), 60.0, HorizonModel::Sphere), 5.0);
   SpinEdges edges{free, orbit};
   EXPECT_TRUE(edges.until(3.0));
-  const auto seen = edges.until(10.0);
-  ASSERT_FALSE(seen);
-  EXPECT_EQ(seen.error().code, ErrorCode::NoCoverage);
-  EXPECT_THAT(seen.error().message, HasSubstr("the motion of the body ends"));
+  EXPECT_THAT(edges.until(10.0),
+              IsRefused(ErrorCode::NoCoverage, HasSubstr("the motion of the body ends")));
 }
 
 TEST(BodySpin, RefusesABodyThatTumblesOrTurnsTooFastForItsSteps) {

@@ -1,8 +1,5 @@
 #include "pipelines/ground_model/comparison/three_axis_comparison.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include <cmath>
 #include <map>
 #include <memory>
@@ -14,6 +11,7 @@
 #include "services/mission/igrf.h"
 #include "tests/support/departures.h"
 #include "tests/support/low_orbit.h"
+#include "tests/support/matchers.h"
 
 namespace spindrift::three_axis_comparison_test {
 
@@ -206,9 +204,7 @@ TEST(ThreeAxisComparison, MissesNothingThatTheModelDoesNotSend) {
 TEST(ThreeAxisComparison, RefusesASensorWithoutNoise) {
   TumblingScenario plan = scenario(1);
   plan.view.sensors.sun_sensor->noise_rad = 0.0;
-  const auto model = three_axis_model(plan, kOrbit);
-  ASSERT_FALSE(model);
-  EXPECT_EQ(model.error().code, ErrorCode::InvalidConfiguration);
+  EXPECT_THAT(three_axis_model(plan, kOrbit), IsRefused(ErrorCode::InvalidConfiguration, _));
 }
 
 }  // namespace spindrift::three_axis_comparison_test

@@ -1,8 +1,5 @@
 #include "pipelines/ground_model/flights/tumbling_motion.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include <cmath>
 
 #include "pipelines/frames/angle.h"
@@ -10,11 +7,11 @@
 #include "pipelines/frames/rotation_vector.h"
 #include "pipelines/reconstruction/torque_free_arc.h"
 #include "tests/support/low_orbit.h"
+#include "tests/support/matchers.h"
 
 namespace spindrift::tumbling_motion_test {
 
 using Eigen::Vector3d;
-using ::testing::HasSubstr;
 
 constexpr TaiTime kStart = tai_from_ns(1'772'337'637'000'000'000);
 constexpr double kEnd_s = 900.0;

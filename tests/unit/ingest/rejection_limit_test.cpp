@@ -1,14 +1,12 @@
 #include "services/ingest/rejection_limit.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include <chrono>
+
+#include "tests/support/matchers.h"
 
 namespace spindrift::rejection_limit_test {
 
 using namespace std::chrono_literals;
-using ::testing::StartsWith;
 
 // 2026-11-20T03:00:00 UTC.
 constexpr TaiTime kNow = tai_from_ns(1'795'143'637'000'000'000);

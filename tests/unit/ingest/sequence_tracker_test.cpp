@@ -1,195 +1,180 @@
 #include "services/ingest/sequence_tracker.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <numeric>
 #include <random>
 #include <set>
 #include <vector>
 
-namespace spindrift::sequence_tracker_test {
+#include "tests/support/matchers.h"
 
-const std::string kSpacecraft = "SPINNER";
+namespace spindrift::sequence_tracker_test {
 
 Origin origin(std::uint64_t seq, std::uint64_t session = 1, std::string source = "front-end") {
   return {.source = std::move(source), .session = session, .seq = seq};
 }
 
-SequenceCounts counts_after(SequenceTracker& tracker, const std::vector<std::uint64_t>& seqs) {
-  for (const std::uint64_t seq : seqs) {
-    tracker.record(origin(seq), kSpacecraft);
+class SequenceTrackerTest : public ::testing::Test {
+ protected:
+  Arrival record(const Origin& origin, const std::string& spacecraft = "SPINNER",
+                 std::size_t topic = 0) {
+    return tracker_.record(origin, spacecraft, topic);
   }
-  return tracker.by_source().at("front-end");
+  SequenceCounts counts(const std::string& source = "front-end") const {
+    return tracker_.by_source().at(source);
+  }
+  SequenceCounts counts_after(const std::vector<std::uint64_t>& seqs) {
+    for (const std::uint64_t seq : seqs) {
+      record(origin(seq));
+    }
+    return counts();
+  }
+
+  SequenceTracker tracker_;
+};
+
+TEST_F(SequenceTrackerTest, FindsNothingInOrder) {
+  EXPECT_EQ(counts_after({0, 1, 2, 3}), (SequenceCounts{.received = 4}));
 }
 
-TEST(SequenceTracker, FindsNothingInOrder) {
-  SequenceTracker tracker;
-  EXPECT_EQ(counts_after(tracker, {0, 1, 2, 3}), (SequenceCounts{.received = 4}));
+TEST_F(SequenceTrackerTest, CountsEveryMissingSampleOfAGap) {
+  EXPECT_EQ(counts_after({0, 1, 5, 7}), (SequenceCounts{.received = 4, .missing = 4}));
 }
 
-TEST(SequenceTracker, CountsEveryMissingSampleOfAGap) {
-  SequenceTracker tracker;
-  EXPECT_EQ(counts_after(tracker, {0, 1, 5, 7}), (SequenceCounts{.received = 4, .missing = 4}));
+TEST_F(SequenceTrackerTest, FillsTheGapWithALateArrival) {
+  EXPECT_EQ(counts_after({0, 3, 1, 2}), (SequenceCounts{.received = 4, .disordered = 2}));
 }
 
-TEST(SequenceTracker, FillsTheGapWithALateArrival) {
-  SequenceTracker tracker;
-  EXPECT_EQ(counts_after(tracker, {0, 3, 1, 2}), (SequenceCounts{.received = 4, .disordered = 2}));
+TEST_F(SequenceTrackerTest, CountsADuplicateOnceMoreEachTime) {
+  EXPECT_EQ(record(origin(0)), Arrival::New);
+  EXPECT_EQ(record(origin(0)), Arrival::Duplicate);
+  EXPECT_EQ(record(origin(2)), Arrival::New);
+  EXPECT_EQ(record(origin(0)), Arrival::Duplicate);
+  EXPECT_EQ(counts(), (SequenceCounts{.received = 4, .missing = 1, .duplicates = 2}));
 }
 
-TEST(SequenceTracker, CountsADuplicateOnceMoreEachTime) {
-  SequenceTracker tracker;
-  EXPECT_EQ(tracker.record(origin(0), kSpacecraft), Arrival::New);
-  EXPECT_EQ(tracker.record(origin(0), kSpacecraft), Arrival::Duplicate);
-  EXPECT_EQ(tracker.record(origin(2), kSpacecraft), Arrival::New);
-  EXPECT_EQ(tracker.record(origin(0), kSpacecraft), Arrival::Duplicate);
-  EXPECT_EQ(tracker.by_source().at("front-end"),
-            (SequenceCounts{.received = 4, .missing = 1, .duplicates = 2}));
+TEST_F(SequenceTrackerTest, TakesNoGapBeforeTheFirstSampleSeen) {
+  EXPECT_EQ(counts_after({1000, 1001}), (SequenceCounts{.received = 2}));
 }
 
-TEST(SequenceTracker, TakesNoGapBeforeTheFirstSampleSeen) {
-  SequenceTracker tracker;
-  EXPECT_EQ(counts_after(tracker, {1000, 1001}), (SequenceCounts{.received = 2}));
-}
-
-TEST(SequenceTracker, TakesNoGapAtARestartOfTheSource) {
-  SequenceTracker tracker;
+TEST_F(SequenceTrackerTest, TakesNoGapAtARestartOfTheSource) {
   for (const std::uint64_t session : {11U, 12U, 13U}) {
     for (std::uint64_t seq = 0; seq < 10; ++seq) {
-      EXPECT_EQ(tracker.record(origin(seq, session), kSpacecraft), Arrival::New);
+      EXPECT_EQ(record(origin(seq, session)), Arrival::New);
     }
   }
-  EXPECT_EQ(tracker.by_source().at("front-end"), (SequenceCounts{.received = 30}));
+  EXPECT_EQ(counts(), (SequenceCounts{.received = 30}));
 }
 
-TEST(SequenceTracker, CountsNoGapAgainOfWhatIsSentAgain) {
-  SequenceTracker tracker;
-  tracker.go_on(origin(20));
-  tracker.go_on(origin(9));
-  EXPECT_EQ(counts_after(tracker, {5, 6, 10, 19, 20, 21, 23}),
+TEST_F(SequenceTrackerTest, CountsNoGapAgainOfWhatIsSentAgain) {
+  tracker_.go_on(origin(20));
+  tracker_.go_on(origin(9));
+  EXPECT_EQ(counts_after({5, 6, 10, 19, 20, 21, 23}),
             (SequenceCounts{.received = 7, .missing = 1}));
 }
 
-TEST(SequenceTracker, TakesWhatIsSentAgainToGoOnWhereItWas) {
-  SequenceTracker tracker;
-  tracker.go_on(origin(20));
-  EXPECT_EQ(counts_after(tracker, {19, 23, 24}), (SequenceCounts{.received = 3, .missing = 2}));
-  EXPECT_EQ(counts_after(tracker, {21, 22}), (SequenceCounts{.received = 5, .disordered = 2}));
+TEST_F(SequenceTrackerTest, TakesWhatIsSentAgainToGoOnWhereItWas) {
+  tracker_.go_on(origin(20));
+  EXPECT_EQ(counts_after({19, 23, 24}), (SequenceCounts{.received = 3, .missing = 2}));
+  EXPECT_EQ(counts_after({21, 22}), (SequenceCounts{.received = 5, .disordered = 2}));
 }
 
-TEST(SequenceTracker, TakesNoGapBetweenWhatIsKnownAndWhatIsSentSince) {
-  SequenceTracker tracker;
-  tracker.go_on(origin(20));
-  EXPECT_EQ(counts_after(tracker, {500, 502}), (SequenceCounts{.received = 2, .missing = 1}));
+TEST_F(SequenceTrackerTest, TakesNoGapBetweenWhatIsKnownAndWhatIsSentSince) {
+  tracker_.go_on(origin(20));
+  EXPECT_EQ(counts_after({500, 502}), (SequenceCounts{.received = 2, .missing = 1}));
   // The new session has no known predecessor.
-  tracker.record(origin(3, 2), kSpacecraft);
-  tracker.record(origin(5, 2), kSpacecraft);
-  EXPECT_EQ(tracker.by_source().at("front-end"), (SequenceCounts{.received = 4, .missing = 2}));
+  record(origin(3, 2));
+  record(origin(5, 2));
+  EXPECT_EQ(counts(), (SequenceCounts{.received = 4, .missing = 2}));
 }
 
-TEST(SequenceTracker, KeepsSourcesOfTheSameSessionNumberApart) {
-  SequenceTracker tracker;
-  EXPECT_EQ(tracker.record(origin(0, 1, "north"), kSpacecraft), Arrival::New);
-  EXPECT_EQ(tracker.record(origin(0, 1, "south"), kSpacecraft), Arrival::New);
-  EXPECT_EQ(tracker.record(origin(2, 1, "south"), kSpacecraft), Arrival::New);
-  EXPECT_EQ(tracker.by_source().at("north"), (SequenceCounts{.received = 1}));
-  EXPECT_EQ(tracker.by_source().at("south"), (SequenceCounts{.received = 2, .missing = 1}));
+TEST_F(SequenceTrackerTest, KeepsSourcesOfTheSameSessionNumberApart) {
+  EXPECT_EQ(record(origin(0, 1, "north")), Arrival::New);
+  EXPECT_EQ(record(origin(0, 1, "south")), Arrival::New);
+  EXPECT_EQ(record(origin(2, 1, "south")), Arrival::New);
+  EXPECT_EQ(counts("north"), (SequenceCounts{.received = 1}));
+  EXPECT_EQ(counts("south"), (SequenceCounts{.received = 2, .missing = 1}));
 }
 
-TEST(SequenceTracker, KeepsTheTopicsOfASessionApart) {
-  SequenceTracker tracker;
+TEST_F(SequenceTrackerTest, KeepsTheTopicsOfASessionApart) {
   for (std::uint64_t seq = 0; seq < 10; ++seq) {
     for (const std::size_t topic : {0U, 1U}) {
-      EXPECT_EQ(tracker.record(origin(seq), kSpacecraft, topic), Arrival::New);
+      EXPECT_EQ(record(origin(seq), "SPINNER", topic), Arrival::New);
     }
   }
-  tracker.record(origin(12), kSpacecraft, 1);
-  EXPECT_EQ(tracker.by_source().at("front-end"), (SequenceCounts{.received = 21, .missing = 2}));
+  record(origin(12), "SPINNER", 1);
+  EXPECT_EQ(counts(), (SequenceCounts{.received = 21, .missing = 2}));
 }
 
-TEST(SequenceTracker, TellsOnceWhichSourcesChanged) {
-  SequenceTracker tracker;
-  tracker.record(origin(0, 1, "north"), kSpacecraft);
-  tracker.record(origin(0, 1, "south"), kSpacecraft);
-  tracker.record(origin(1, 1, "south"), kSpacecraft);
+TEST_F(SequenceTrackerTest, TellsOnceWhichSourcesChanged) {
+  record(origin(0, 1, "north"));
+  record(origin(0, 1, "south"));
+  record(origin(1, 1, "south"));
   using Counts = std::map<std::string, SequenceCounts>;
-  EXPECT_EQ(tracker.take_changed(),
+  EXPECT_EQ(tracker_.take_changed(),
             (Counts{{"north", {.received = 1}}, {"south", {.received = 2}}}));
-  EXPECT_EQ(tracker.take_changed(), Counts{});
-  tracker.record(origin(2, 1, "south"), kSpacecraft);
-  EXPECT_EQ(tracker.take_changed(), (Counts{{"south", {.received = 3}}}));
+  EXPECT_EQ(tracker_.take_changed(), Counts{});
+  record(origin(2, 1, "south"));
+  EXPECT_EQ(tracker_.take_changed(), (Counts{{"south", {.received = 3}}}));
 }
 
-TEST(SequenceTracker, TellsOfSourcesCountedTogetherUnderTheirCommonName) {
-  SequenceTracker tracker;
+TEST_F(SequenceTrackerTest, TellsOfSourcesCountedTogetherUnderTheirCommonName) {
   for (std::size_t i = 0; i < SequenceTracker::kMaxSources; ++i) {
-    tracker.record(origin(0, 1, "source " + std::to_string(i)), kSpacecraft);
+    record(origin(0, 1, "source " + std::to_string(i)));
   }
-  tracker.take_changed();
-  tracker.record(origin(0, 1, "one more"), kSpacecraft);
-  EXPECT_THAT(tracker.take_changed(),
-              ::testing::ElementsAre(::testing::Key(SequenceTracker::kOtherSources)));
+  tracker_.take_changed();
+  record(origin(0, 1, "one more"));
+  EXPECT_THAT(tracker_.take_changed(), ElementsAre(::testing::Key(SequenceTracker::kOtherSources)));
 }
 
-TEST(SequenceTracker, CountsAJumpFurtherThanAnyGapAsOneThatIsMissing) {
+TEST_F(SequenceTrackerTest, CountsAJumpFurtherThanAnyGapAsOneThatIsMissing) {
   constexpr std::uint64_t kWild = ~std::uint64_t{0};
-  SequenceTracker tracker;
-  EXPECT_EQ(counts_after(tracker, {10, 11, kWild}), (SequenceCounts{.received = 3, .missing = 1}));
-  EXPECT_EQ(counts_after(tracker, {12, 13, 15}), (SequenceCounts{.received = 6, .missing = 3}));
-  EXPECT_EQ(tracker.record(origin(15), kSpacecraft), Arrival::Duplicate);
+  EXPECT_EQ(counts_after({10, 11, kWild}), (SequenceCounts{.received = 3, .missing = 1}));
+  EXPECT_EQ(counts_after({12, 13, 15}), (SequenceCounts{.received = 6, .missing = 3}));
+  EXPECT_EQ(record(origin(15)), Arrival::Duplicate);
 }
 
-TEST(SequenceTracker, CountsTheWholeOfAGapUpToTheFarthestJump) {
+TEST_F(SequenceTrackerTest, CountsTheWholeOfAGapUpToTheFarthestJump) {
   constexpr std::uint64_t kFarthest = SequenceTracker::kFarthestJump;
-  SequenceTracker tracker;
-  EXPECT_EQ(counts_after(tracker, {0, kFarthest}),
+  EXPECT_EQ(counts_after({0, kFarthest}),
             (SequenceCounts{.received = 2, .missing = kFarthest - 1}));
-  EXPECT_EQ(counts_after(tracker, {2 * kFarthest + 1}),
+  EXPECT_EQ(counts_after({2 * kFarthest + 1}),
             (SequenceCounts{.received = 3, .missing = kFarthest}));
 }
 
-TEST(SequenceTracker, GoesOnWithASessionOfWhichAWildSeqIsStored) {
-  SequenceTracker tracker;
-  tracker.go_on(origin(~std::uint64_t{0} / 2));
-  EXPECT_EQ(counts_after(tracker, {20, 22}), (SequenceCounts{.received = 2, .missing = 1}));
+TEST_F(SequenceTrackerTest, GoesOnWithASessionOfWhichAWildSeqIsStored) {
+  tracker_.go_on(origin(~std::uint64_t{0} / 2));
+  EXPECT_EQ(counts_after({20, 22}), (SequenceCounts{.received = 2, .missing = 1}));
 }
 
-TEST(SequenceTracker, HoldsTheLastSeqThereIs) {
-  SequenceTracker tracker;
+TEST_F(SequenceTrackerTest, HoldsTheLastSeqThereIs) {
   constexpr std::uint64_t kLast = ~std::uint64_t{0};
-  EXPECT_EQ(counts_after(tracker, {kLast, kLast - 2, kLast, kLast - 1}),
+  EXPECT_EQ(counts_after({kLast, kLast - 2, kLast, kLast - 1}),
             (SequenceCounts{.received = 4, .duplicates = 1, .disordered = 2}));
 }
 
-TEST(SequenceTracker, FindsNoDisorderInTwoSpacecraftHandedOverOneAfterTheOther) {
-  SequenceTracker tracker;
+TEST_F(SequenceTrackerTest, FindsNoDisorderInTwoSpacecraftHandedOverOneAfterTheOther) {
   for (const std::uint64_t first : {0U, 1U}) {
     for (std::uint64_t seq = first; seq < 3600; seq += 2) {
-      EXPECT_EQ(tracker.record(origin(seq), first == 0 ? "NORTH" : "SOUTH"), Arrival::New);
+      EXPECT_EQ(record(origin(seq), first == 0 ? "NORTH" : "SOUTH"), Arrival::New);
     }
   }
-  EXPECT_EQ(tracker.by_source().at("front-end"), (SequenceCounts{.received = 3600}));
+  EXPECT_EQ(counts(), (SequenceCounts{.received = 3600}));
 }
 
-TEST(SequenceTracker, FindsDisorderWithinEachSpacecraft) {
-  SequenceTracker tracker;
-  tracker.record(origin(0), "NORTH");
-  tracker.record(origin(4), "NORTH");
-  tracker.record(origin(1), "SOUTH");
-  tracker.record(origin(3), "SOUTH");
-  tracker.record(origin(2), "NORTH");
-  EXPECT_EQ(tracker.by_source().at("front-end"), (SequenceCounts{.received = 5, .disordered = 1}));
+TEST_F(SequenceTrackerTest, FindsDisorderWithinEachSpacecraft) {
+  record(origin(0), "NORTH");
+  record(origin(4), "NORTH");
+  record(origin(1), "SOUTH");
+  record(origin(3), "SOUTH");
+  record(origin(2), "NORTH");
+  EXPECT_EQ(counts(), (SequenceCounts{.received = 5, .disordered = 1}));
 }
 
-TEST(SequenceTracker, TakesTooManySpacecraftForOne) {
-  SequenceTracker tracker;
+TEST_F(SequenceTrackerTest, TakesTooManySpacecraftForOne) {
   for (std::uint64_t seq = 0; seq < SequenceTracker::kMaxSpacecraft + 10; ++seq) {
-    tracker.record(origin(1000 + seq), "spacecraft " + std::to_string(seq));
+    record(origin(1000 + seq), "spacecraft " + std::to_string(seq));
   }
-  tracker.record(origin(1), "one more");
-  EXPECT_EQ(tracker.by_source().at("front-end").disordered, 1U);
+  record(origin(1), "one more");
+  EXPECT_EQ(counts().disordered, 1U);
 }
 
 /// Counts by definition: from the set of all numbers that arrived.
@@ -208,7 +193,7 @@ struct Definition {
   }
 };
 
-TEST(SequenceTracker, AgreesWithTheDefinitionOnAnyStream) {
+TEST_F(SequenceTrackerTest, AgreesWithTheDefinitionOnAnyStream) {
   std::mt19937_64 random{20261120};  // NOLINT(cert-msc51-cpp): the same streams every time.
   for (int stream = 0; stream < 200; ++stream) {
     SCOPED_TRACE(stream);
@@ -218,43 +203,40 @@ TEST(SequenceTracker, AgreesWithTheDefinitionOnAnyStream) {
     std::uniform_int_distribution<std::uint64_t> jump{0, 1 + random() % 40};
     for (std::uint64_t i = 0; i < 500; ++i) {
       const std::uint64_t seq = start + i + jump(random);
-      ASSERT_EQ(tracker.record(origin(seq), kSpacecraft), definition.record(seq));
+      ASSERT_EQ(tracker.record(origin(seq), "SPINNER"), definition.record(seq));
       ASSERT_EQ(tracker.by_source().at("front-end"), definition.counts);
     }
   }
 }
 
-TEST(SequenceTracker, GivesUpTheLowestOfTooManyGapsAndStillCountsThem) {
-  SequenceTracker tracker;
+TEST_F(SequenceTrackerTest, GivesUpTheLowestOfTooManyGapsAndStillCountsThem) {
   const std::uint64_t count = SequenceTracker::kMaxRuns + 100;
   for (std::uint64_t i = 0; i < count; ++i) {
-    tracker.record(origin(2 * i), kSpacecraft);
+    record(origin(2 * i));
   }
-  EXPECT_EQ(tracker.record(origin(0), kSpacecraft), Arrival::New);
-  EXPECT_EQ(tracker.record(origin(2 * (count - 1)), kSpacecraft), Arrival::Duplicate);
-  EXPECT_EQ(tracker.by_source().at("front-end"),
+  EXPECT_EQ(record(origin(0)), Arrival::New);
+  EXPECT_EQ(record(origin(2 * (count - 1))), Arrival::Duplicate);
+  EXPECT_EQ(counts(),
             (SequenceCounts{
                 .received = count + 2, .missing = count - 1, .duplicates = 1, .disordered = 1}));
 }
 
-TEST(SequenceTracker, ForgetsTheSessionSilentForLongest) {
-  SequenceTracker tracker;
+TEST_F(SequenceTrackerTest, ForgetsTheSessionSilentForLongest) {
   for (std::uint64_t session = 0; session < SequenceTracker::kMaxSessions; ++session) {
-    tracker.record(origin(0, session), kSpacecraft);
+    record(origin(0, session));
   }
-  tracker.record(origin(1, 0), kSpacecraft);
-  tracker.record(origin(0, SequenceTracker::kMaxSessions), kSpacecraft);
-  EXPECT_EQ(tracker.record(origin(1, 0), kSpacecraft), Arrival::Duplicate);
-  EXPECT_EQ(tracker.record(origin(0, 1), kSpacecraft), Arrival::New);
+  record(origin(1, 0));
+  record(origin(0, SequenceTracker::kMaxSessions));
+  EXPECT_EQ(record(origin(1, 0)), Arrival::Duplicate);
+  EXPECT_EQ(record(origin(0, 1)), Arrival::New);
 }
 
-TEST(SequenceTracker, CountsTooManySourcesTogether) {
-  SequenceTracker tracker;
+TEST_F(SequenceTrackerTest, CountsTooManySourcesTogether) {
   for (std::size_t i = 0; i < SequenceTracker::kMaxSources + 10; ++i) {
-    tracker.record(origin(0, 1, "source " + std::to_string(i)), kSpacecraft);
+    record(origin(0, 1, "source " + std::to_string(i)));
   }
-  EXPECT_EQ(tracker.by_source().size(), SequenceTracker::kMaxSources + 1);
-  EXPECT_EQ(tracker.by_source().at(SequenceTracker::kOtherSources),
+  EXPECT_EQ(tracker_.by_source().size(), SequenceTracker::kMaxSources + 1);
+  EXPECT_EQ(tracker_.by_source().at(SequenceTracker::kOtherSources),
             (SequenceCounts{.received = 10}));
 }
 

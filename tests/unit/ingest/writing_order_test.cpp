@@ -1,16 +1,13 @@
 #include "services/ingest/writing_order.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include <string>
 #include <vector>
+
+#include "tests/support/matchers.h"
 
 namespace spindrift::writing_order_test {
 
 using namespace std::chrono_literals;
-using ::testing::ElementsAre;
-using ::testing::IsEmpty;
 
 /// Returns gyro samples and star fixes with these writing times, as taken in one look at all
 /// topics.

@@ -1,22 +1,18 @@
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "pipelines/frames/angle.h"
 #include "services/mission/mission.h"
+#include "tests/support/matchers.h"
+#include "tests/support/outcome.h"
 #include "tests/support/temporary_folder.h"
-#include "tests/support/test_paths.h"
 #include "tests/unit/mission/mission_texts.h"
 
 namespace spindrift::mission_test {
-
-using ::testing::AllOf;
-using ::testing::ElementsAre;
-using ::testing::HasSubstr;
-using ::testing::Not;
 
 TEST(MissionRefusals, ReportsTenMistakesAsTenProblems) {
   EXPECT_THAT(
@@ -134,8 +130,13 @@ TEST(MissionRefusals, HoldsEveryKeyToItsRange) {
   }
 }
 
+/// Returns the mission with orbital elements with the only match of `pattern` replaced.
+std::string elements(const std::string& pattern, const std::string& by) {
+  return replaced(std::string{kElements}, pattern, by);
+}
+
 TEST(MissionRefusals, HoldsOrbitalElementsToTheirRanges) {
-  const std::vector<std::pair<const char*, std::vector<const char*>>> bad = {
+  const std::vector<std::pair<std::string, std::vector<const char*>>> bad = {
       {"epoch_tai_ns", {"-1", "1.5e18"}},
       {"a_km", {"6378", "1000001", "nan"}},
       {"e", {"-0.1", "0.991", "1"}},
@@ -144,158 +145,136 @@ TEST(MissionRefusals, HoldsOrbitalElementsToTheirRanges) {
       {"argp_deg", {"-361"}},
       {"mean_anomaly_deg", {"inf"}}};
   for (const auto& [key, values] : bad) {
-    for (const char* value : values) {
-      SCOPED_TRACE(std::string{key} + " = " + value);
-      const auto toml = replaced(std::string{kElements}, "\n" + std::string{key} + " = .*",
-                                 "\n" + std::string{key} + " = " + value);
-      EXPECT_THAT(problems_of(toml), ElementsAre(HasSubstr(std::string{"orbit.elements."} + key)));
-    }
     SCOPED_TRACE(key);
-    EXPECT_THAT(
-        problems_of(replaced(std::string{kElements}, "\n" + std::string{key} + " = .*", "")),
-        ElementsAre(
-            HasSubstr(std::string{"mission.toml:4: orbit.elements."} + key + ": missing: ")));
+    const std::string line = "\n" + key + " = ";
+    for (const char* value : values) {
+      EXPECT_THAT(problems_of(elements(line + ".*", line + value)),
+                  ElementsAre(HasSubstr("orbit.elements." + key)))
+          << value;
+    }
+    EXPECT_THAT(problems_of(elements(line + ".*", "")),
+                ElementsAre(HasSubstr("mission.toml:4: orbit.elements." + key + ": missing: ")));
   }
 }
 
-TEST(MissionRefusals, WithAnOrbitInsideTheEarthIsRefused) {
-  EXPECT_THAT(problems_of(replaced(std::string{kElements}, "e = 0.001", "e = 0.5")),
-              ElementsAre(HasSubstr("mission.toml:4: [orbit.elements]: ")));
+std::string with_events(const char* t1, const char* t2, const char* t3, const char* t4) {
+  return std::string{
+             "[spacecraft]\nid = \"A\"\nkind = \"three_axis\"\n[reconstruction]\nt1_tai_ns = "} +
+         t1 + "\nt2_tai_ns = " + t2 + "\nt3_tai_ns = " + t3 + "\nt4_tai_ns = " + t4 + "\n";
 }
 
-TEST(MissionRefusals, HasExactlyOneOrbit) {
-  EXPECT_THAT(problems_of(replaced(std::string{kElements}, "\\[orbit.elements\\]",
-                                   "[orbit]\noem = \"orbit.oem\"\n[orbit.elements]")),
-              ElementsAre("mission.toml:4: orbit: must have exactly one of oem, elements, has 2"));
-  EXPECT_THAT(problems_of(replaced(contract(), "oem = .*", "")),
-              ElementsAre("mission.toml:4: orbit: must have exactly one of oem, elements, has 0"));
-  EXPECT_THAT(problems_of(replaced(contract(), "oem = ", "ome = ")),
-              ElementsAre("mission.toml:5: orbit.ome: unknown; did you mean oem?"));
+const std::string kLaunched =
+    "[spacecraft]\nid = \"A\"\nkind = \"three_axis\"\n[reconstruction]\nt1_tai_ns = 7\n"
+    "[reconstruction.launcher]\neuler312_launch_deg = [1, 2, 3]\nsigma_deg = 0.5\n"
+    "site_lat_deg = 5\nsite_lon_deg = -52\nepoch_tai_ns = 4\n";
+
+/// What a mission file is refused for: its problems, a line each, and how many they are.
+struct Refusal {
+  std::string toml;
+  ::testing::Matcher<std::string> problems;
+  std::size_t count = 1;
+};
+
+const std::string kLeo{kElements};
+
+std::vector<Refusal> refusals() {
+  return {
+      {elements("e = 0.001", "e = 0.5"), HasSubstr("mission.toml:4: [orbit.elements]: ")},
+      {elements("\\[orbit.elements\\]", "[orbit]\noem = \"orbit.oem\"\n[orbit.elements]"),
+       "mission.toml:4: orbit: must have exactly one of oem, elements, has 2"},
+      {replaced(contract(), "oem = .*", ""),
+       "mission.toml:4: orbit: must have exactly one of oem, elements, has 0"},
+      {replaced(contract(), "oem = ", "ome = "),
+       "mission.toml:5: orbit.ome: unknown; did you mean oem?"},
+      {"[spacecraft]\nid = \"A\"\nkind = \"spin\"\n",
+       "mission.toml: [orbit]: missing: where it is\n"
+       "mission.toml: [spin.horizon]: missing: the infrared horizon of the Earth\n"
+       "mission.toml: [spin.noise]: missing: standard deviation of the time of an edge\n"
+       "mission.toml: [spin.sun_sensor]: missing: the two slits of the sun sensor",
+       4},
+      {"", "mission.toml: [spacecraft]: missing: which spacecraft it is"},
+      {"[spacecraft]\n",
+       AllOf(HasSubstr("mission.toml:1: spacecraft.id: missing: text"),
+             HasSubstr("mission.toml:1: spacecraft.kind: missing: one of")),
+       2},
+      {with_events("5", "5", "5", "5"), "", 0},
+      {with_events("1", "2", "3", "4"), "", 0},
+      {with_events("2", "1", "3", "4"),
+       "mission.toml:6: reconstruction.t2_tai_ns = 1: must not be below t1_tai_ns = 2"},
+      {with_events("4", "3", "2", "1"), _, 3},
+      {"[spacecraft]\nid = \"A\"\nkind = \"three_axis\"\n[reconstruction]\n"
+       "t1_tai_ns = 3\nt4_tai_ns = 2\n",
+       "mission.toml:6: reconstruction.t4_tai_ns = 2: must not be below t1_tai_ns = 3"},
+      // The difference is 1 ns, which a double of this size cannot resolve.
+      {with_events("1772337637000000000", "1772337637000000000", "1772337637000000001",
+                   "1772337637000000000"),
+       HasSubstr("reconstruction.t4_tai_ns = 1772337637000000000: must not be below t3_tai_ns = "
+                 "1772337637000000001")},
+      {kLaunched,
+       "mission.toml:6: reconstruction.launcher.launch_azimuth_deg: missing: euler312_launch_deg "
+       "needs it"},
+      {kLeo + "[spni.noise]\nsun_pulse_s = 1\n",
+       "mission.toml:12: spni: unknown; did you mean spin?"},
+      {"colour = \"red\"\n" + kLeo,
+       "mission.toml:1: colour: unknown; allowed here: alerts, archive, contact, ground_model, "
+       "orbit, reconstruction, sources, spacecraft, spin, three_axis"},
+      {replaced(contract(), "\\[spin.noise\\]", "[spin.nose]"),
+       HasSubstr("spin.nose: unknown; did you mean noise?")},
+      {"spin = 3\n" + kLeo, "mission.toml:1: spin = 3: must be a table"},
+      {kLeo + "[[spin.prior]]\nra_deg = 1\n", HasSubstr("mission.toml:12: spin.prior = ")},
+      {kLeo + "[spacecraft.name]\n", HasSubstr("mission.toml:12: spacecraft.name: unknown")},
+      {replaced(contract(), "slit_cant_deg = 45.0", "slit_cant_deg.value = 45.0"),
+       HasSubstr("spin.sun_sensor.slit_cant_deg = a table: must be a number in")},
+      {"[spacecraft]\nid = \"A\nkind", StartsWith("mission.toml:2:8: ")},
+      {"[spacecraft]\nid = \"A\"\nid = \"B\"\n", StartsWith("mission.toml:3:")},
+      {"\xff\xfe[spacecraft]", StartsWith("mission.toml:1:")},
+      {replaced(contract(), "T03:10:00Z", "T03:00:00Z"), HasSubstr("must be later than aos_utc")},
+      {"[spacecraft]\n" + times(100'000, "a.") + "a = 1\n",
+       "mission.toml:2: tables and arrays must not stand deeper than 16 in each other"}};
 }
 
-TEST(MissionRefusals, OfASpinnerNeedsItsTables) {
-  EXPECT_THAT(
-      problems_of("[spacecraft]\nid = \"A\"\nkind = \"spin\"\n"),
-      ElementsAre("mission.toml: [orbit]: missing: where it is",
-                  "mission.toml: [spin.horizon]: missing: the infrared horizon of the Earth",
-                  "mission.toml: [spin.noise]: missing: standard deviation of the time of an edge",
-                  "mission.toml: [spin.sun_sensor]: missing: the two slits of the sun sensor"));
+TEST(MissionRefusals, SaysLineKeyAndWhatMustBe) {
+  for (const auto& [toml, expected, count] : refusals()) {
+    SCOPED_TRACE(::testing::DescribeMatcher<std::string>(expected));
+    const std::vector<std::string> problems = problems_of(toml);
+    EXPECT_THAT(problems, SizeIs(count));
+    EXPECT_THAT(fmt::format("{}", fmt::join(problems, "\n")), expected);
+  }
 }
 
 TEST(MissionRefusals, OfASpinnerMayHaveTheSunSensorAlone) {
-  const auto mission = load(replaced(contract(), "\\[spin.ir.north\\][^@]*healthy[^\n]*", ""));
-  ASSERT_TRUE(mission) << mission.error().message;
-  EXPECT_FALSE(mission->spin()->north);
-  EXPECT_FALSE(mission->spin()->south);
+  const auto mission =
+      value_or_throw(load(replaced(contract(), "\\[spin.ir.north\\][^@]*healthy[^\n]*", "")));
+  EXPECT_FALSE(mission.spin()->north);
+  EXPECT_FALSE(mission.spin()->south);
 }
 
-TEST(MissionRefusals, NeedsASpacecraft) {
-  EXPECT_THAT(problems_of(""),
-              ElementsAre("mission.toml: [spacecraft]: missing: which spacecraft it is"));
-  EXPECT_THAT(problems_of("[spacecraft]\n"),
-              ElementsAre(HasSubstr("mission.toml:1: spacecraft.id: missing: text"),
-                          HasSubstr("mission.toml:1: spacecraft.kind: missing: one of")));
-}
-
-TEST(MissionRefusals, HasItsEventsInOrder) {
-  const auto at = [](const char* t1, const char* t2, const char* t3, const char* t4) {
-    return std::string{
-               "[spacecraft]\nid = \"A\"\nkind = \"three_axis\"\n[reconstruction]\nt1_tai_ns = "} +
-           t1 + "\nt2_tai_ns = " + t2 + "\nt3_tai_ns = " + t3 + "\nt4_tai_ns = " + t4 + "\n";
-  };
-  EXPECT_THAT(problems_of(at("5", "5", "5", "5")), ElementsAre());
-  EXPECT_THAT(problems_of(at("1", "2", "3", "4")), ElementsAre());
-  EXPECT_THAT(
-      problems_of(at("2", "1", "3", "4")),
-      ElementsAre("mission.toml:6: reconstruction.t2_tai_ns = 1: must not be below t1_tai_ns = 2"));
-  EXPECT_THAT(problems_of(at("4", "3", "2", "1")).size(), 3U);
-  EXPECT_THAT(
-      problems_of("[spacecraft]\nid = \"A\"\nkind = \"three_axis\"\n[reconstruction]\n"
-                  "t1_tai_ns = 3\nt4_tai_ns = 2\n"),
-      ElementsAre("mission.toml:6: reconstruction.t4_tai_ns = 2: must not be below t1_tai_ns = 3"));
-  // The difference is 1 ns, which a double of this size cannot resolve.
-  EXPECT_THAT(problems_of(at("1772337637000000000", "1772337637000000000", "1772337637000000001",
-                             "1772337637000000000")),
-              ElementsAre(HasSubstr("reconstruction.t4_tai_ns = 1772337637000000000: must not be "
-                                    "below t3_tai_ns = 1772337637000000001")));
-}
-
-TEST(MissionRefusals, HasTheLaunchersChainWholeOrIsRefused) {
-  const std::string start =
-      "[spacecraft]\nid = \"A\"\nkind = \"three_axis\"\n[reconstruction]\nt1_tai_ns = 7\n"
-      "[reconstruction.launcher]\neuler312_launch_deg = [1, 2, 3]\nsigma_deg = 0.5\n";
-  EXPECT_THAT(problems_of(start + "site_lat_deg = 5\nsite_lon_deg = -52\nepoch_tai_ns = 4\n"),
-              ElementsAre("mission.toml:6: reconstruction.launcher.launch_azimuth_deg: missing: "
-                          "euler312_launch_deg needs it"));
-  const auto mission = load(start +
-                            "site_lat_deg = 5\nsite_lon_deg = -52\nepoch_tai_ns = 4\n"
-                            "launch_azimuth_deg = 90\n");
-  ASSERT_TRUE(mission) << mission.error().message;
-  ASSERT_TRUE(mission->separation);
-  EXPECT_EQ(mission->separation->times.separation, tai_from_ns(7));
-  EXPECT_FALSE(mission->separation->times.control_on);
-  ASSERT_TRUE(mission->separation->launcher);
-  const auto& told = std::get<InLaunchFrame>(mission->separation->launcher->told);
+TEST(MissionRefusals, TakesTheLaunchersChainWhole) {
+  const auto mission = value_or_throw(load(kLaunched + "launch_azimuth_deg = 90\n"));
+  EXPECT_EQ(mission.separation.value().times.separation, tai_from_ns(7));
+  EXPECT_FALSE(mission.separation->times.control_on);
+  const auto& told = std::get<InLaunchFrame>(mission.separation->launcher.value().told);
   EXPECT_DOUBLE_EQ(told.launch.azimuth_rad, 90.0 * kRadPerDeg);
   EXPECT_DOUBLE_EQ(told.angles.theta_rad, 2.0 * kRadPerDeg);
-}
-
-TEST(MissionRefusals, WithUnknownNamesIsRefused) {
-  EXPECT_THAT(problems_of(std::string{kElements} + "[spni.noise]\nsun_pulse_s = 1\n"),
-              ElementsAre("mission.toml:12: spni: unknown; did you mean spin?"));
-  EXPECT_THAT(
-      problems_of("colour = \"red\"\n" + std::string{kElements}),
-      ElementsAre("mission.toml:1: colour: unknown; allowed here: alerts, archive, contact, "
-                  "ground_model, orbit, reconstruction, sources, spacecraft, spin, three_axis"));
-  EXPECT_THAT(problems_of(replaced(contract(), "\\[spin.noise\\]", "[spin.nose]")),
-              ElementsAre(HasSubstr("spin.nose: unknown; did you mean noise?")));
-}
-
-TEST(MissionRefusals, WithAValueInPlaceOfATableIsRefused) {
-  EXPECT_THAT(problems_of("spin = 3\n" + std::string{kElements}),
-              ElementsAre("mission.toml:1: spin = 3: must be a table"));
-  EXPECT_THAT(problems_of(std::string{kElements} + "[[spin.prior]]\nra_deg = 1\n"),
-              ElementsAre(HasSubstr("mission.toml:12: spin.prior = ")));
-  EXPECT_THAT(problems_of(std::string{kElements} + "[spacecraft.name]\n"),
-              ElementsAre(HasSubstr("mission.toml:12: spacecraft.name: unknown")));
-}
-
-TEST(MissionRefusals, WithATableInPlaceOfAValueIsRefused) {
-  EXPECT_THAT(
-      problems_of(replaced(contract(), "slit_cant_deg = 45.0", "slit_cant_deg.value = 45.0")),
-      ElementsAre(HasSubstr("spin.sun_sensor.slit_cant_deg = a table: must be a number in")));
-}
-
-TEST(MissionRefusals, ThatIsNoTomlIsRefusedWithLineAndColumn) {
-  EXPECT_THAT(problems_of("[spacecraft]\nid = \"A\nkind"),
-              ElementsAre(::testing::StartsWith("mission.toml:2:8: ")));
-  EXPECT_THAT(problems_of("[spacecraft]\nid = \"A\"\nid = \"B\"\n"),
-              ElementsAre(::testing::StartsWith("mission.toml:3:")));
-  EXPECT_THAT(problems_of("\xff\xfe[spacecraft]"),
-              ElementsAre(::testing::StartsWith("mission.toml:1:")));
 }
 
 TEST(MissionRefusals, ThatIsNotThereIsRefusedWithItsPath) {
   const TemporaryFolder folder;
   const auto path = folder.path() / "none.toml";
-  const auto none = load_mission(path);
-  ASSERT_FALSE(none);
-  EXPECT_EQ(none.error().code, ErrorCode::InvalidConfiguration);
-  EXPECT_EQ(none.error().message, path.string() + ": cannot be read: No such file or directory");
-  const auto directory = load_mission(folder.path());
-  ASSERT_FALSE(directory);
-  EXPECT_EQ(directory.error().message,
-            folder.path().string() + ": cannot be read: not a regular file");
+  EXPECT_THAT(load_mission(path),
+              IsRefused(ErrorCode::InvalidConfiguration,
+                        path.string() + ": cannot be read: No such file or directory"));
+  EXPECT_THAT(load_mission(folder.path()),
+              IsRefused(ErrorCode::InvalidConfiguration,
+                        folder.path().string() + ": cannot be read: not a regular file"));
 }
 
-TEST(MissionRefusals, WithABrokenOrbitFileIsRefusedNamingIt) {
+/// Returns the refusal of the contract's mission with this orbit file.
+std::string refusal_with_orbit(const std::string& oem) {
   const TemporaryFolder folder;
-  folder.write("orbit.oem", "CCSDS_OEM_VERS = 2.0\nMETA_START\nrubbish\n");
+  folder.write("orbit.oem", oem);
   const auto mission = load_mission(folder.write("mission.toml", contract()));
-  ASSERT_FALSE(mission);
-  EXPECT_THAT(mission.error().message,
-              AllOf(HasSubstr("mission.toml:5: orbit.oem = \"orbit.oem\": "),
-                    ::testing::Not(HasSubstr("\n"))));
+  return mission ? "accepted" : mission.error().message;
 }
 
 const std::string kEndless(100'000, 'x');
@@ -320,24 +299,13 @@ TEST(MissionRefusals, IsRefusedWithItsTextEscapedAndCut) {
   }
 }
 
-TEST(MissionRefusals, ThatNestsTooDeepIsRefusedBeforeItIsParsed) {
-  std::string deep = "[spacecraft]\n";
-  for (int i = 0; i < 100'000; ++i) {
-    deep += "a.";
-  }
-  EXPECT_THAT(problems_of(deep + "a = 1\n"),
-              ElementsAre("mission.toml:2: tables and arrays must not stand deeper than 16 in each "
-                          "other"));
-}
-
-TEST(MissionRefusals, WithAnOrbitFileOfOneEndlessLineIsRefusedByLine) {
-  const TemporaryFolder folder;
-  folder.write("orbit.oem", "CCSDS_OEM_VERS = 2.0\nCOMMENT " + kEndless);
-  const auto mission =
-      load_mission(folder.write("mission.toml", text_of(kData / "mission" / "contract.toml")));
-  ASSERT_FALSE(mission);
-  EXPECT_THAT(mission.error().message, HasSubstr("line 2: must be 1024 bytes long at most"));
-  EXPECT_LT(mission.error().message.size(), 1000U);
+TEST(MissionRefusals, WithABrokenOrbitFileIsRefusedNamingItOrItsLine) {
+  EXPECT_THAT(
+      refusal_with_orbit("CCSDS_OEM_VERS = 2.0\nMETA_START\nrubbish\n"),
+      AllOf(HasSubstr("mission.toml:5: orbit.oem = \"orbit.oem\": "), Not(HasSubstr("\n"))));
+  const std::string endless = refusal_with_orbit("CCSDS_OEM_VERS = 2.0\nCOMMENT " + kEndless);
+  EXPECT_THAT(endless, HasSubstr("line 2: must be 1024 bytes long at most"));
+  EXPECT_LT(endless.size(), 1000U);
 }
 
 }  // namespace spindrift::mission_test

@@ -7,8 +7,6 @@
 #include <toml++/toml.h>
 
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <regex>
 #include <sstream>
 #include <string>
@@ -18,16 +16,11 @@
 #include "services/mission/mission.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/test_paths.h"
+#include "tests/support/text_of.h"
 
 namespace spindrift::mission_test {
 
 inline const std::filesystem::path kData = test_data();
-
-inline std::string text_of(const std::filesystem::path& path) {
-  std::ifstream file{path, std::ios::binary};
-  EXPECT_TRUE(file) << path;
-  return {std::istreambuf_iterator<char>{file}, {}};
-}
 
 /// Loads a text as mission.toml next to an orbit.oem.
 inline Expected<Mission> load(std::string_view toml) {
@@ -70,6 +63,14 @@ inline std::string contract_with(const std::string& path, const std::string& val
   std::ostringstream out;
   out << document;
   return out.str();
+}
+
+inline std::string times(int count, std::string_view text) {
+  std::string all;
+  for (int i = 0; i < count; ++i) {
+    all += text;
+  }
+  return all;
 }
 
 inline constexpr std::string_view kElements = R"([spacecraft]

@@ -5,15 +5,11 @@
 
 #include <string>
 
+#include "tests/unit/mission/mission_texts.h"
+
 namespace spindrift::nesting_test {
 
-std::string times(int count, const std::string& text) {
-  std::string all;
-  for (int i = 0; i < count; ++i) {
-    all += text;
-  }
-  return all;
-}
+using mission_test::times;
 
 TEST(Nesting, OfWhatPeopleWriteIsNotTooDeep) {
   for (const std::string& text :

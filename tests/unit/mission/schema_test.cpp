@@ -1,14 +1,9 @@
 #include "services/mission/schema.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <variant>
+#include "tests/support/matchers.h"
+#include "tests/support/outcome.h"
 
 namespace spindrift::schema_test {
-
-using ::testing::ElementsAre;
-using ::testing::HasSubstr;
 
 std::string error_of(std::string_view schema) {
   const auto rule = parse_schema(schema);
@@ -16,7 +11,7 @@ std::string error_of(std::string_view schema) {
 }
 
 TEST(Schema, GivesTheRulesAsTheyAreWritten) {
-  const auto schema = parse_schema(R"(
+  const auto schema = value_or_throw(parse_schema(R"(
       [a]
       about = "table"
       required = "spin"
@@ -24,11 +19,10 @@ TEST(Schema, GivesTheRulesAsTheyAreWritten) {
       n = { type = "number", unit = "deg", above = 0, at_most = 90.5, default = 3, about = "N" }
       t = { type = "text", one_of = ["x", "y"], optional = true, about = "T" }
       i = { type = "integer", shape = [3, 2], at_least = -1, below = 4, not_below_keys = ["n"], about = "I" }
-  )");
-  ASSERT_TRUE(schema) << schema.error().message;
-  const TableRule& a = schema->tables.at("a");
+  )"));
+  const TableRule& a = schema.tables.at("a");
   EXPECT_EQ(a.required, "spin");
-  EXPECT_THAT(a.exactly_one_of, ::testing::ElementsAre("n", "t"));
+  EXPECT_THAT(a.exactly_one_of, ElementsAre("n", "t"));
 
   const KeyRule& n = a.keys.at("n");
   EXPECT_EQ(n.type, ValueType::Number);
@@ -40,9 +34,9 @@ TEST(Schema, GivesTheRulesAsTheyAreWritten) {
   EXPECT_EQ(n.default_value, Scalar{3.0});
   EXPECT_FALSE(n.optional);
 
-  EXPECT_THAT(a.keys.at("t").one_of, ::testing::ElementsAre("x", "y"));
+  EXPECT_THAT(a.keys.at("t").one_of, ElementsAre("x", "y"));
   EXPECT_TRUE(a.keys.at("t").optional);
-  EXPECT_THAT(a.keys.at("i").shape, ::testing::ElementsAre(3, 2));
+  EXPECT_THAT(a.keys.at("i").shape, ElementsAre(3, 2));
   EXPECT_THAT(a.keys.at("i").not_below_keys, ElementsAre("n"));
 }
 

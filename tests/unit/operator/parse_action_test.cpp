@@ -1,18 +1,15 @@
 #include "services/operator/parse_action.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include <string>
 #include <vector>
 
 #include "pipelines/frames/angle.h"
+#include "tests/support/matchers.h"
+#include "tests/support/outcome.h"
 
 namespace spindrift::parse_action_test {
 
 using nlohmann::json;
-using ::testing::AllOf;
-using ::testing::HasSubstr;
 
 const KnownSpacecraft kKnown{{"SPINNER", SpacecraftKind::Spin},
                              {"STABLE", SpacecraftKind::ThreeAxis}};
@@ -39,14 +36,13 @@ TEST(ParseAction, TakesEachWithItsArguments) {
       {{"action", "mark_manoeuvre"}, {"note", "burn 2"}},
       {{"action", "set_target"}, {"ra_deg", -10.0}, {"dec_deg", 90}, {"t_tai_ns", kFrom}}};
   for (std::size_t i = 0; i < all.size(); ++i) {
-    const auto action = parse_action(request(all[i]), kKnown);
-    ASSERT_TRUE(action) << action.error().message;
-    ASSERT_EQ(std::get<SpinAction>(action->does).index(), i);
-    EXPECT_EQ(action->action, all[i].at("action"));
-    EXPECT_EQ(action->by, "shift");
-    EXPECT_LE(action->action_id.size(), 40U);
-    EXPECT_NE(action->action_id, parse_action(request(all[i]), kKnown)->action_id);
-    EXPECT_EQ(action->t.has_value(), all[i].contains("t_tai_ns") || all[i].contains("from_tai_ns"));
+    const auto action = value_or_throw(parse_action(request(all[i]), kKnown));
+    ASSERT_EQ(std::get<SpinAction>(action.does).index(), i);
+    EXPECT_EQ(action.action, all[i].at("action"));
+    EXPECT_EQ(action.by, "shift");
+    EXPECT_LE(action.action_id.size(), 40U);
+    EXPECT_NE(action.action_id, parse_action(request(all[i]), kKnown)->action_id);
+    EXPECT_EQ(action.t.has_value(), all[i].contains("t_tai_ns") || all[i].contains("from_tai_ns"));
   }
 }
 
@@ -54,11 +50,10 @@ TEST(ParseAction, OfThreeAxesKnowsSensors) {
   const json of_sensor{{"spacecraft", "STABLE"}, {"channel", "star"}};
   json excluded = of_sensor;
   excluded["action"] = "exclude_channel";
-  const auto action = parse_action(request(excluded), kKnown);
-  ASSERT_TRUE(action) << action.error().message;
-  EXPECT_EQ(std::get<ExcludeChannel<SampleKind>>(std::get<AttitudeAction>(action->does)).channel,
+  const auto action = value_or_throw(parse_action(request(excluded), kKnown));
+  EXPECT_EQ(std::get<ExcludeChannel<SampleKind>>(std::get<AttitudeAction>(action.does)).channel,
             SampleKind::Star);
-  EXPECT_EQ(action->arguments, R"({"channel":"star"})");
+  EXPECT_EQ(action.arguments, R"({"channel":"star"})");
   EXPECT_THAT(why_not({{"spacecraft", "STABLE"}, {"action", "mark_manoeuvre"}}),
               HasSubstr("must be one of exclude_channel, include_channel, exclude_segment"));
 }

@@ -1,4 +1,3 @@
-#include <gtest/gtest.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
@@ -10,6 +9,8 @@
 
 #include "services/operator/request_client.h"
 #include "services/operator/request_server.h"
+#include "tests/support/matchers.h"
+#include "tests/support/outcome.h"
 #include "tests/support/temporary_folder.h"
 
 namespace spindrift::requests_test {
@@ -34,10 +35,9 @@ TEST_F(Requests, AreAnsweredOneAfterTheOther) {
   const auto server = RequestServer::start(archive(), kAnswers).value();
   // The second text is more than the kernel transfers at once.
   for (const std::string& text : {std::string{"ab\n\"c"}, std::string(500'000, 'x')}) {
-    const auto answer = ask_holder(archive(), {{"do", "twice"}, {"text", text}});
-    ASSERT_TRUE(answer) << answer.error().message;
-    ASSERT_TRUE(*answer);
-    EXPECT_EQ((**answer)["text"], text + text);
+    const auto answer =
+        value_or_throw(ask_holder(archive(), {{"do", "twice"}, {"text", text}})).value();
+    EXPECT_EQ(answer["text"], text + text);
   }
 }
 
@@ -129,9 +129,8 @@ TEST_F(Requests, ALongPathIsNoObstacle) {
   std::filesystem::create_directory(deep);
   const auto server = RequestServer::start(deep / "pass.db", kAnswers).value();
   EXPECT_TRUE(ask_holder(deep / "pass.db", {{"do", "twice"}, {"text", "a"}}).value());
-  const auto refused = RequestServer::start(deep / std::string(100, 'n'), kAnswers);
-  ASSERT_FALSE(refused);
-  EXPECT_EQ(refused.error().code, ErrorCode::InvalidConfiguration);
+  EXPECT_THAT(RequestServer::start(deep / std::string(100, 'n'), kAnswers),
+              IsRefused(ErrorCode::InvalidConfiguration, _));
 }
 
 }  // namespace spindrift::requests_test

@@ -1,18 +1,13 @@
 #include "services/processor/pass_computing.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include <limits>
 #include <stdexcept>
 
 #include "pipelines/three_axis/three_axis_pass.h"
+#include "tests/support/matchers.h"
+#include "tests/support/of_kind.h"
 
 namespace spindrift::pass_computing_test {
-
-using ::testing::ElementsAre;
-using ::testing::IsEmpty;
-using ::testing::SizeIs;
 
 /// Makes a product for each sample at its time, an attitude if the rate about z is not zero,
 /// another product at each silence and at the end, and throws at `throws_at`.
@@ -162,11 +157,8 @@ PassInput with_rates_z(PassInput input, const std::vector<double>& rates_rad_s) 
 std::vector<AttitudeEstimate> answers_in(const std::vector<ArchiveBatch>& batches) {
   std::vector<AttitudeEstimate> answers;
   for (const ArchiveBatch& batch : batches) {
-    for (const Product& product : batch.products) {
-      if (const auto* const answer = std::get_if<AttitudeEstimate>(&product)) {
-        answers.push_back(*answer);
-      }
-    }
+    const auto more = of_kind<AttitudeEstimate>(batch.products);
+    answers.insert(answers.end(), more.begin(), more.end());
   }
   return answers;
 }

@@ -1,30 +1,23 @@
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <algorithm>
 #include <stdexcept>
-#include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
 #include "services/processor/three_axis_run.h"
+#include "tests/support/matchers.h"
+#include "tests/support/of_kind.h"
+#include "tests/support/outcome.h"
 #include "tests/support/separation_flight.h"
 
 namespace spindrift::separation_run_test {
 
-using ::testing::ElementsAre;
-using ::testing::IsEmpty;
 using testing::separation_flight;
 using testing::SeparationFlight;
-using ::testing::SizeIs;
 
 std::vector<std::string_view> methods_in(const std::vector<Product>& products) {
   std::vector<std::string_view> methods;
-  for (const Product& product : products) {
-    if (const auto* const one = std::get_if<ReconstructionProduct>(&product)) {
-      methods.push_back(method_of(*one));
-    }
+  for (const ReconstructionProduct& one : of_kind<ReconstructionProduct>(products)) {
+    methods.push_back(method_of(one));
   }
   return methods;
 }
@@ -73,9 +66,8 @@ TEST_F(SeparationRunTest, HandsOutBatchAndThenSequentialWhenTheStarFixComes) {
     EXPECT_TRUE(task.is_awaited);
     EXPECT_EQ(task.batch.run_id, "run-1");
     EXPECT_FALSE(task.batch.finished_utc);
-    const auto products = task.solve();
-    ASSERT_TRUE(products) << products.error().message;
-    EXPECT_THAT(methods_in(*products), ElementsAre(method));
+    const auto products = value_or_throw(task.solve());
+    EXPECT_THAT(methods_in(products), ElementsAre(method));
   }
   EXPECT_THAT(run.take_background_tasks(), IsEmpty());
 }

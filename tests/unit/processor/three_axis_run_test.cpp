@@ -1,19 +1,15 @@
 #include "services/processor/three_axis_run.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include <random>
 
+#include "tests/support/matchers.h"
+#include "tests/support/of_kind.h"
 #include "tests/support/turning_body.h"
 
 namespace spindrift::three_axis_run_test {
 
 using testing::at_s;
-using ::testing::ElementsAre;
-using ::testing::IsEmpty;
 using testing::Sensors;
-using ::testing::SizeIs;
 using testing::TurningBody;
 using testing::usual_three_axis;
 
@@ -48,10 +44,8 @@ class ThreeAxisRunTest : public ::testing::Test {
   static std::vector<TaiTime> attitudes_in(const std::vector<ArchiveBatch>& batches) {
     std::vector<TaiTime> times;
     for (const ArchiveBatch& batch : batches) {
-      for (const Product& product : batch.products) {
-        if (const auto* attitude = std::get_if<AttitudeEstimate>(&product)) {
-          times.push_back(attitude->t);
-        }
+      for (const AttitudeEstimate& attitude : of_kind<AttitudeEstimate>(batch.products)) {
+        times.push_back(attitude.t);
       }
     }
     return times;

@@ -1,11 +1,9 @@
 #include "services/program/arrival_tally.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
+#include "tests/support/matchers.h"
 
 namespace spindrift::arrivals_test {
 
-using ::testing::ElementsAre;
 using ::testing::Pair;
 
 TaiTime at(double t_s) { return shifted(tai_from_ns(1'795'143'637'000'000'000), t_s); }

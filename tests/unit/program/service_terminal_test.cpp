@@ -1,11 +1,11 @@
 #include "services/program/service_terminal.h"
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <spdlog/sinks/ostream_sink.h>
 #include <spdlog/spdlog.h>
 
 #include <memory>
+#include <optional>
 #include <sstream>
 #include <utility>
 
@@ -23,6 +23,11 @@ class Told : public ::testing::Test {
 
   /// Returns the messages since the last call.
   std::string said() { return std::exchange(log_, std::ostringstream{}).str(); }
+  void tell(std::optional<AlertState> from, AlertState state) {
+    silence_.from = from;
+    silence_.state = state;
+    terminal_.tell("SPINNER", "run", silence_);
+  }
   void show_silence_of(double age_s) {
     Health health{};
     health.spacecraft = {{.spacecraft = "SPINNER",
@@ -45,15 +50,12 @@ class Told : public ::testing::Test {
 TEST_F(Told, SaysEachChangeOfAnAlertOnce) {
   terminal_.tell("SPINNER", "run", silence_);
   EXPECT_EQ(said(), "warning SPINNER: link.silent: no telemetry: 5.1 s\n");
-  silence_.from = AlertState::Active;
-  silence_.state = AlertState::Acknowledged;
   silence_.by = "shift";
   silence_.note = "seen\x1b[2J";
-  terminal_.tell("SPINNER", "run", silence_);
+  tell(AlertState::Active, AlertState::Acknowledged);
   EXPECT_EQ(said(), "info SPINNER: link.silent: acknowledged by shift: seen\\x1b[2J\n");
-  silence_.state = AlertState::Cleared;
   silence_.note = "over at 2026";
-  terminal_.tell("SPINNER", "run", silence_);
+  tell(AlertState::Active, AlertState::Cleared);
   EXPECT_EQ(said(), "info SPINNER: link.silent: over at 2026\n");
 }
 
@@ -81,13 +83,8 @@ TEST_F(Told, SaysASilenceAgainAfterOneMinuteAndFiveUntilItsEnd) {
   show_silence_of(300.5);
   show_silence_of(9'000.0);
   EXPECT_EQ(said(), "critical SPINNER: link.silent: no telemetry for 5 min\n");
-  silence_.from = AlertState::Active;
-  silence_.state = AlertState::Cleared;
-  terminal_.tell("SPINNER", "run", silence_);
-  said();
-  silence_.from.reset();
-  silence_.state = AlertState::Active;
-  terminal_.tell("SPINNER", "run", silence_);
+  tell(AlertState::Active, AlertState::Cleared);
+  tell(std::nullopt, AlertState::Active);
   said();
   show_silence_of(61.0);
   EXPECT_EQ(said(), "critical SPINNER: link.silent: no telemetry for 1 min\n");

@@ -1,16 +1,10 @@
 #include "services/program/status_line.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include "pipelines/time/utc.h"
+#include "tests/support/matchers.h"
 #include "tests/support/recorded_files.h"
 
 namespace spindrift::status_line_test {
-
-using ::testing::HasSubstr;
-using ::testing::Not;
-using ::testing::StartsWith;
 
 constexpr std::size_t kUsual = 80;
 
@@ -70,7 +64,7 @@ TEST_F(StatusLine, SaysThatNothingComesAndThatThereIsNoAnswer) {
   health_.data_age_s = 75.0;
   health_.verdict = {};
   EXPECT_THAT(line(kUsual, std::nullopt), HasSubstr(" SILENT 75s rev 597 sun 75/87 "));
-  EXPECT_THAT(line(kUsual), ::testing::EndsWith(" no answer"));
+  EXPECT_THAT(line(kUsual), EndsWith(" no answer"));
   EXPECT_EQ(status_line(mission_, {.spacecraft = "SPINNER", .link = LinkState::Waiting}, {},
                         std::nullopt, kUsual),
             "SPINNER waiting for telemetry");

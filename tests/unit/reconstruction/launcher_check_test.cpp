@@ -1,20 +1,18 @@
 #include "pipelines/reconstruction/launcher_check.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include <limits>
 
 #include "pipelines/ephemeris/orbit_frame.h"
 #include "pipelines/frames/angle.h"
 #include "pipelines/frames/rotation_vector.h"
+#include "tests/support/matchers.h"
+#include "tests/support/outcome.h"
 
 namespace spindrift::launcher_check_test {
 
 using Eigen::Matrix3d;
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
-using ::testing::HasSubstr;
 
 const TaiTime kSeparation = tai_from_ns(1'772'337'637'000'000'000);
 const std::optional<Orbit> kOrbit{Orbit{KeplerOrbit::make({.epoch = kSeparation,
@@ -47,15 +45,14 @@ ReconstructedAttitude found(const Quaterniond& q_icrf_body, double sigma_deg) {
 }
 
 TEST(LauncherCheck, GivesTheDifferenceOfThePaper) {
-  const auto check =
-      launcher_check({InOrbitFrame{kTold}, 0.5 * kRadPerDeg}, found(in_icrf(kFound), 1.2), kOrbit);
-  ASSERT_TRUE(check) << check.error().message;
-  EXPECT_NEAR(degrees(check->difference.angle_rad), 3.9, 0.05);
+  const auto check = value_or_throw(
+      launcher_check({InOrbitFrame{kTold}, 0.5 * kRadPerDeg}, found(in_icrf(kFound), 1.2), kOrbit));
+  EXPECT_NEAR(degrees(check.difference.angle_rad), 3.9, 0.05);
   // Sigmas of 0.5 and 1.2 deg combine to 1.3 deg.
-  const double sigmas = degrees(check->difference.angle_rad) / 1.3;
-  EXPECT_NEAR(check->difference.chi_square, sigmas * sigmas, 1e-9);
-  EXPECT_NEAR(check->chance, 0.029, 0.001);
-  EXPECT_LT(angle_between_rad(check->q_icrf_body, in_icrf(kTold)), 1e-12);
+  const double sigmas = degrees(check.difference.angle_rad) / 1.3;
+  EXPECT_NEAR(check.difference.chi_square, sigmas * sigmas, 1e-9);
+  EXPECT_NEAR(check.chance, 0.029, 0.001);
+  EXPECT_LT(angle_between_rad(check.q_icrf_body, in_icrf(kTold)), 1e-12);
 }
 
 TEST(LauncherCheck, SaysThatTheSameIsTheSame) {
@@ -70,22 +67,19 @@ TEST(LauncherCheck, GoesTheChainOfALaunchWithoutAnOrbit) {
   const Launch launch{{5.2 * kRadPerDeg, -52.8 * kRadPerDeg}, 1.6, shifted(kSeparation, -1800.0)};
   const Quaterniond q_launch_body = launch_frame(launch).conjugate() * in_icrf(kFound);
   const LauncherAttitude told{InLaunchFrame{euler312_of(q_launch_body).angles, launch}, 0.01};
-  const auto check = launcher_check(told, found(in_icrf(kFound), 0.5), std::nullopt);
-  ASSERT_TRUE(check) << check.error().message;
-  EXPECT_LT(angle_between_rad(check->q_icrf_body, in_icrf(kFound)), 1e-12);
-  EXPECT_NEAR(check->chance, 1.0, 1e-9);
+  const auto check =
+      value_or_throw(launcher_check(told, found(in_icrf(kFound), 0.5), std::nullopt));
+  EXPECT_LT(angle_between_rad(check.q_icrf_body, in_icrf(kFound)), 1e-12);
+  EXPECT_NEAR(check.chance, 1.0, 1e-9);
 }
 
 TEST(LauncherCheck, SaysWhatItLacks) {
   const auto attitude = found(in_icrf(kFound), 0.5);
-  const auto no_orbit = launcher_check({InOrbitFrame{kTold}, 0.01}, attitude, std::nullopt);
-  ASSERT_FALSE(no_orbit);
-  EXPECT_EQ(no_orbit.error().code, ErrorCode::Unobservable);
-  EXPECT_THAT(no_orbit.error().message, HasSubstr("no orbit is known"));
+  EXPECT_THAT(launcher_check({InOrbitFrame{kTold}, 0.01}, attitude, std::nullopt),
+              IsRefused(ErrorCode::Unobservable, HasSubstr("no orbit is known")));
   for (const double sigma_rad : {0.0, -0.01, std::numeric_limits<double>::quiet_NaN()}) {
-    const auto no_sigma = launcher_check({InOrbitFrame{kTold}, sigma_rad}, attitude, kOrbit);
-    ASSERT_FALSE(no_sigma);
-    EXPECT_EQ(no_sigma.error().code, ErrorCode::InvalidConfiguration);
+    EXPECT_THAT(launcher_check({InOrbitFrame{kTold}, sigma_rad}, attitude, kOrbit),
+                IsRefused(ErrorCode::InvalidConfiguration, _));
   }
 }
 

@@ -1,8 +1,5 @@
 #include "pipelines/reconstruction/separation_record.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <chrono>
 #include <tuple>
@@ -11,14 +8,13 @@
 
 #include "pipelines/reconstruction/observations.h"
 #include "pipelines/reconstruction/reconstruct.h"
+#include "tests/support/matchers.h"
 #include "tests/support/separation_flight.h"
 
 namespace spindrift::separation_record_test {
 
 using namespace std::chrono_literals;
-using ::testing::ElementsAre;
 using testing::FlightPlan;
-using ::testing::IsEmpty;
 using testing::separation_flight;
 using testing::SeparationFlight;
 
@@ -47,15 +43,10 @@ class SeparationRecordTest : public ::testing::Test {
   }
   /// Returns the times at which a solution is due, s after T1.
   std::vector<double> due_at_s(const std::vector<AnySample>& arrivals) {
-    SeparationRecord record{{.sensors = flight_.sensors,
-                             .times = times_,
-                             .gyro = {},
-                             .sun_directions = {},
-                             .star_fixes = {},
-                             .orbit = flight_.orbit}};
+    SeparationRecord record = empty();
     std::vector<double> due;
     for (const AnySample& sample : arrivals) {
-      if (std::visit([&](const auto& is) { return record.push(is); }, sample)) {
+      if (push(sample, record)) {
         due.push_back(seconds_between(times_.separation, time_of(sample)));
         due_requests_.push_back(record.request());
       }
@@ -67,7 +58,8 @@ class SeparationRecordTest : public ::testing::Test {
                              .times = times_,
                              .gyro = {},
                              .sun_directions = {},
-                             .star_fixes = {}}};
+                             .star_fixes = {},
+                             .orbit = flight_.orbit}};
   }
   static bool push(const AnySample& sample, SeparationRecord& record) {
     return std::visit([&](const auto& is) { return record.push(is); }, sample);
@@ -80,12 +72,7 @@ class SeparationRecordTest : public ::testing::Test {
 };
 
 TEST_F(SeparationRecordTest, ForgetsWhatAnOperatorLeavesOutAndIsDueOnceASolutionRestedOnIt) {
-  SeparationRecord record{{.sensors = flight_.sensors,
-                           .times = times_,
-                           .gyro = {},
-                           .sun_directions = {},
-                           .star_fixes = {},
-                           .orbit = flight_.orbit}};
+  SeparationRecord record = empty();
   Exclusions<SampleKind> excluded;
   excluded.add(at(0.0), ExcludeSegment<SampleKind>{
                             .from = at(0.0), .to = at(250.0), .channel = SampleKind::Gyro});
@@ -94,7 +81,7 @@ TEST_F(SeparationRecordTest, ForgetsWhatAnOperatorLeavesOutAndIsDueOnceASolution
     if (!was_due) {
       EXPECT_FALSE(record.forget(excluded));
     }
-    was_due = std::visit([&](const auto& is) { return record.push(is); }, sample) || was_due;
+    was_due = push(sample, record) || was_due;
   }
   ASSERT_TRUE(was_due);
   EXPECT_FALSE(record.forget(excluded));
@@ -132,12 +119,7 @@ TEST_F(SeparationRecordTest, OfContradictingSamplesNoneCountsUnlessOneIsPreferre
 }
 
 TEST_F(SeparationRecordTest, AnotherSolutionIsDueWhereOneRestedOnWhatIsContradicted) {
-  SeparationRecord record{{.sensors = flight_.sensors,
-                           .times = times_,
-                           .gyro = {},
-                           .sun_directions = {},
-                           .star_fixes = {},
-                           .orbit = flight_.orbit}};
+  SeparationRecord record = empty();
   bool was_due = false;
   for (const AnySample& sample : samples_of(flight_)) {
     was_due = push(sample, record) || was_due;

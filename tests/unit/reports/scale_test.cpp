@@ -1,14 +1,11 @@
 #include "services/reports/scale.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
+#include "tests/support/matchers.h"
 
 namespace spindrift::plot {
 namespace {
 
 using ::testing::DoubleNear;
-using ::testing::ElementsAre;
-using ::testing::IsEmpty;
 
 TEST(Scale, PutsValuesInProportion) {
   const Scale linear = Scale::linear(10.0, 20.0, 100.0, 300.0);

@@ -1,18 +1,14 @@
 #include "services/reports/separation_plot.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include "pipelines/frames/rotation_vector.h"
 #include "tests/support/made_separation.h"
+#include "tests/support/matchers.h"
 #include "tests/support/well_formed.h"
 
 namespace spindrift::separation_plot_test {
 
-using ::testing::HasSubstr;
 using testing::made_report;
 using testing::made_separation;
-using ::testing::Not;
 using testing::xml_problem;
 
 int count_of(const std::string& text, const std::string& part) {

@@ -1,16 +1,12 @@
 #include "services/reports/separation_text.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include "tests/support/made_separation.h"
+#include "tests/support/matchers.h"
 
 namespace spindrift::separation_text_test {
 
-using ::testing::HasSubstr;
 using testing::made_report;
 using testing::made_separation;
-using ::testing::Not;
 
 /// Returns the text of a report with `batch` alone after a change.
 template <class Change>

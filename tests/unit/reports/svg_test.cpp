@@ -1,16 +1,12 @@
 #include "services/reports/svg.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include <array>
 
+#include "tests/support/matchers.h"
 #include "tests/support/well_formed.h"
 
 namespace spindrift::plot {
 namespace {
-
-using ::testing::HasSubstr;
 
 TEST(Svg, IsWellFormedWhateverTheText) {
   Svg svg;

@@ -1,8 +1,6 @@
 #include "services/serving/action_inbox.h"
 
 #include <fmt/format.h>
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <chrono>
 #include <cstddef>
@@ -11,12 +9,10 @@
 #include <vector>
 
 #include "services/archive/archive.h"
+#include "tests/support/matchers.h"
 #include "tests/support/temporary_folder.h"
 
 namespace spindrift::action_inbox_test {
-namespace {
-
-using ::testing::HasSubstr;
 
 constexpr std::size_t kMost = StoredActions::kMostAwaited;
 
@@ -62,5 +58,4 @@ TEST(StoredActions, WaitForOneUntilItIsStored) {
   EXPECT_TRUE(stored.wait("action", std::chrono::seconds{0}));
 }
 
-}  // namespace
 }  // namespace spindrift::action_inbox_test

@@ -17,54 +17,58 @@ ArchiveBatch batch(const std::string& source, std::uint64_t session, double from
   return batch;
 }
 
-TEST(SessionWatch, CountsSessionsAndWhatTheyBringAgain) {
-  SessionWatch sessions;
-  sessions.note(batch("front-end", 1, 0.0, 10));
-  SourceRecord record = sessions.report("SPINNER", {}).at("front-end");
-  EXPECT_EQ(record.restarts, 0);
-  EXPECT_EQ(record.repeated, 0);
-  sessions.note(batch("front-end", 2, 5.0, 10));
-  record = sessions.report("SPINNER", {}).at("front-end");
-  EXPECT_EQ(record.restarts, 1);
-  EXPECT_EQ(record.repeated, 5);
-  EXPECT_EQ(sessions.samples(), 20U);
-  EXPECT_TRUE(sessions.report("OTHER", {}).empty());
+LastOrigins front_end_before() {
+  LastOrigins origins;
+  origins[kTelemetryKind<Pulse>] = {{.source = "front-end", .session = 1, .seq = 9}};
+  return origins;
 }
 
-TEST(SessionWatch, DoesNotTakeTwoThatSendTheSameForRepetition) {
-  SessionWatch sessions;
-  sessions.note(batch("front-end", 1, 0.0, 10));
-  for (int i = 10; i < 20; ++i) {
-    sessions.note(batch("front-end", 1, i, 1));
-    sessions.note(batch("standby", 7, i, 1));
+class SessionWatchTest : public ::testing::Test {
+ protected:
+  /// Expects how often the front-end restarted and how many samples it repeated.
+  void expect_counts(std::int64_t restarts, std::int64_t repeated) const {
+    const SourceRecord record = sessions_.report("SPINNER", {}).at("front-end");
+    EXPECT_EQ(record.restarts, restarts);
+    EXPECT_EQ(record.repeated, repeated);
   }
-  EXPECT_EQ(sessions.report("SPINNER", {}).at("standby").repeated, 1);
-  EXPECT_EQ(sessions.report("SPINNER", {}).at("front-end").restarts, 0);
+
+  SessionWatch sessions_;
+};
+
+TEST_F(SessionWatchTest, CountsSessionsAndWhatTheyBringAgain) {
+  sessions_.note(batch("front-end", 1, 0.0, 10));
+  expect_counts(0, 0);
+  sessions_.note(batch("front-end", 2, 5.0, 10));
+  expect_counts(1, 5);
+  EXPECT_EQ(sessions_.samples(), 20U);
+  EXPECT_TRUE(sessions_.report("OTHER", {}).empty());
 }
 
-TEST(SessionWatch, TellsOfAGapTheSpacecraftThatTheSourceBrings) {
-  SessionWatch sessions;
-  LastOrigins origins;
-  origins[kTelemetryKind<Pulse>] = {{.source = "front-end", .session = 1, .seq = 9}};
-  sessions.go_on("OTHER", origins, at(9.0));
-  sessions.note(batch("front-end", 1, 0.0, 10));
+TEST_F(SessionWatchTest, DoesNotTakeTwoThatSendTheSameForRepetition) {
+  sessions_.note(batch("front-end", 1, 0.0, 10));
+  for (int i = 10; i < 20; ++i) {
+    sessions_.note(batch("front-end", 1, i, 1));
+    sessions_.note(batch("standby", 7, i, 1));
+  }
+  EXPECT_EQ(sessions_.report("SPINNER", {}).at("standby").repeated, 1);
+  EXPECT_EQ(sessions_.report("SPINNER", {}).at("front-end").restarts, 0);
+}
+
+TEST_F(SessionWatchTest, TellsOfAGapTheSpacecraftThatTheSourceBrings) {
+  sessions_.go_on("OTHER", front_end_before(), at(9.0));
+  sessions_.note(batch("front-end", 1, 0.0, 10));
   const std::map<std::string, std::uint64_t> missing{{"front-end", 3}, {"of-others", 5}};
-  EXPECT_EQ(sessions.report("SPINNER", missing).size(), 1U);
-  EXPECT_EQ(sessions.report("SPINNER", missing).at("front-end").missing, 3);
-  EXPECT_EQ(sessions.report("OTHER", missing).at("front-end").missing, 0);
+  EXPECT_EQ(sessions_.report("SPINNER", missing).size(), 1U);
+  EXPECT_EQ(sessions_.report("SPINNER", missing).at("front-end").missing, 3);
+  EXPECT_EQ(sessions_.report("OTHER", missing).at("front-end").missing, 0);
 }
 
-TEST(SessionWatch, KnowsTheSessionsOfBeforeARestart) {
-  SessionWatch sessions;
-  LastOrigins origins;
-  origins[kTelemetryKind<Pulse>] = {{.source = "front-end", .session = 1, .seq = 9}};
-  sessions.go_on("SPINNER", origins, at(9.0));
-  sessions.note(batch("front-end", 1, 5.0, 10));
-  EXPECT_EQ(sessions.report("SPINNER", {}).at("front-end").restarts, 0);
-  EXPECT_EQ(sessions.report("SPINNER", {}).at("front-end").repeated, 0);
-  sessions.note(batch("front-end", 2, 5.0, 10));
-  EXPECT_EQ(sessions.report("SPINNER", {}).at("front-end").restarts, 1);
-  EXPECT_EQ(sessions.report("SPINNER", {}).at("front-end").repeated, 10);
+TEST_F(SessionWatchTest, KnowsTheSessionsOfBeforeARestart) {
+  sessions_.go_on("SPINNER", front_end_before(), at(9.0));
+  sessions_.note(batch("front-end", 1, 5.0, 10));
+  expect_counts(0, 0);
+  sessions_.note(batch("front-end", 2, 5.0, 10));
+  expect_counts(1, 10);
 }
 
 }  // namespace spindrift::session_watch_test

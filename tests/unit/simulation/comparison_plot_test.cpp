@@ -1,16 +1,10 @@
 #include "services/simulation/comparison_plot.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include "services/simulation/comparison_text.h"
+#include "tests/support/matchers.h"
 #include "tests/support/well_formed.h"
 
 namespace spindrift::comparison_plot_test {
-
-using ::testing::AllOf;
-using ::testing::HasSubstr;
-using ::testing::Not;
 
 constexpr TaiTime kStart = tai_from_ns(1'772'337'637'000'000'000);
 

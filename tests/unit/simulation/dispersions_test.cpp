@@ -1,14 +1,12 @@
 #include "services/simulation/dispersions.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include <cmath>
 #include <string>
 #include <variant>
 
 #include "services/mission/values.h"
 #include "services/simulation/scenario.h"
+#include "tests/support/matchers.h"
 #include "tests/support/scenario_text.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/test_paths.h"
@@ -16,10 +14,7 @@
 
 namespace spindrift::dispersions_test {
 
-using ::testing::AllOf;
 using testing::error_of;
-using ::testing::HasSubstr;
-using ::testing::Not;
 using testing::replaced;
 
 const std::string kDispersed = text_of(scenarios() / "tumbling.toml") + R"(
@@ -76,10 +71,9 @@ TEST(Dispersions, HaveTheSpreadThatIsAsked) {
 TEST(Dispersions, DoNotChangeTheScenarioAsItStands) {
   const auto alone = testing::loaded(text_of(scenarios() / "tumbling.toml"));
   const auto with = testing::loaded(kDispersed);
-  ASSERT_TRUE(with) << with.error().message;
-  EXPECT_EQ(std::get<TumblingScenario>(with->flight).truth.body.at_start.rate_body_rad_s,
-            std::get<TumblingScenario>(alone->flight).truth.body.at_start.rate_body_rad_s);
-  EXPECT_EQ(with->mission_toml, alone->mission_toml);
+  EXPECT_EQ(std::get<TumblingScenario>(with.flight).truth.body.at_start.rate_body_rad_s,
+            std::get<TumblingScenario>(alone.flight).truth.body.at_start.rate_body_rad_s);
+  EXPECT_EQ(with.mission_toml, alone.mission_toml);
 }
 
 TEST(Dispersions, OfWhatHoldsNoNumberAreRefused) {

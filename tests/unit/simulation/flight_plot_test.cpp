@@ -1,17 +1,11 @@
 #include "services/simulation/flight_plot.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include "services/simulation/loop_plot.h"
+#include "tests/support/matchers.h"
 #include "tests/support/test_paths.h"
 #include "tests/support/well_formed.h"
 
 namespace spindrift::flight_plot_test {
-
-using ::testing::AllOf;
-using ::testing::HasSubstr;
-using ::testing::Not;
 
 Scenario loaded(const char* name) { return load_scenario(scenarios() / name).value(); }
 

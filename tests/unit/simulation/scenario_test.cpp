@@ -1,9 +1,5 @@
 #include "services/simulation/scenario.h"
 
-#include <fmt/format.h>
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <chrono>
 #include <numbers>
@@ -18,15 +14,13 @@
 #include "services/simulation/pass_files.h"
 #include "services/simulation/scenario_schema.h"
 #include "services/simulation/simulated_pass.h"
+#include "tests/support/matchers.h"
+#include "tests/support/outcome.h"
 #include "tests/support/scenario_text.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/test_paths.h"
 
 namespace spindrift::scenario_test {
-
-using ::testing::AllOf;
-using ::testing::HasSubstr;
-using ::testing::Not;
 
 const std::filesystem::path kScenarios = scenarios();
 
@@ -72,11 +66,12 @@ co2_altitude_km = 40.0
 const std::string kWhole = kSpacecraft + kOrbit + kPass + kAttitude + kSensors;
 
 using testing::error_of;
+using testing::expect_problems;
 using testing::loaded;
 using testing::replaced;
 
-const SpinScenario& spin(const Expected<Scenario>& scenario) {
-  return std::get<SpinScenario>(scenario->flight);
+const SpinScenario& spin(const Scenario& scenario) {
+  return std::get<SpinScenario>(scenario.flight);
 }
 
 std::string truth_text(const Scenario& scenario) {
@@ -87,9 +82,8 @@ TEST(Scenario, SchemasOfTheProgramAreSound) {
   for (const auto& [kind, tables] :
        {std::pair{ScenarioKind::Spin, 9U}, std::pair{ScenarioKind::Separation, 12U},
         std::pair{ScenarioKind::Tumbling, 11U}, std::pair{ScenarioKind::Orientation, 13U}}) {
-    const auto schema = scenario_schema(kind);
-    ASSERT_TRUE(schema) << schema.error().message;
-    EXPECT_EQ(schema->tables.size(), tables);
+    const auto schema = value_or_throw(scenario_schema(kind));
+    EXPECT_EQ(schema.tables.size(), tables);
   }
 }
 
@@ -108,8 +102,7 @@ TEST(Scenario, LoadsThoseThatComeWithTheProgram) {
 
 TEST(Scenario, TakesWhatIsLeftOutAsTheMissionFileHasIt) {
   const auto scenario = loaded(kWhole);
-  ASSERT_TRUE(scenario) << scenario.error().message;
-  EXPECT_EQ(scenario->start, parse_utc("2026-11-20T03:00:00Z").value());
+  EXPECT_EQ(scenario.start, parse_utc("2026-11-20T03:00:00Z").value());
   EXPECT_DOUBLE_EQ(spin(scenario).truth.motion.rate_rad_s, 2.0 * std::numbers::pi);
   EXPECT_EQ(spin(scenario).truth.motion.rate_drift_rad_s2, 0.0);
   EXPECT_LT(angle_between_rad(spin(scenario).truth.motion.axis_icrf,
@@ -141,7 +134,6 @@ sun_pulse_s = 0
 model = "ellipsoid"
 co2_altitude_km = 30
 )");
-  ASSERT_TRUE(scenario) << scenario.error().message;
   const SpinTruth& truth = spin(scenario).truth;
   EXPECT_DOUBLE_EQ(truth.sun_sensor.slit_cant_rad, 45.5 * kRadPerDeg);
   EXPECT_DOUBLE_EQ(truth.sun_sensor.slit_separation_rad, 34.75 * kRadPerDeg);
@@ -153,15 +145,14 @@ co2_altitude_km = 30
   EXPECT_EQ(spin(scenario).link.noise.infrared_s, 5e-4);
   EXPECT_DOUBLE_EQ(truth.horizon.equatorial_km, 6408.137);
   EXPECT_DOUBLE_EQ(truth.horizon.polar_km, 6386.752314245);
-  EXPECT_THAT(scenario->mission_toml, AllOf(HasSubstr("'sphere'"), Not(HasSubstr("truth"))));
+  EXPECT_THAT(scenario.mission_toml, AllOf(HasSubstr("'sphere'"), Not(HasSubstr("truth"))));
 }
 
 TEST(Scenario, NutatesAndConesWhereItSaysSo) {
   const auto steady = loaded(kWhole);
-  ASSERT_TRUE(steady) << steady.error().message;
   EXPECT_EQ(spin(steady).truth.motion.nutation.half_angle_rad, 0.0);
   EXPECT_EQ(spin(steady).truth.motion.coning.tilt_rad, 0.0);
-  EXPECT_THAT(truth_text(*steady), AllOf(Not(HasSubstr("nutation")), Not(HasSubstr("coning"))));
+  EXPECT_THAT(truth_text(steady), AllOf(Not(HasSubstr("nutation")), Not(HasSubstr("coning"))));
 
   const auto wobbling = loaded(replaced(kWhole, "rate_rpm = 60.0\n", R"(rate_rpm = 60.0
 [attitude.nutation]
@@ -171,7 +162,6 @@ phase_deg = 30.0
 [attitude.coning]
 tilt_deg = 0.5
 )"));
-  ASSERT_TRUE(wobbling) << wobbling.error().message;
   const SpinMotion& motion = spin(wobbling).truth.motion;
   EXPECT_DOUBLE_EQ(motion.nutation.half_angle_rad, 0.2 * kRadPerDeg);
   EXPECT_EQ(motion.nutation.inertia_ratio, 0.4);
@@ -179,7 +169,7 @@ tilt_deg = 0.5
   EXPECT_DOUBLE_EQ(motion.coning.tilt_rad, 0.5 * kRadPerDeg);
   EXPECT_EQ(motion.coning.azimuth_rad, 0.0);
   // At 60 rpm the period is 1/0.4 s, less a second-order term of the half-angle.
-  EXPECT_THAT(truth_text(*wobbling),
+  EXPECT_THAT(truth_text(wobbling),
               AllOf(HasSubstr("\"period_s\": 2.49999"), HasSubstr("\"tilt_deg\": 0.5")));
 
   const std::string error = error_of(replaced(
@@ -204,7 +194,6 @@ to_s = 2
 from_s = 5
 to_s = 5.5
 )");
-  ASSERT_TRUE(scenario) << scenario.error().message;
   const auto& channels = spin(scenario).link.channels;
   EXPECT_EQ(channels.at(index_of(PulseChannel::Sun1)).lost, 0.05);
   EXPECT_EQ(channels.at(index_of(PulseChannel::NorthIn)).lost, 0.5);
@@ -221,20 +210,17 @@ TEST(Scenario, WritesAMissionFileThatSaysTheSame) {
   const TemporaryFolder folder;
   const auto scenario = loaded(replaced(kWhole, "SPINNER", "A\\\"B 'C") +
                                "[spin.prior]\nra_deg = 101\ndec_deg = -54.3\nsigma_deg = 5\n");
-  ASSERT_TRUE(scenario) << scenario.error().message;
-  const auto pass = simulated_pass(*scenario);
-  ASSERT_TRUE(pass) << pass.error().message;
-  ASSERT_TRUE(write_pass(folder.path(), *scenario, *pass));
+  const auto pass = value_or_throw(simulated_pass(scenario));
+  ASSERT_TRUE(write_pass(folder.path(), scenario, pass));
 
-  const auto mission = load_mission(folder.path() / "mission.toml");
-  ASSERT_TRUE(mission) << mission.error().message;
-  EXPECT_EQ(mission->spacecraft_id, "A\"B 'C");
-  EXPECT_EQ(mission->spin()->noise.infrared_s, 5e-4);
-  EXPECT_DOUBLE_EQ(mission->spin()->north->mount_angle_rad, 85.0 * kRadPerDeg);
-  EXPECT_DOUBLE_EQ(mission->spin()->prior->sigma_rad, 5.0 * kRadPerDeg);
-  const TaiTime t = shifted(scenario->start, 7.5);
-  EXPECT_LT((mission->orbit->at(t).value().position_icrf_km -
-             scenario->orbit.at(t).value().position_icrf_km)
+  const auto mission = value_or_throw(load_mission(folder.path() / "mission.toml"));
+  EXPECT_EQ(mission.spacecraft_id, "A\"B 'C");
+  EXPECT_EQ(mission.spin()->noise.infrared_s, 5e-4);
+  EXPECT_DOUBLE_EQ(mission.spin()->north->mount_angle_rad, 85.0 * kRadPerDeg);
+  EXPECT_DOUBLE_EQ(mission.spin()->prior->sigma_rad, 5.0 * kRadPerDeg);
+  const TaiTime t = shifted(scenario.start, 7.5);
+  EXPECT_LT((mission.orbit->at(t).value().position_icrf_km -
+             scenario.orbit.at(t).value().position_icrf_km)
                 .norm(),
             1e-6);
 }
@@ -251,53 +237,52 @@ TEST(Scenario, ReportsTenMistakesAtOnce) {
   text = replaced(text, "slit_cant_deg = 45.0", "slit_cant_deg = \"steep\"");
   text += "[faults]\nlost = 1.5\nspoilt_min_s = 0.5\n[faults.channel.sun3]\ndead = true\n";
   text += "[truth.noise]\nsun_pulse_s = nan\n[telemetry]\nkind = \"smoke\"\n";
-  const std::string error = error_of(text);
-  for (const char* const problem :
-       {"scenario.toml:3: spacecraft.kind = 'spinning': must be one of \"spin\", \"three_axis\"",
-        "orbit.elements.e = 1.5: must lie in [0, 0.99]",
-        "pass.duration_s = 0: must lie in (0, 604800] s",
-        "pass.start_utc = \"tomorrow\": ", "attitude.rate_rpm = 0: must lie in [5, 200] rpm",
-        "attitude.right_ascension: unknown", "attitude.model = 'tumbling': must be one of \"spin\"",
-        "spin.sun_sensor.slit_cant_deg = 'steep': must be a number in [1, 89] deg",
-        "faults.lost = 1.5: must lie in [0, 1]", "must not be below spoilt_min_s = 0.5",
-        "faults.channel.sun3: unknown; did you mean sun", "truth.noise.sun_pulse_s = nan: must lie",
-        "telemetry.kind = 'smoke': must be one of \"pulses\", \"coded\", \"both\""}) {
-    EXPECT_THAT(error, HasSubstr(problem));
-  }
+  expect_problems(
+      text,
+      {"scenario.toml:3: spacecraft.kind = 'spinning': must be one of \"spin\", \"three_axis\"",
+       "orbit.elements.e = 1.5: must lie in [0, 0.99]",
+       "pass.duration_s = 0: must lie in (0, 604800] s",
+       "pass.start_utc = \"tomorrow\": ", "attitude.rate_rpm = 0: must lie in [5, 200] rpm",
+       "attitude.right_ascension: unknown", "attitude.model = 'tumbling': must be one of \"spin\"",
+       "spin.sun_sensor.slit_cant_deg = 'steep': must be a number in [1, 89] deg",
+       "faults.lost = 1.5: must lie in [0, 1]", "must not be below spoilt_min_s = 0.5",
+       "faults.channel.sun3: unknown; did you mean sun", "truth.noise.sun_pulse_s = nan: must lie",
+       "telemetry.kind = 'smoke': must be one of \"pulses\", \"coded\", \"both\""});
 }
 
 TEST(Scenario, RefusesWhatTheSchemaAloneCannotSee) {
-  EXPECT_THAT(error_of(kWhole + "[truth.ir.south]\nmount_angle_offset_deg = 10\n"), "no error");
-  EXPECT_THAT(error_of(replaced(kWhole, "mount_angle_deg = 95.0", "mount_angle_deg = 175.0") +
-                       "[truth.ir.south]\nmount_angle_offset_deg = 5\n"),
-              HasSubstr("truth.ir.south.mount_angle_offset_deg = 5: with "
-                        "spin.ir.south.mount_angle_deg = 175 must lie in (0, 180) deg"));
-  EXPECT_THAT(
-      error_of(replaced(kWhole, "[spin.ir.south]\nmount_angle_deg = 95.0\nazimuth_deg = 92.0\n",
-                        "[truth.ir.south]\n")),
-      HasSubstr("[truth.ir.south]: there is no [spin.ir.south]"));
-  EXPECT_THAT(
-      error_of(replaced(kWhole, "rate_rpm = 60.0", "rate_rpm = 6.0\nrate_drift_rpm_h = -1000.0")),
-      HasSubstr("the rate ends at 0.444 rpm: must lie in [5, 200] rpm"));
-  EXPECT_THAT(
-      error_of(replaced(kWhole, "duration_s", "start_tai_ns = 1795143637000000000\nduration_s")),
-      HasSubstr("pass: must have exactly one of start_utc, start_tai_ns, has 2"));
-  EXPECT_THAT(error_of(replaced(kWhole, "2026-11-20", "2126-11-20")),
-              HasSubstr("pass.start_utc = \"2126-11-20T03:00:00Z\": must lie in [1972-01-01T"));
-  EXPECT_THAT(error_of(kWhole + "[faults]\nsilence = 3\n"),
-              HasSubstr("faults.silence = 3: must be an array of tables, [[faults.silence]]"));
-  EXPECT_THAT(error_of(kWhole + "[[faults.silence]]\nfrom_s = 3\nto_s = 2\nwhy = 1\n"),
-              AllOf(HasSubstr("faults.silence[0].to_s = 2: must not be below from_s = 3"),
-                    HasSubstr("faults.silence[0].why: unknown")));
+  const std::vector<std::pair<std::string, std::string>> cases = {
+      {kWhole + "[truth.ir.south]\nmount_angle_offset_deg = 10\n", "no error"},
+      {replaced(kWhole, "mount_angle_deg = 95.0", "mount_angle_deg = 175.0") +
+           "[truth.ir.south]\nmount_angle_offset_deg = 5\n",
+       "truth.ir.south.mount_angle_offset_deg = 5: with spin.ir.south.mount_angle_deg = 175 must "
+       "lie in (0, 180) deg"},
+      {replaced(kWhole, "[spin.ir.south]\nmount_angle_deg = 95.0\nazimuth_deg = 92.0\n",
+                "[truth.ir.south]\n"),
+       "[truth.ir.south]: there is no [spin.ir.south]"},
+      {replaced(kWhole, "rate_rpm = 60.0", "rate_rpm = 6.0\nrate_drift_rpm_h = -1000.0"),
+       "the rate ends at 0.444 rpm: must lie in [5, 200] rpm"},
+      {replaced(kWhole, "duration_s", "start_tai_ns = 1795143637000000000\nduration_s"),
+       "pass: must have exactly one of start_utc, start_tai_ns, has 2"},
+      {replaced(kWhole, "2026-11-20", "2126-11-20"),
+       "pass.start_utc = \"2126-11-20T03:00:00Z\": must lie in [1972-01-01T"},
+      {kWhole + "[faults]\nsilence = 3\n",
+       "faults.silence = 3: must be an array of tables, [[faults.silence]]"},
+      {kWhole + "[[faults.silence]]\nfrom_s = 3\nto_s = 2\n",
+       "faults.silence[0].to_s = 2: must not be below from_s = 3"},
+      {kWhole + "[[faults.silence]]\nfrom_s = 3\nto_s = 2\nwhy = 1\n",
+       "faults.silence[0].why: unknown"}};
+  for (const auto& [text, problem] : cases) {
+    EXPECT_THAT(error_of(text), HasSubstr(problem));
+  }
 }
 
 TEST(Scenario, RefusesAnOrbitFileThatEndsTooEarlyAndSaysByHowMuch) {
   const TemporaryFolder folder;
   const auto elements = loaded(replaced(kWhole, "duration_s = 20.0", "duration_s = 600.0"));
-  ASSERT_TRUE(elements);
-  const auto pass = simulated_pass(*elements);
+  const auto pass = simulated_pass(elements);
   ASSERT_TRUE(pass);
-  ASSERT_TRUE(write_pass(folder.path(), *elements, *pass));
+  ASSERT_TRUE(write_pass(folder.path(), elements, *pass));
   // The orbit ends a day and a half after the pass.
   const std::string from_file = replaced(kWhole, kOrbit, "[orbit]\noem = \"orbit.oem\"\n");
   EXPECT_TRUE(load_scenario(folder.write("good.toml", from_file)));
@@ -317,9 +302,8 @@ TEST(Scenario, TakesTheOrbitFileOverAsItIs) {
   std::filesystem::copy(gms5, folder.path() / "gms5.oem");
   const std::string text = replaced(replaced(kWhole, kOrbit, "[orbit]\noem = \"gms5.oem\"\n"),
                                     "2026-11-20T03:00:00Z", "1996-02-17T23:30:00Z");
-  const auto scenario = load_scenario(folder.write("scenario.toml", text));
-  ASSERT_TRUE(scenario) << scenario.error().message;
-  ASSERT_TRUE(write_pass(folder.path() / "pass", *scenario, simulated_pass(*scenario).value()));
+  const auto scenario = value_or_throw(load_scenario(folder.write("scenario.toml", text)));
+  ASSERT_TRUE(write_pass(folder.path() / "pass", scenario, simulated_pass(scenario).value()));
   EXPECT_EQ(read_text_file(folder.path() / "pass" / "orbit.oem").value(),
             read_text_file(gms5).value());
 }
@@ -355,7 +339,7 @@ TEST(Scenario, MovesItsOrbitWithItsStart) {
 
 TEST(Scenario, WritesTheOrbitOfThePassWhereItsFileGoesOnBehindAHole) {
   const TemporaryFolder folder;
-  const Scenario elements = loaded(kWhole).value();
+  const Scenario elements = loaded(kWhole);
   const auto oem_of = [&](std::chrono::minutes from, std::chrono::minutes to) {
     const auto points = sampled_orbit(elements.orbit, elements.start + from, elements.start + to,
                                       std::chrono::seconds{60});
@@ -371,11 +355,9 @@ TEST(Scenario, RefusesToSimulateBelowTheHorizon) {
   const auto scenario =
       loaded(replaced(replaced(kWhole, "a_km = 24400.0", "a_km = 6500.0"), "e = 0.73", "e = 0.0") +
              "[truth.horizon]\nco2_altitude_km = 200.0\n");
-  ASSERT_TRUE(scenario) << scenario.error().message;
-  const auto pass = simulated_pass(*scenario);
-  ASSERT_FALSE(pass);
-  EXPECT_EQ(pass.error().code, ErrorCode::InvalidConfiguration);
-  EXPECT_THAT(pass.error().message, HasSubstr("must be above the infrared horizon, 6578.137 km"));
+  EXPECT_THAT(simulated_pass(scenario),
+              IsRefused(ErrorCode::InvalidConfiguration,
+                        HasSubstr("must be above the infrared horizon, 6578.137 km")));
 }
 
 }  // namespace spindrift::scenario_test

@@ -1,16 +1,10 @@
 #include "pipelines/supervision/contradiction_conditions.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <string>
 #include <vector>
 
-namespace spindrift::contradiction_conditions_test {
+#include "tests/support/matchers.h"
 
-using ::testing::ElementsAre;
-using ::testing::IsEmpty;
-using ::testing::SizeIs;
+namespace spindrift::contradiction_conditions_test {
 
 constexpr auto kOther = static_cast<Sender>(2);
 

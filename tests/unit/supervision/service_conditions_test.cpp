@@ -42,13 +42,15 @@ struct Supervised {
     }
   }
   /// @param spoil Changes the state of each second.
+  /// @return What is raised then.
   template <class Spoil>
-  void see(int from_s, int to_s, const Spoil& spoil) {
+  const std::map<std::string, std::string_view>& see(int from_s, int to_s, const Spoil& spoil) {
     for (int t_s = from_s; t_s < to_s; ++t_s) {
       ServiceState one = state(t_s);
       spoil(one, t_s);
       see(one);
     }
+    return raised;
   }
 };
 
@@ -56,88 +58,70 @@ using Raised = std::map<std::string, std::string_view>;
 const auto kWell = [](ServiceState& /*state*/, int /*t_s*/) {};
 const auto kSilentFrom10 = [](ServiceState& one, int t_s) { one.silent_s = t_s - 10.0; };
 
-TEST(ServiceConditions, RaiseNothingOfAServiceThatIsWell) {
-  Supervised service;
-  service.see(0, 200, kWell);
-  EXPECT_EQ(service.raised, Raised{});
+class ServiceConditionsTest : public ::testing::Test {
+ protected:
+  Supervised service_;
+};
+
+TEST_F(ServiceConditionsTest, RaiseNothingOfAServiceThatIsWell) {
+  EXPECT_EQ(service_.see(0, 200, kWell), Raised{});
 }
 
-TEST(ServiceConditions, RaiseSilenceAndClearItWhenTelemetryIsBack) {
-  Supervised service;
-  service.see(10, 15, kSilentFrom10);
-  EXPECT_EQ(service.raised, Raised{});
-  service.see(15, 16, kSilentFrom10);
-  EXPECT_EQ(service.raised, (Raised{{"link.silent", "warning"}}));
-  service.see(16, 17, [](ServiceState& one, int /*t_s*/) { one.silent_s.reset(); });
-  EXPECT_EQ(service.raised, (Raised{{"link.silent", "warning"}}));
-  service.see(17, 18, kWell);
-  EXPECT_EQ(service.raised, Raised{});
+TEST_F(ServiceConditionsTest, RaiseSilenceAndClearItWhenTelemetryIsBack) {
+  EXPECT_EQ(service_.see(10, 15, kSilentFrom10), Raised{});
+  EXPECT_EQ(service_.see(15, 16, kSilentFrom10), (Raised{{"link.silent", "warning"}}));
+  EXPECT_EQ(service_.see(16, 17, [](auto& one, int /*t_s*/) { one.silent_s.reset(); }),
+            (Raised{{"link.silent", "warning"}}));
+  EXPECT_EQ(service_.see(17, 18, kWell), Raised{});
 }
 
-TEST(ServiceConditions, ExpectTelemetryWithinAPlannedContactOnly) {
+TEST_F(ServiceConditionsTest, ExpectTelemetryWithinAPlannedContactOnly) {
   Supervised service{Contact{.from = at(100.0), .to = at(200.0)}};
-  service.see(10, 104, kSilentFrom10);
-  EXPECT_EQ(service.raised, Raised{});
-  service.see(104, 106, kSilentFrom10);
-  EXPECT_EQ(service.raised, (Raised{{"link.silent", "critical"}}));
-  service.see(106, 200, kSilentFrom10);
-  EXPECT_EQ(service.raised.size(), 1U);
-  service.see(200, 202, kSilentFrom10);
-  EXPECT_EQ(service.raised, Raised{});
+  EXPECT_EQ(service.see(10, 104, kSilentFrom10), Raised{});
+  EXPECT_EQ(service.see(104, 106, kSilentFrom10), (Raised{{"link.silent", "critical"}}));
+  EXPECT_EQ(service.see(106, 200, kSilentFrom10).size(), 1U);
+  EXPECT_EQ(service.see(200, 202, kSilentFrom10), Raised{});
 }
 
-TEST(ServiceConditions, RaiseTelemetryThatIsLateOrAhead) {
-  Supervised service;
-  service.see(0, 2, [](ServiceState& one, int /*t_s*/) { one.late_s = 12.0; });
-  EXPECT_EQ(service.raised, Raised{});
-  service.see(2, 4, [](ServiceState& one, int /*t_s*/) { one.late_s = 12.0; });
-  EXPECT_EQ(service.raised, (Raised{{"link.late", "warning"}}));
-  service.see(4, 8, [](ServiceState& one, int /*t_s*/) { one.late_s = -12.0; });
-  EXPECT_EQ(service.raised, (Raised{{"link.ahead", "warning"}}));
-  service.see(8, 12, [](ServiceState& one, int /*t_s*/) { one.late_s.reset(); });
-  EXPECT_EQ(service.raised.size(), 1U);
+TEST_F(ServiceConditionsTest, RaiseTelemetryThatIsLateOrAhead) {
+  EXPECT_EQ(service_.see(0, 2, [](auto& one, int /*t_s*/) { one.late_s = 12.0; }), Raised{});
+  EXPECT_EQ(service_.see(2, 4, [](auto& one, int /*t_s*/) { one.late_s = 12.0; }),
+            (Raised{{"link.late", "warning"}}));
+  EXPECT_EQ(service_.see(4, 8, [](auto& one, int /*t_s*/) { one.late_s = -12.0; }),
+            (Raised{{"link.ahead", "warning"}}));
+  EXPECT_EQ(service_.see(8, 12, [](auto& one, int /*t_s*/) { one.late_s.reset(); }).size(), 1U);
 }
 
-TEST(ServiceConditions, RaiseWhatASourceDidWithinTheLastMinute) {
-  Supervised service;
+TEST_F(ServiceConditionsTest, RaiseWhatASourceDidWithinTheLastMinute) {
   const auto did = [](ServiceState& one, int t_s) {
     if (t_s >= 10) {
       one.sources["front-end"] = {.missing = 1, .restarts = 1, .repeated = 100};
     }
   };
-  service.see(0, 11, did);
-  EXPECT_EQ(service.raised, (Raised{{"link.gap:front-end", "warning"},
-                                    {"link.repeated:front-end", "info"},
-                                    {"link.restarted:front-end", "info"}}));
-  service.see(11, 70, did);
-  EXPECT_EQ(service.raised.size(), 3U);
-  service.see(70, 71, did);
-  EXPECT_EQ(service.raised, Raised{});
+  EXPECT_EQ(service_.see(0, 11, did), (Raised{{"link.gap:front-end", "warning"},
+                                              {"link.repeated:front-end", "info"},
+                                              {"link.restarted:front-end", "info"}}));
+  EXPECT_EQ(service_.see(11, 70, did).size(), 3U);
+  EXPECT_EQ(service_.see(70, 71, did), Raised{});
 }
 
-TEST(ServiceConditions, ClearAGapThatIsFilled) {
-  Supervised service;
+TEST_F(ServiceConditionsTest, ClearAGapThatIsFilled) {
   const auto is_missing = [](ServiceState& one, int t_s) {
     one.sources["front-end"].missing = t_s < 10 ? 3 : 0;
   };
-  service.see(0, 10, is_missing);
-  EXPECT_EQ(service.raised.size(), 1U);
-  service.see(10, 11, is_missing);
-  EXPECT_EQ(service.raised, Raised{});
+  EXPECT_EQ(service_.see(0, 10, is_missing).size(), 1U);
+  EXPECT_EQ(service_.see(10, 11, is_missing), Raised{});
 }
 
-TEST(ServiceConditions, RaiseTheShareOfImpossibleSamples) {
-  Supervised service;
-  service.see(0, 100, kWell);
-  service.see(100, 101, [](ServiceState& one, int /*t_s*/) { one.rejected = 3; });
-  EXPECT_EQ(service.raised, Raised{});
-  service.see(101, 102, [](ServiceState& one, int /*t_s*/) { one.rejected = 4; });
-  EXPECT_EQ(service.raised, (Raised{{"link.rejected", "warning"}}));
+TEST_F(ServiceConditionsTest, RaiseTheShareOfImpossibleSamples) {
+  service_.see(0, 100, kWell);
+  EXPECT_EQ(service_.see(100, 101, [](auto& one, int /*t_s*/) { one.rejected = 3; }), Raised{});
+  EXPECT_EQ(service_.see(101, 102, [](auto& one, int /*t_s*/) { one.rejected = 4; }),
+            (Raised{{"link.rejected", "warning"}}));
 }
 
-TEST(ServiceConditions, RaiseWhatIsWrongWithTheServiceAndItsHost) {
-  Supervised service;
-  service.see(0, 1, [](ServiceState& one, int /*t_s*/) {
+TEST_F(ServiceConditionsTest, RaiseWhatIsWrongWithTheServiceAndItsHost) {
+  service_.see(0, 1, [](auto& one, int /*t_s*/) {
     one.other_service = "another";
     one.backlog_s = 10.0;
     one.write_failed = true;
@@ -145,18 +129,16 @@ TEST(ServiceConditions, RaiseWhatIsWrongWithTheServiceAndItsHost) {
     one.clock_step_s = -3600.0;
     one.data_until = {{"orbit", at(3600.0)}, {"leap_seconds", at(0.0)}};
   });
-  EXPECT_EQ(service.raised, (Raised{{"archive.backlog", "warning"},
-                                    {"archive.disk", "warning"},
-                                    {"archive.write", "critical"},
-                                    {"clock.jump", "warning"},
-                                    {"data.outdated:leap_seconds", "warning"},
-                                    {"data.outdated:orbit", "warning"},
-                                    {"service.twice", "warning"}}));
-  service.see(1, 2,
-              [](ServiceState& one, int /*t_s*/) { one.data_until["leap_seconds"] = at(1e6); });
-  EXPECT_EQ(service.raised, (Raised{{"clock.jump", "warning"}}));
-  service.see(2, 63, kWell);
-  EXPECT_EQ(service.raised, Raised{});
+  EXPECT_EQ(service_.raised, (Raised{{"archive.backlog", "warning"},
+                                     {"archive.disk", "warning"},
+                                     {"archive.write", "critical"},
+                                     {"clock.jump", "warning"},
+                                     {"data.outdated:leap_seconds", "warning"},
+                                     {"data.outdated:orbit", "warning"},
+                                     {"service.twice", "warning"}}));
+  service_.see(1, 2, [](auto& one, int /*t_s*/) { one.data_until["leap_seconds"] = at(1e6); });
+  EXPECT_EQ(service_.raised, (Raised{{"clock.jump", "warning"}}));
+  EXPECT_EQ(service_.see(2, 63, kWell), Raised{});
 }
 
 }  // namespace spindrift::service_conditions_test

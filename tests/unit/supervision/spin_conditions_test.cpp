@@ -11,6 +11,8 @@
 
 namespace spindrift::spin_conditions_test {
 
+using enum PulseChannel;
+
 const TaiTime kStart = tai_from_ns(1'795'143'637'000'000'000);
 TaiTime at(double t_s) { return shifted(kStart, t_s); }
 
@@ -70,18 +72,19 @@ struct Supervised {
 
 using Keys = std::set<std::string>;
 
-void give_estimates(Supervised& pass, Quality quality, double sigma_deg, double off_deg,
-                    double from_s, double to_s) {
+/// @return The keys that are raised then.
+const Keys& give_estimates(Supervised& pass, Quality quality, double sigma_deg, double off_deg,
+                           double from_s, double to_s) {
   for (double t_s = from_s; t_s < to_s; t_s += 1.0) {
     pass.see(estimate(t_s, quality, sigma_deg, off_deg));
   }
+  return pass.raised;
 }
 
 /// Gives the edges of all channels of a turn except `silent`.
 void give_edges(Supervised& pass, std::int64_t revolution, std::optional<PulseChannel> silent,
                 std::optional<Rejection> rejected_by = std::nullopt) {
-  for (const PulseChannel channel :
-       {PulseChannel::Sun1, PulseChannel::Sun2, PulseChannel::NorthIn, PulseChannel::NorthOut}) {
+  for (const PulseChannel channel : {Sun1, Sun2, NorthIn, NorthOut}) {
     if (channel != silent) {
       const double t_s =
           static_cast<double>(revolution) + 0.1 * static_cast<double>(index_of(channel));
@@ -92,7 +95,20 @@ void give_edges(Supervised& pass, std::int64_t revolution, std::optional<PulseCh
   }
 }
 
-TEST(SpinConditions, RaiseNothingOfANominalPass) {
+const Keys& give_turns(Supervised& pass, int from, int to,
+                       std::optional<PulseChannel> silent = {}) {
+  for (int revolution = from; revolution < to; ++revolution) {
+    give_edges(pass, revolution, silent);
+  }
+  return pass.raised;
+}
+
+class SpinConditionsTest : public ::testing::Test {
+ protected:
+  Supervised pass_;
+};
+
+TEST_F(SpinConditionsTest, RaiseNothingOfANominalPass) {
   Supervised pass{SpinTarget{.axis_icrf = kAxis,
                              .rate = SpinTarget::Rate{.rad_s = 6.0, .tolerance_rad_s = 0.1}}};
   give_estimates(pass, Quality::Converging, 2.0, 0.0, 0.0, 30.0);
@@ -110,106 +126,79 @@ TEST(SpinConditions, RaiseNothingOfANominalPass) {
   EXPECT_EQ(pass.raised, Keys{});
 }
 
-TEST(SpinConditions, RaiseAQualityThatIsHeldAndClearIt) {
-  Supervised pass;
-  give_estimates(pass, Quality::Ambiguous, 0.05, 0.0, 0.0, 60.0);
-  EXPECT_EQ(pass.raised, Keys{});
-  give_estimates(pass, Quality::Ambiguous, 0.05, 0.0, 60.0, 70.0);
-  EXPECT_EQ(pass.raised, Keys{"spin.ambiguous"});
-  give_estimates(pass, Quality::Doubtful, 0.05, 0.0, 70.0, 140.0);
-  EXPECT_EQ(pass.raised, Keys{"spin.doubtful"});
-  pass.see(estimate(141.0, Quality::Lost));
-  EXPECT_EQ(pass.raised, (Keys{"attitude.lost", "spin.doubtful"}));
+TEST_F(SpinConditionsTest, RaiseAQualityThatIsHeldAndClearIt) {
+  EXPECT_EQ(give_estimates(pass_, Quality::Ambiguous, 0.05, 0.0, 0.0, 60.0), Keys{});
+  EXPECT_EQ(give_estimates(pass_, Quality::Ambiguous, 0.05, 0.0, 60.0, 70.0),
+            Keys{"spin.ambiguous"});
+  EXPECT_EQ(give_estimates(pass_, Quality::Doubtful, 0.05, 0.0, 70.0, 140.0),
+            Keys{"spin.doubtful"});
+  pass_.see(estimate(141.0, Quality::Lost));
+  EXPECT_EQ(pass_.raised, (Keys{"attitude.lost", "spin.doubtful"}));
 }
 
-TEST(SpinConditions, RaiseASigmaThatIsWideTwoMinutesAfterTheFirstAnswer) {
-  Supervised pass;
-  give_estimates(pass, Quality::Ok, 1.5, 0.0, 0.0, 120.0);
-  EXPECT_EQ(pass.raised, Keys{});
-  give_estimates(pass, Quality::Ok, 1.5, 0.0, 120.0, 122.0);
-  EXPECT_EQ(pass.raised, Keys{"spin.sigma"});
+TEST_F(SpinConditionsTest, RaiseASigmaThatIsWideTwoMinutesAfterTheFirstAnswer) {
+  EXPECT_EQ(give_estimates(pass_, Quality::Ok, 1.5, 0.0, 0.0, 120.0), Keys{});
+  EXPECT_EQ(give_estimates(pass_, Quality::Ok, 1.5, 0.0, 120.0, 122.0), Keys{"spin.sigma"});
 }
 
-TEST(SpinConditions, RaiseNoWideSigmaForTwoMinutesAfterAManoeuvre) {
-  Supervised pass;
-  give_estimates(pass, Quality::Ok, 0.05, 0.0, 0.0, 300.0);
-  pass.conditions.note_manoeuvre(at(310.0));
-  give_estimates(pass, Quality::Converging, 1.5, 0.0, 312.0, 432.0);
-  EXPECT_EQ(pass.raised, Keys{});
-  give_estimates(pass, Quality::Ok, 1.5, 0.0, 432.0, 434.0);
-  EXPECT_EQ(pass.raised, Keys{"spin.sigma"});
+TEST_F(SpinConditionsTest, RaiseNoWideSigmaForTwoMinutesAfterAManoeuvre) {
+  give_estimates(pass_, Quality::Ok, 0.05, 0.0, 0.0, 300.0);
+  pass_.conditions.note_manoeuvre(at(310.0));
+  EXPECT_EQ(give_estimates(pass_, Quality::Converging, 1.5, 0.0, 312.0, 432.0), Keys{});
+  EXPECT_EQ(give_estimates(pass_, Quality::Ok, 1.5, 0.0, 432.0, 434.0), Keys{"spin.sigma"});
 }
 
-TEST(SpinConditions, RaiseAWideSigmaBeforeAManoeuvreThatIsToCome) {
-  Supervised pass;
-  pass.conditions.note_manoeuvre(at(310.0));
-  give_estimates(pass, Quality::Ok, 1.5, 0.0, 0.0, 122.0);
-  EXPECT_EQ(pass.raised, Keys{"spin.sigma"});
+TEST_F(SpinConditionsTest, RaiseAWideSigmaBeforeAManoeuvreThatIsToCome) {
+  pass_.conditions.note_manoeuvre(at(310.0));
+  EXPECT_EQ(give_estimates(pass_, Quality::Ok, 1.5, 0.0, 0.0, 122.0), Keys{"spin.sigma"});
 }
 
-TEST(SpinConditions, RaiseAnAxisAndARateAwayFromTheirTarget) {
+TEST_F(SpinConditionsTest, RaiseAnAxisAndARateAwayFromTheirTarget) {
   Supervised pass{SpinTarget{.axis_icrf = kAxis,
                              .rate = SpinTarget::Rate{.rad_s = 5.0, .tolerance_rad_s = 0.1}}};
-  give_estimates(pass, Quality::Ok, 0.1, 2.2, 0.0, 20.0);
-  EXPECT_EQ(pass.raised, Keys{"spin.rate"});
-  give_estimates(pass, Quality::Ok, 0.1, 2.4, 20.0, 40.0);
-  EXPECT_EQ(pass.raised, (Keys{"spin.off_target", "spin.rate"}));
+  EXPECT_EQ(give_estimates(pass, Quality::Ok, 0.1, 2.2, 0.0, 20.0), Keys{"spin.rate"});
+  EXPECT_EQ(give_estimates(pass, Quality::Ok, 0.1, 2.4, 20.0, 40.0),
+            (Keys{"spin.off_target", "spin.rate"}));
 }
 
-TEST(SpinConditions, HoldTheAxisAgainstTheTargetThatAnOperatorSets) {
-  Supervised pass;
-  pass.conditions.set_target(at(20.0), Eigen::Vector3d::UnitX());
-  give_estimates(pass, Quality::Ok, 0.1, 0.0, 0.0, 20.0);
-  EXPECT_FALSE(pass.conditions.target());
-  give_estimates(pass, Quality::Ok, 0.1, 0.0, 20.0, 40.0);
-  EXPECT_EQ(pass.raised, Keys{"spin.off_target"});
-  pass.conditions.set_target(at(0.0), kAxis);
-  give_estimates(pass, Quality::Ok, 0.1, 0.0, 40.0, 60.0);
-  EXPECT_EQ(pass.raised, Keys{});
+TEST_F(SpinConditionsTest, HoldTheAxisAgainstTheTargetThatAnOperatorSets) {
+  pass_.conditions.set_target(at(20.0), Eigen::Vector3d::UnitX());
+  give_estimates(pass_, Quality::Ok, 0.1, 0.0, 0.0, 20.0);
+  EXPECT_FALSE(pass_.conditions.target());
+  EXPECT_EQ(give_estimates(pass_, Quality::Ok, 0.1, 0.0, 20.0, 40.0), Keys{"spin.off_target"});
+  pass_.conditions.set_target(at(0.0), kAxis);
+  EXPECT_EQ(give_estimates(pass_, Quality::Ok, 0.1, 0.0, 40.0, 60.0), Keys{});
 }
 
-TEST(SpinConditions, RaiseThatTheEstimatorsDiffer) {
-  Supervised pass;
+TEST_F(SpinConditionsTest, RaiseThatTheEstimatorsDiffer) {
   for (double t_s = 0.0; t_s < 20.0; t_s += 1.0) {
-    pass.see(estimate(t_s, Quality::Ok));
-    pass.see(estimate(t_s + 0.5, Quality::Ok, 0.05, 0.3, SpinEstimator::Mean));
+    pass_.see(estimate(t_s, Quality::Ok));
+    pass_.see(estimate(t_s + 0.5, Quality::Ok, 0.05, 0.3, SpinEstimator::Mean));
   }
-  EXPECT_EQ(pass.raised, Keys{"spin.disagree"});
+  EXPECT_EQ(pass_.raised, Keys{"spin.disagree"});
 }
 
-TEST(SpinConditions, RaiseAChannelThatTheAxisInForceShouldSee) {
-  Supervised pass;
-  pass.see(estimate(0.0, Quality::Ok));
-  for (int revolution = 0; revolution < 20; ++revolution) {
-    give_edges(pass, revolution, std::nullopt);
-  }
-  for (int revolution = 20; revolution < 29; ++revolution) {
-    give_edges(pass, revolution, PulseChannel::NorthIn);
-  }
-  EXPECT_EQ(pass.raised, Keys{});
-  give_edges(pass, 29, PulseChannel::NorthIn);
-  EXPECT_EQ(pass.raised, Keys{"channel.silent:north_in"});
-  give_edges(pass, 30, std::nullopt);
-  EXPECT_EQ(pass.raised, Keys{});
+TEST_F(SpinConditionsTest, RaiseAChannelThatTheAxisInForceShouldSee) {
+  pass_.see(estimate(0.0, Quality::Ok));
+  give_turns(pass_, 0, 20);
+  EXPECT_EQ(give_turns(pass_, 20, 29, NorthIn), Keys{});
+  give_edges(pass_, 29, NorthIn);
+  EXPECT_EQ(pass_.raised, Keys{"channel.silent:north_in"});
+  give_edges(pass_, 30, std::nullopt);
+  EXPECT_EQ(pass_.raised, Keys{});
 }
 
-TEST(SpinConditions, RaiseAChannelThatIsDeadFromTheStart) {
-  for (const PulseChannel dead : {PulseChannel::Sun2, PulseChannel::NorthOut}) {
+TEST_F(SpinConditionsTest, RaiseAChannelThatIsDeadFromTheStart) {
+  for (const PulseChannel dead : {Sun2, NorthOut}) {
     Supervised pass;
-    for (int revolution = 0; revolution < 30; ++revolution) {
-      give_edges(pass, revolution, dead);
-    }
-    EXPECT_EQ(pass.raised, Keys{}) << "no axis yet";
+    EXPECT_EQ(give_turns(pass, 0, 30, dead), Keys{}) << "no axis yet";
     pass.see(estimate(30.0, Quality::Ok));
-    for (int revolution = 30; revolution < 42; ++revolution) {
-      give_edges(pass, revolution, dead);
-    }
-    EXPECT_EQ(pass.raised,
+    EXPECT_EQ(give_turns(pass, 30, 42, dead),
               Keys{"channel.silent:" + std::string{kPulseChannelNames.at(index_of(dead))}});
   }
 }
 
-TEST(SpinConditions, ExpectABeamThatHasNeverComeWhereTheMissionCallsItHealthy) {
+TEST_F(SpinConditionsTest, ExpectABeamThatHasNeverComeWhereTheMissionCallsItHealthy) {
   for (const bool healthy : {false, true}) {
     SpinConfig mission = config();
     mission.south = InfraredSensor{
@@ -217,84 +206,63 @@ TEST(SpinConditions, ExpectABeamThatHasNeverComeWhereTheMissionCallsItHealthy) {
     Supervised pass;
     pass.conditions = SpinConditions{mission, orbit(), AlertLimits{}, std::nullopt};
     pass.see(estimate(0.0, Quality::Ok));
-    for (int revolution = 0; revolution < 30; ++revolution) {
-      give_edges(pass, revolution, std::nullopt);
-    }
-    EXPECT_EQ(pass.raised,
+    EXPECT_EQ(give_turns(pass, 0, 30),
               healthy ? Keys({"channel.silent:south_in", "channel.silent:south_out"}) : Keys{});
   }
 }
 
 /// Slit 2 ends 46 deg from the axis; the Sun is 32 or 110 deg from the axis.
-TEST(SpinConditions, ExpectNoSunBehindTheEndOfASlit) {
+TEST_F(SpinConditionsTest, ExpectNoSunBehindTheEndOfASlit) {
   for (const double off_deg : {113.0, 0.0}) {
     SpinConfig mission = config();
     mission.sun_sensor.slit_cant_rad = 0.8;
     Supervised pass;
     pass.conditions = SpinConditions{mission, orbit(), AlertLimits{}, std::nullopt};
     pass.see(estimate(0.0, Quality::Ok, 0.05, off_deg));
-    for (int revolution = 0; revolution < 40; ++revolution) {
-      give_edges(pass, revolution, PulseChannel::Sun2);
-    }
-    EXPECT_EQ(pass.raised, off_deg > 0.0 ? Keys{} : Keys{"channel.silent:sun2"});
+    EXPECT_EQ(give_turns(pass, 0, 40, Sun2), off_deg > 0.0 ? Keys{} : Keys{"channel.silent:sun2"});
   }
 }
 
-TEST(SpinConditions, GiveABeamThatComesIntoViewItsRevolutions) {
-  Supervised pass;
-  pass.see(estimate(0.0, Quality::Ok));
-  for (int revolution = 0; revolution < 20; ++revolution) {
-    give_edges(pass, revolution, std::nullopt);
-  }
+TEST_F(SpinConditionsTest, GiveABeamThatComesIntoViewItsRevolutions) {
+  pass_.see(estimate(0.0, Quality::Ok));
+  give_turns(pass_, 0, 20);
   SpinEstimate away = estimate(20.0, Quality::Ok);
   away.axis_icrf = Eigen::AngleAxisd{70.0 * kRadPerDeg, Eigen::Vector3d::UnitY()} * kAxis;
-  pass.see(away);
-  for (int revolution = 20; revolution < 55; ++revolution) {
-    give_edges(pass, revolution, PulseChannel::NorthIn);
-  }
-  pass.see(estimate(55.0, Quality::Ok));
+  pass_.see(away);
+  give_turns(pass_, 20, 55, NorthIn);
+  pass_.see(estimate(55.0, Quality::Ok));
   for (int revolution = 55; revolution < 64; ++revolution) {
-    give_edges(pass, revolution, PulseChannel::NorthIn);
-    EXPECT_EQ(pass.raised, Keys{}) << revolution;
+    give_edges(pass_, revolution, NorthIn);
+    EXPECT_EQ(pass_.raised, Keys{}) << revolution;
   }
-  for (int revolution = 64; revolution < 80; ++revolution) {
-    give_edges(pass, revolution, PulseChannel::NorthIn);
-  }
-  EXPECT_EQ(pass.raised, Keys{"channel.silent:north_in"});
+  EXPECT_EQ(give_turns(pass_, 64, 80, NorthIn), Keys{"channel.silent:north_in"});
 }
 
-TEST(SpinConditions, ExpectNoEdgesOfABeamThatMissesTheEarth) {
-  Supervised pass;
-  pass.see(estimate(0.0, Quality::Ok, 0.05, 70.0));
-  for (int revolution = 0; revolution < 20; ++revolution) {
-    give_edges(pass, revolution, std::nullopt);
-  }
+TEST_F(SpinConditionsTest, ExpectNoEdgesOfABeamThatMissesTheEarth) {
+  pass_.see(estimate(0.0, Quality::Ok, 0.05, 70.0));
+  give_turns(pass_, 0, 20);
   // From a quarter of the orbit on the Earth is 20 deg from that axis.
-  for (int revolution = 2300; revolution < 2350; ++revolution) {
-    give_edges(pass, revolution, PulseChannel::NorthIn);
-  }
-  EXPECT_EQ(pass.raised, Keys{});
+  EXPECT_EQ(give_turns(pass_, 2300, 2350, NorthIn), Keys{});
 }
 
-TEST(SpinConditions, RaiseSharesOfTheLastHundredRevolutions) {
-  Supervised pass;
+TEST_F(SpinConditionsTest, RaiseSharesOfTheLastHundredRevolutions) {
   for (int revolution = 0; revolution < 110; ++revolution) {
     const bool is_bad = revolution % 4 == 0;
-    give_edges(pass, revolution, std::nullopt,
+    give_edges(pass_, revolution, std::nullopt,
                is_bad ? std::optional{Rejection::Phase} : std::nullopt);
-    pass.see(
+    pass_.see(
         RevolutionProduct{.revolution = revolution, .t_sun1 = at(revolution), .period_s = 1.0});
-    pass.see(
+    pass_.see(
         SpinMeasurement{.revolution = revolution,
                         .quantity = SpinQuantity::Period,
                         .value = 1.0,
                         .sigma = 1e-4,
                         .rejected_by = is_bad ? std::optional{Rejection::Period} : std::nullopt});
   }
-  EXPECT_EQ(pass.raised, (Keys{"spin.period", "spin.rejection"}));
+  EXPECT_EQ(pass_.raised, (Keys{"spin.period", "spin.rejection"}));
 }
 
-TEST(SpinConditions, CountEdgesThatFoundNoRevolution) {
+TEST_F(SpinConditionsTest, CountEdgesThatFoundNoRevolution) {
   const auto left_over = [](int revolution, PulseChannel channel, Rejection rejection) {
     return PulseUse{.pulse = {.t = at(revolution + 0.005), .channel = channel},
                     .revolution = {},
@@ -305,11 +273,9 @@ TEST(SpinConditions, CountEdgesThatFoundNoRevolution) {
     Supervised without_axis;
     for (int revolution = 0; revolution < 110; ++revolution) {
       give_edges(copied, revolution, std::nullopt);
-      copied.see(left_over(revolution, PulseChannel::Sun1, rejection));
-      copied.see(left_over(revolution, PulseChannel::Sun2, rejection));
-      for (const PulseChannel channel :
-           {PulseChannel::Sun1, PulseChannel::Sun2, PulseChannel::NorthIn, PulseChannel::NorthOut,
-            PulseChannel::SouthIn, PulseChannel::SouthOut}) {
+      copied.see(left_over(revolution, Sun1, rejection));
+      copied.see(left_over(revolution, Sun2, rejection));
+      for (const PulseChannel channel : {Sun1, Sun2, NorthIn, NorthOut, SouthIn, SouthOut}) {
         without_axis.see(left_over(revolution, channel, rejection));
       }
     }
@@ -318,25 +284,23 @@ TEST(SpinConditions, CountEdgesThatFoundNoRevolution) {
   }
   Supervised by_operator;
   for (int revolution = 0; revolution < 110; ++revolution) {
-    give_edges(by_operator, revolution, PulseChannel::Sun1);
-    by_operator.see(left_over(revolution, PulseChannel::Sun1, Rejection::Operator));
+    give_edges(by_operator, revolution, Sun1);
+    by_operator.see(left_over(revolution, Sun1, Rejection::Operator));
   }
   EXPECT_EQ(by_operator.raised, Keys{});
 }
 
 /// Ten copies of one channel are five turns, not ten.
-TEST(SpinConditions, TakeACopyForNoEdge) {
-  Supervised pass;
-  pass.see(estimate(0.0, Quality::Ok));
+TEST_F(SpinConditionsTest, TakeACopyForNoEdge) {
+  pass_.see(estimate(0.0, Quality::Ok));
   for (int revolution = 0; revolution < 30; ++revolution) {
-    give_edges(pass, revolution,
-               revolution < 20 ? std::nullopt : std::optional{PulseChannel::NorthIn});
+    give_edges(pass_, revolution, revolution < 20 ? std::nullopt : std::optional{NorthIn});
     if (revolution >= 28) {
-      EXPECT_EQ(pass.raised.contains("channel.silent:north_in"), revolution == 29);
+      EXPECT_EQ(pass_.raised.contains("channel.silent:north_in"), revolution == 29);
     }
-    pass.see(PulseUse{.pulse = {.t = at(revolution + 0.5), .channel = PulseChannel::Sun1},
-                      .revolution = {},
-                      .rejected_by = Rejection::Copy});
+    pass_.see(PulseUse{.pulse = {.t = at(revolution + 0.5), .channel = Sun1},
+                       .revolution = {},
+                       .rejected_by = Rejection::Copy});
   }
 }
 
@@ -351,21 +315,20 @@ BatchSolution solution(double t_s, std::optional<double> half_angle_deg) {
   return solution;
 }
 
-TEST(SpinConditions, RaiseANutationThatIsWideOrGrows) {
-  Supervised pass;
-  pass.see(solution(0.0, std::nullopt));
-  pass.see(solution(60.0, 0.1));
-  pass.see(solution(120.0, 0.11));
-  EXPECT_EQ(pass.raised, Keys{});
-  pass.see(solution(180.0, 0.12));
-  EXPECT_EQ(pass.raised, Keys{"spin.nutation"});
-  pass.see(solution(240.0, 0.1));
-  EXPECT_EQ(pass.raised, Keys{});
-  pass.see(solution(300.0, 0.6));
-  EXPECT_EQ(pass.raised, Keys{"spin.nutation"});
+TEST_F(SpinConditionsTest, RaiseANutationThatIsWideOrGrows) {
+  pass_.see(solution(0.0, std::nullopt));
+  pass_.see(solution(60.0, 0.1));
+  pass_.see(solution(120.0, 0.11));
+  EXPECT_EQ(pass_.raised, Keys{});
+  pass_.see(solution(180.0, 0.12));
+  EXPECT_EQ(pass_.raised, Keys{"spin.nutation"});
+  pass_.see(solution(240.0, 0.1));
+  EXPECT_EQ(pass_.raised, Keys{});
+  pass_.see(solution(300.0, 0.6));
+  EXPECT_EQ(pass_.raised, Keys{"spin.nutation"});
 }
 
-TEST(SpinConditions, GiveARateInRpm) {
+TEST_F(SpinConditionsTest, GiveARateInRpm) {
   SpinConditions conditions{
       config(), orbit(), AlertLimits{},
       SpinTarget{.axis_icrf = kAxis,
@@ -383,14 +346,10 @@ TEST(SpinConditions, GiveARateInRpm) {
   EXPECT_NEAR(raised->evidence.limit, 0.95493, 1e-5);
 }
 
-TEST(SpinConditions, RaiseInterferenceWhileItLasts) {
-  Supervised pass;
-  give_edges(pass, 0, std::nullopt, Rejection::Interference);
-  EXPECT_EQ(pass.raised, Keys{"spin.interference"});
-  for (int revolution = 1; revolution < 70; ++revolution) {
-    give_edges(pass, revolution, std::nullopt);
-  }
-  EXPECT_EQ(pass.raised, Keys{});
+TEST_F(SpinConditionsTest, RaiseInterferenceWhileItLasts) {
+  give_edges(pass_, 0, std::nullopt, Rejection::Interference);
+  EXPECT_EQ(pass_.raised, Keys{"spin.interference"});
+  EXPECT_EQ(give_turns(pass_, 1, 70), Keys{});
 }
 
 }  // namespace spindrift::spin_conditions_test

@@ -1,11 +1,10 @@
 #include "services/telemetry/by_kind.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include <set>
 #include <string>
 #include <vector>
+
+#include "tests/support/matchers.h"
 
 namespace spindrift::by_kind_test {
 
@@ -30,7 +29,7 @@ TEST(ByKind, GivesAllKindsInTheOrderOfArrival) {
   in_order_of_arrival(values, [&seen]<class Value>(const Arrived<Value>& arrived) {
     seen.push_back(std::string{Telemetry<Value>::kName} + std::to_string(arrived.arrival));
   });
-  EXPECT_THAT(seen, ::testing::ElementsAre("gyro0", "pulses1", "pulses2", "coded3", "gyro4"));
+  EXPECT_THAT(seen, ElementsAre("gyro0", "pulses1", "pulses2", "coded3", "gyro4"));
 }
 
 TEST(ByKind, KeepsTheOrderOfAKindWithoutNumbers) {
@@ -41,7 +40,7 @@ TEST(ByKind, KeepsTheOrderOfAKindWithoutNumbers) {
   }
   std::vector<std::uint64_t> seqs;
   in_order_of_arrival(samples, [&](const auto& sample) { seqs.push_back(sample.origin.seq); });
-  EXPECT_THAT(seqs, ::testing::ElementsAre(0, 1, 2, 3));
+  EXPECT_THAT(seqs, ElementsAre(0, 1, 2, 3));
 }
 
 TEST(TelemetryOrder, TellsSamplesOfOneTimeApartByKindAndChannel) {

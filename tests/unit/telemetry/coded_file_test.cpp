@@ -1,17 +1,13 @@
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "services/telemetry/telemetry_stream.h"
+#include "tests/support/matchers.h"
 #include "tests/support/read_telemetry.h"
 #include "tests/support/temporary_folder.h"
 
 namespace spindrift::coded_file_test {
-
-using ::testing::HasSubstr;
 
 ReadTelemetry read_coded_row(std::string_view row) {
   const TemporaryFolder folder;
@@ -30,8 +26,8 @@ TEST(CodedFile, GivesFramesWithTheirOrigin) {
   EXPECT_EQ(sample.origin.seq, 2U);
   EXPECT_EQ(tai_ns(sample.value.t), 1795143637568985513);
   EXPECT_EQ(sample.value.period_s, 1.00007);
-  EXPECT_THAT(sample.value.delay_s, ::testing::ElementsAre(std::nullopt, 0.07932, 0.4545,
-                                                           std::nullopt, 0.45928, 0.60985));
+  EXPECT_THAT(sample.value.delay_s,
+              ElementsAre(std::nullopt, 0.07932, 0.4545, std::nullopt, 0.45928, 0.60985));
 }
 
 TEST(CodedFile, MayLackAnythingButItsTime) {
@@ -39,7 +35,7 @@ TEST(CodedFile, MayLackAnythingButItsTime) {
   EXPECT_TRUE(telemetry.rejected.empty());
   ASSERT_EQ(telemetry.coded.size(), 1U);
   EXPECT_EQ(telemetry.coded[0].value.period_s, std::nullopt);
-  EXPECT_THAT(telemetry.coded[0].value.delay_s, ::testing::Each(std::nullopt));
+  EXPECT_THAT(telemetry.coded[0].value.delay_s, Each(std::nullopt));
 }
 
 TEST(CodedFile, RejectsABadRowWithItsReason) {

@@ -1,6 +1,3 @@
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include <filesystem>
 #include <string>
 #include <string_view>
@@ -8,26 +5,21 @@
 
 #include "pipelines/core/shown.h"
 #include "services/telemetry/telemetry_stream.h"
+#include "tests/support/matchers.h"
 #include "tests/support/read_telemetry.h"
 #include "tests/support/temporary_folder.h"
 
 namespace spindrift::pulse_file_test {
 
-using ::testing::HasSubstr;
-
 /// Reads a pulse file with this row between two good ones.
 ReadTelemetry read_row(std::string_view row) {
-  const TemporaryFolder folder;
   std::string text = "t_tai_ns,channel\n1795143637568806257,sun1\n";
-  text.append(row).append("\n1795143637648746313,sun2\n");
-  return read({folder.write("pulses.csv", text)});
+  return read_text(text.append(row).append("\n1795143637648746313,sun2\n"));
 }
 
 TEST(PulseFile, GivesSamplesWithTheirOrigin) {
-  const TemporaryFolder folder;
-  const auto pulses = read({folder.write(
-      "pulses.csv",
-      "t_tai_ns,channel\n1795143637568806257,sun1\n1795143637648746313,south_out\n")});
+  const auto pulses =
+      read_text("t_tai_ns,channel\n1795143637568806257,sun1\n1795143637648746313,south_out\n");
   EXPECT_TRUE(pulses.rejected.empty());
   ASSERT_EQ(pulses.samples.size(), 2U);
   EXPECT_EQ(pulses.samples[0].spacecraft, "SPINNER");
@@ -49,13 +41,11 @@ TEST(PulseFile, KnowsEveryChannel) {
 }
 
 TEST(PulseFile, TakesTheSpacecraftFromItsColumn) {
-  const TemporaryFolder folder;
-  const auto pulses =
-      read({folder.write("a.csv",
-                         "t_tai_ns,spacecraft,channel\n"
-                         "1795143637568806257,GMS-5,sun1\n"
-                         "1795143637568806258,,sun1\n"
-                         "1795143637568806259,123456789012345678901234567890123,sun1\n")});
+  const auto pulses = read_text(
+      "t_tai_ns,spacecraft,channel\n"
+      "1795143637568806257,GMS-5,sun1\n"
+      "1795143637568806258,,sun1\n"
+      "1795143637568806259,123456789012345678901234567890123,sun1\n");
   ASSERT_EQ(pulses.samples.size(), 1U);
   EXPECT_EQ(pulses.samples[0].spacecraft, "GMS-5");
   ASSERT_EQ(pulses.rejected.size(), 2U);
@@ -65,14 +55,13 @@ TEST(PulseFile, TakesTheSpacecraftFromItsColumn) {
 }
 
 TEST(PulseFile, ReadsWhatOtherSystemsWrite) {
-  const TemporaryFolder folder;
-  const auto plain = read({folder.write("a.csv", "t_tai_ns,channel\n1795143637568806257,sun1\n")});
+  const auto plain = read_text("t_tai_ns,channel\n1795143637568806257,sun1\n");
   for (const char* text : {"t_tai_ns,channel\r\n1795143637568806257,sun1\r\n",
                            "\xEF\xBB\xBFt_tai_ns,channel\n1795143637568806257,sun1\n",
                            "t_tai_ns,channel\n1795143637568806257,sun1",
                            "\n\r\nt_tai_ns,channel\n\n\r\n1795143637568806257,sun1\n\n"}) {
     SCOPED_TRACE(text);
-    const auto pulses = read({folder.write("b.csv", text)});
+    const auto pulses = read_text(text);
     EXPECT_TRUE(pulses.rejected.empty());
     ASSERT_EQ(pulses.samples.size(), 1U);
     EXPECT_EQ(pulses.samples[0].value, plain.samples[0].value);
@@ -80,8 +69,7 @@ TEST(PulseFile, ReadsWhatOtherSystemsWrite) {
 }
 
 TEST(PulseFile, WithAHeaderAloneIsNoTelemetryAndNoError) {
-  const TemporaryFolder folder;
-  const auto pulses = read({folder.write("a.csv", "t_tai_ns,channel\n")});
+  const auto pulses = read_text("t_tai_ns,channel\n");
   EXPECT_TRUE(pulses.samples.empty());
   EXPECT_TRUE(pulses.rejected.empty());
 }
@@ -91,7 +79,7 @@ void expect_rejected(const BadRow& bad) {
   const auto pulses = read_row(bad.row);
   EXPECT_EQ(pulses.samples.size(), 2U);
   ASSERT_EQ(pulses.rejected.size(), 1U);
-  EXPECT_THAT(pulses.rejected[0].source, ::testing::EndsWith("/pulses.csv"));
+  EXPECT_THAT(pulses.rejected[0].source, EndsWith("/pulses.csv"));
   EXPECT_EQ(pulses.rejected[0].line, 3);
   EXPECT_THAT(pulses.rejected[0].reason, HasSubstr(bad.reason));
 }
@@ -161,12 +149,11 @@ TEST(PulseFile, RejectsALineWithoutEndInConstantMemory) {
 }
 
 TEST(PulseFile, RejectsALastRowCutInHalf) {
-  const TemporaryFolder folder;
   const std::string text = "t_tai_ns,channel\n1795143637568806257,sun1\n1795143637648746313,sun2";
   const std::size_t last_row = text.rfind('\n') + 1;
   for (std::size_t length = last_row + 1; length < text.size(); ++length) {
     SCOPED_TRACE(length);
-    const auto pulses = read({folder.write("a.csv", text.substr(0, length))});
+    const auto pulses = read_text(text.substr(0, length));
     EXPECT_EQ(pulses.samples.size(), 1U);
     ASSERT_EQ(pulses.rejected.size(), 1U);
     EXPECT_EQ(pulses.rejected[0].line, 3);
@@ -176,10 +163,9 @@ TEST(PulseFile, RejectsALastRowCutInHalf) {
 TEST(PulseFile, OfAnotherKindIsRefused) {
   const TemporaryFolder folder;
   const auto path = folder.write("star.csv", "t_tai_ns,qx,qy,qz,qw\n");
-  const auto file = TelemetryRows<Pulse>::open(path, "SPINNER");
-  ASSERT_FALSE(file);
-  EXPECT_EQ(file.error().code, ErrorCode::InvalidConfiguration);
-  EXPECT_EQ(file.error().message, path.string() + ": holds star telemetry, must hold pulses");
+  EXPECT_THAT(TelemetryRows<Pulse>::open(path, "SPINNER"),
+              IsRefused(ErrorCode::InvalidConfiguration,
+                        path.string() + ": holds star telemetry, must hold pulses"));
 }
 
 }  // namespace spindrift::pulse_file_test

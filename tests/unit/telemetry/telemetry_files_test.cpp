@@ -1,7 +1,5 @@
 #include "services/telemetry/telemetry_files.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <sys/stat.h>
 
 #include <array>
@@ -10,13 +8,12 @@
 #include <utility>
 #include <vector>
 
+#include "tests/support/matchers.h"
+#include "tests/support/outcome.h"
 #include "tests/support/read_telemetry.h"
 #include "tests/support/temporary_folder.h"
 
 namespace spindrift::telemetry_files_test {
-
-using ::testing::AllOf;
-using ::testing::HasSubstr;
 
 Expected<std::vector<TelemetryFile>> scan(std::vector<std::filesystem::path> paths) {
   return scan_telemetry(paths);
@@ -44,10 +41,9 @@ TEST(TelemetryFiles, AreRecognisedByTheirHeaders) {
        {"t_tai_ns,x_km,y_km,z_km,vx_km_s,vy_km_s,vz_km_s\n", Kind<TimedOrbitState>{}}}};
   for (const auto& [header, kind] : cases) {
     SCOPED_TRACE(header);
-    const auto files = scan({folder.write("a.csv", header)});
-    ASSERT_TRUE(files) << files.error().message;
-    ASSERT_EQ(files->size(), 1U);
-    EXPECT_EQ(files->front().kind, kind);
+    const auto files = value_or_throw(scan({folder.write("a.csv", header)}));
+    ASSERT_EQ(files.size(), 1U);
+    EXPECT_EQ(files.front().kind, kind);
   }
 }
 
@@ -56,9 +52,8 @@ TEST(TelemetryFiles, MayNameTheSpacecraftInAnyColumn) {
   for (const char* header : {"spacecraft,t_tai_ns,channel", "t_tai_ns,spacecraft,channel",
                              "t_tai_ns,channel,spacecraft"}) {
     SCOPED_TRACE(header);
-    const auto files = scan({folder.write("a.csv", header)});
-    ASSERT_TRUE(files) << files.error().message;
-    EXPECT_EQ(files->front().kind, TelemetryKind{Kind<Pulse>{}});
+    const auto files = value_or_throw(scan({folder.write("a.csv", header)}));
+    EXPECT_EQ(files.front().kind, TelemetryKind{Kind<Pulse>{}});
   }
 }
 
@@ -69,23 +64,21 @@ TEST(TelemetryFiles, OfADirectoryAreItsCsvFilesByName) {
   folder.write("notes.txt", "not telemetry");
   folder.write("a.csv.bak", "not telemetry");
   std::filesystem::create_directory(folder.path() / "c.csv");
-  const auto files = scan({folder.path()});
-  ASSERT_TRUE(files) << files.error().message;
-  ASSERT_EQ(files->size(), 2U);
-  EXPECT_EQ((*files)[0].path, folder.path() / "a.csv");
-  EXPECT_EQ((*files)[0].kind, TelemetryKind{Kind<CodedFrame>{}});
-  EXPECT_EQ((*files)[1].path, folder.path() / "b.csv");
-  EXPECT_EQ((*files)[1].kind, TelemetryKind{Kind<Pulse>{}});
+  const auto files = value_or_throw(scan({folder.path()}));
+  ASSERT_EQ(files.size(), 2U);
+  EXPECT_EQ(files[0].path, folder.path() / "a.csv");
+  EXPECT_EQ(files[0].kind, TelemetryKind{Kind<CodedFrame>{}});
+  EXPECT_EQ(files[1].path, folder.path() / "b.csv");
+  EXPECT_EQ(files[1].kind, TelemetryKind{Kind<Pulse>{}});
 }
 
 TEST(TelemetryFiles, StayInTheOrderGiven) {
   const TemporaryFolder folder;
   const auto z = folder.write("z.csv", "t_tai_ns,channel\n");
   const auto a = folder.write("a.csv", "t_tai_ns,channel\n");
-  const auto files = scan({z, a});
-  ASSERT_TRUE(files);
-  EXPECT_EQ((*files)[0].path, z);
-  EXPECT_EQ((*files)[1].path, a);
+  const auto files = scan({z, a}).value();
+  EXPECT_EQ(files[0].path, z);
+  EXPECT_EQ(files[1].path, a);
 }
 
 TEST(TelemetryFiles, WithAnUnknownHeaderAreRefusedNamingFileLineAndWhatIsAllowed) {
@@ -114,9 +107,8 @@ TEST(TelemetryFiles, WithoutAHeaderAreRefused) {
 TEST(TelemetryFiles, WithoutAByteAreOfNoKind) {
   const TemporaryFolder folder;
   const std::vector<std::filesystem::path> paths = {folder.write("empty.csv", "")};
-  const auto files = scan_telemetry(paths);
-  ASSERT_TRUE(files) << files.error().message;
-  EXPECT_EQ(files->front().kind, std::nullopt);
+  const auto files = value_or_throw(scan_telemetry(paths));
+  EXPECT_EQ(files.front().kind, std::nullopt);
 }
 
 TEST(TelemetryFiles, ThatCannotBeReadAreNamedAllAtOnce) {
@@ -130,7 +122,7 @@ TEST(TelemetryFiles, ThatCannotBeReadAreNamedAllAtOnce) {
   EXPECT_THAT(error, AllOf(HasSubstr(odd.string() + ":1: header \"what,is,this\""),
                            HasSubstr(nothing.string() + ": cannot be read: No such file"),
                            HasSubstr(bare.string() + ": there is no *.csv in this directory")));
-  EXPECT_THAT(error, ::testing::Not(HasSubstr(good.string())));
+  EXPECT_THAT(error, Not(HasSubstr(good.string())));
 }
 
 TEST(TelemetryFiles, ThatAreNoRegularFilesAreRefusedInsteadOfReadForEver) {

@@ -1,10 +1,9 @@
 #include "services/telemetry/telemetry_stream.h"
 
 #include <fmt/format.h>
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <iterator>
 #include <random>
@@ -13,13 +12,12 @@
 #include <string_view>
 #include <vector>
 
+#include "tests/support/matchers.h"
 #include "tests/support/read_telemetry.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/test_paths.h"
 
 namespace spindrift::telemetry_stream_test {
-
-using ::testing::HasSubstr;
 
 TEST(TelemetryStream, OfAFileThatHasGoneIsAnError) {
   const TemporaryFolder folder;
@@ -57,8 +55,8 @@ TEST(TelemetryStream, SortsByTimeThenChannelAndKeepsDuplicates) {
     seen.push_back(std::to_string(tai_ns(sample.value.t) % 10) + " " +
                    std::string{name_of(sample.value.channel)} + " " + sample.origin.source);
   }
-  EXPECT_THAT(seen, ::testing::ElementsAre("0 south_out b.csv", "1 sun1 a.csv", "1 sun1 b.csv",
-                                           "1 sun2 a.csv", "2 sun1 a.csv"));
+  EXPECT_THAT(seen, ElementsAre("0 south_out b.csv", "1 sun1 a.csv", "1 sun1 b.csv", "1 sun2 a.csv",
+                                "2 sun1 a.csv"));
 }
 
 TEST(TelemetryStream, GivesTheSamePulsesWhateverTheOrderOfTheRowsAndFiles) {
@@ -103,8 +101,7 @@ TEST(TelemetryStream, AccountsForEveryRowOfRandomBytes) {
                       [&] { return kAlphabet[random() % kAlphabet.size()]; });
       text += '\n';
     }
-    const TemporaryFolder folder;
-    const auto pulses = read({folder.write("a.csv", text)});
+    const auto pulses = read_text(text);
     EXPECT_EQ(pulses.samples.size() + pulses.rejected.size(), 20U);
   }
 }
@@ -127,8 +124,7 @@ TEST(TelemetryStream, MergesPulsesAndFramesByTimeAndHandsOverOneKindAtATime) {
       order.push_back(fmt::format("{} {}", Telemetry<Value>::kName, tai_ns(sample.value.t) % 10));
     });
   }
-  EXPECT_THAT(order,
-              ::testing::ElementsAre("pulses 1", "coded 1", "pulses 2", "coded 3", "pulses 4"));
+  EXPECT_THAT(order, ElementsAre("pulses 1", "coded 1", "pulses 2", "coded 3", "pulses 4"));
 }
 
 /// Returns `count` rows a microsecond apart, shuffled within blocks of `block` rows.
@@ -152,27 +148,19 @@ std::string disordered_rows(std::size_t count, std::size_t block) {
 
 constexpr std::size_t kRow = sizeof(TelemetryRow<Pulse>);
 
-TEST(TelemetryStream, SortsCompletelyWhatItsBufferHolds) {
-  const TemporaryFolder folder;
-  const auto path = folder.write("a.csv", disordered_rows(20'000, 20'000));
-  const auto telemetry = read({path}, 20'001 * kRow);
-  EXPECT_EQ(telemetry.samples.size(), 20'000U);
-  EXPECT_TRUE(std::is_sorted(telemetry.times.begin(), telemetry.times.end()));
-}
-
-TEST(TelemetryStream, SortsALongerFileWhoseRowsAreNearTheirPlace) {
-  const TemporaryFolder folder;
-  const auto path = folder.write("a.csv", disordered_rows(50'000, 500));
-  const auto telemetry = read({path}, 1000 * kRow);
-  EXPECT_EQ(telemetry.samples.size(), 50'000U);
-  EXPECT_TRUE(std::is_sorted(telemetry.times.begin(), telemetry.times.end()));
+TEST(TelemetryStream, SortsWhatItsBufferHoldsAndALongerFileWhoseRowsAreNearTheirPlace) {
+  for (const auto& [count, block, buffer] :
+       {std::array{20'000U, 20'000U, 20'001U}, std::array{50'000U, 500U, 1000U}}) {
+    SCOPED_TRACE(count);
+    const auto telemetry = read_text(disordered_rows(count, block), buffer * kRow);
+    EXPECT_EQ(telemetry.samples.size(), count);
+    EXPECT_TRUE(std::is_sorted(telemetry.times.begin(), telemetry.times.end()));
+  }
 }
 
 TEST(TelemetryStream, PassesOnARowThatComesTooLateForItsPlace) {
-  const TemporaryFolder folder;
-  const auto path = folder.write(
-      "a.csv", disordered_rows(50'000, 1) + std::to_string(kT0_tai_ns - 1) + ",sun2\n");
-  const auto telemetry = read({path}, 1000 * kRow);
+  const auto telemetry = read_text(
+      disordered_rows(50'000, 1) + std::to_string(kT0_tai_ns - 1) + ",sun2\n", 1000 * kRow);
   ASSERT_EQ(telemetry.samples.size(), 50'001U);
   EXPECT_NE(telemetry.samples.front().value.channel, PulseChannel::Sun2);
   std::vector<TaiTime> others;
@@ -209,8 +197,7 @@ TEST(TelemetryStream, NeverGathersRejectedRows) {
     text += "soon,sun1\n";
   }
   text += "1795143637568806257,sun1\n";
-  const TemporaryFolder folder;
-  const auto telemetry = read({folder.write("a.csv", text)});
+  const auto telemetry = read_text(text);
   EXPECT_EQ(telemetry.rejected.size(), 10'000U);
   EXPECT_EQ(telemetry.samples.size(), 1U);
 }
@@ -220,8 +207,7 @@ TEST(TelemetryStream, KeepsTheSpacecraftOfEveryRow) {
   for (int i = 0; i < 1000; ++i) {
     text += "SC-" + std::to_string(i % 7) + "," + std::to_string(kT0_tai_ns - i) + ",sun1\n";
   }
-  const TemporaryFolder folder;
-  const auto telemetry = read({folder.write("a.csv", text)});
+  const auto telemetry = read_text(text);
   ASSERT_EQ(telemetry.samples.size(), 1000U);
   for (const TelemetrySample<Pulse>& sample : telemetry.samples) {
     EXPECT_EQ(sample.spacecraft, "SC-" + std::to_string((kT0_tai_ns - tai_ns(sample.value.t)) % 7));
@@ -231,8 +217,7 @@ TEST(TelemetryStream, KeepsTheSpacecraftOfEveryRow) {
 TEST(TelemetryStream, ReadsLinesThatCrossItsReads) {
   // Reads have a power of two bytes, whereas rows have 26.
   constexpr std::size_t kRows = 50'000;
-  const TemporaryFolder folder;
-  const auto telemetry = read({folder.write("a.csv", disordered_rows(kRows, 1))});
+  const auto telemetry = read_text(disordered_rows(kRows, 1));
   EXPECT_TRUE(telemetry.rejected.empty());
   ASSERT_EQ(telemetry.samples.size(), kRows);
   for (std::size_t i = 0; i < kRows; ++i) {
@@ -243,10 +228,8 @@ TEST(TelemetryStream, ReadsLinesThatCrossItsReads) {
 }
 
 TEST(TelemetryStream, GoesOnBehindALineLongerThanItsReads) {
-  const TemporaryFolder folder;
-  const auto telemetry =
-      read({folder.write("a.csv", "t_tai_ns,channel\n" + std::string(1'000'000, '7') +
-                                      "\n1795143637568806257,sun1\n")});
+  const auto telemetry = read_text("t_tai_ns,channel\n" + std::string(1'000'000, '7') +
+                                   "\n1795143637568806257,sun1\n");
   ASSERT_EQ(telemetry.rejected.size(), 1U);
   EXPECT_THAT(telemetry.rejected[0].reason, HasSubstr("too long for telemetry"));
   ASSERT_EQ(telemetry.samples.size(), 1U);

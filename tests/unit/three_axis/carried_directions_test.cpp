@@ -7,7 +7,6 @@
 #include <numbers>
 #include <random>
 
-#include "pipelines/frames/angle.h"
 #include "pipelines/frames/rotation_vector.h"
 #include "tests/support/turning_body.h"
 

@@ -1,6 +1,4 @@
 #include <fmt/format.h>
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <algorithm>
 #include <random>
@@ -9,13 +7,12 @@
 #include <vector>
 
 #include "pipelines/three_axis/three_axis_pass.h"
+#include "tests/support/matchers.h"
 #include "tests/support/turning_body.h"
 
 namespace spindrift::three_axis_contradiction_test {
 
 using testing::at_s;
-using ::testing::ElementsAre;
-using ::testing::IsEmpty;
 using testing::Sensors;
 using testing::TurningBody;
 using testing::usual_three_axis;
@@ -125,6 +122,15 @@ class Contradictions : public ::testing::Test {
 
 double seconds_of(const AnySample& sample) { return seconds_between(at_s(0.0), time_of(sample)); }
 
+/// Returns samples that arrive at their own time.
+std::vector<Arrival> at_once(const std::vector<AnySample>& samples) {
+  std::vector<Arrival> arrivals;
+  for (const AnySample& sample : samples) {
+    arrivals.push_back({.t_s = seconds_of(sample), .sample = sample});
+  }
+  return arrivals;
+}
+
 /// The other sender is wrong in a third of its samples. Each sample is delayed by up to half a
 /// second, so that every order of the two occurs and none is late.
 TEST_F(Contradictions, WhoeverComesFirstNoContestedValueIsUsed) {
@@ -187,16 +193,13 @@ TEST_F(Contradictions, WhoeverComesFirstNoContestedValueIsUsed) {
 
 TEST_F(Contradictions, WhatComesBehindTheWindowIsOnlySaid) {
   const std::vector<AnySample> samples = honest();
-  std::vector<Arrival> arrivals;
-  for (const AnySample& sample : samples) {
-    arrivals.push_back({.t_s = seconds_of(sample), .sample = sample});
-  }
+  std::vector<Arrival> arrivals = at_once(samples);
   const Made alone = run(arrivals);
   const StarFix late = turned(from(kOther, std::get<StarFix>(samples[1])));
   arrivals.push_back({.t_s = 1.6, .sample = late});
   const Made with_late = run(arrivals);
   EXPECT_EQ(with_late.attitudes, alone.attitudes);
-  EXPECT_THAT(with_late.rejected, ::testing::SizeIs(alone.rejected.size()));
+  EXPECT_THAT(with_late.rejected, SizeIs(alone.rejected.size()));
   EXPECT_THAT(with_late.contradictions,
               ElementsAre(fmt::format("star {} 1+2- late", tai_ns(late.t))));
 }
@@ -224,15 +227,12 @@ TEST_F(Contradictions, RoundingAndTheSignOfAQuaternionAreNone) {
 
 TEST_F(Contradictions, APreferredSenderThatContradictsItselfIsNotUsed) {
   const std::vector<AnySample> samples = honest();
-  std::vector<Arrival> arrivals;
-  for (const AnySample& sample : samples) {
-    arrivals.push_back({.t_s = seconds_of(sample), .sample = sample});
-  }
+  std::vector<Arrival> arrivals = at_once(samples);
   const StarFix one = from(Sender::Preferred, std::get<StarFix>(samples[1]));
   arrivals.push_back({.t_s = 0.1, .sample = one});
   arrivals.push_back({.t_s = 0.2, .sample = turned(one)});
   const Made made = run(arrivals);
-  ASSERT_THAT(made.rejected, ::testing::SizeIs(::testing::Ge(1U)));
+  ASSERT_THAT(made.rejected, SizeIs(::testing::Ge(1U)));
   EXPECT_EQ(made.rejected.front().rejected_by, Rejection::Contradicted);
   EXPECT_THAT(made.contradictions, ElementsAre(fmt::format("star {} 0-1-", tai_ns(one.t))));
 }

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "pipelines/three_axis/attitude_estimator.h"
+#include "tests/support/of_kind.h"
 #include "tests/support/turning_body.h"
 
 namespace spindrift::gyro_unit_test {
@@ -107,15 +108,7 @@ class GyroInDegrees : public ::testing::Test {
     }
     estimator.settle(products_);
   }
-  std::vector<AttitudeEstimate> estimates() const {
-    std::vector<AttitudeEstimate> all;
-    for (const ThreeAxisProduct& product : products_) {
-      if (const auto* const estimate = std::get_if<AttitudeEstimate>(&product)) {
-        all.push_back(*estimate);
-      }
-    }
-    return all;
-  }
+  std::vector<AttitudeEstimate> estimates() const { return of_kind<AttitudeEstimate>(products_); }
 
   std::mt19937_64 rng_{49};
   TurningBody body_ = TurningBody::smooth(rng_, 120.0, 0.02);
@@ -175,14 +168,11 @@ TEST(AttitudeAtTheInstantOfAGyroSample, IsFinite) {
       estimator.push(sensors.star(5.0), products);
     }
   }
-  std::size_t estimates = 0;
-  for (const ThreeAxisProduct& product : products) {
-    if (const auto* const estimate = std::get_if<AttitudeEstimate>(&product)) {
-      ++estimates;
-      ASSERT_TRUE(estimate->rate_body_rad_s.value().allFinite());
-    }
+  const auto estimates = of_kind<AttitudeEstimate>(products);
+  for (const AttitudeEstimate& estimate : estimates) {
+    ASSERT_TRUE(estimate.rate_body_rad_s.value().allFinite());
   }
-  EXPECT_GT(estimates, 10U);
+  EXPECT_GT(estimates.size(), 10U);
 }
 
 }  // namespace spindrift::gyro_unit_test

@@ -1,10 +1,6 @@
 #include "pipelines/three_axis/three_axis_pass.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include <algorithm>
-#include <cmath>
 #include <random>
 
 #include "pipelines/ephemeris/kepler_orbit.h"
@@ -13,6 +9,8 @@
 #include "pipelines/observation/innovation_gate.h"
 #include "services/mission/igrf.h"
 #include "tests/support/assessed.h"
+#include "tests/support/matchers.h"
+#include "tests/support/of_kind.h"
 #include "tests/support/stepped_orbit.h"
 #include "tests/support/turning_body.h"
 
@@ -20,10 +18,8 @@ namespace spindrift::three_axis_pass_test {
 
 using testing::at_s;
 using testing::error_rad;
-using ::testing::IsEmpty;
 using testing::kStart_tai_ns;
 using testing::Sensors;
-using ::testing::SizeIs;
 using testing::TurningBody;
 using testing::usual_three_axis;
 
@@ -50,15 +46,7 @@ class ThreeAxisPassTest : public ::testing::Test {
     return {.t = at_s(t_s),
             .sun_body = sensors_.direction(t_s, sun_icrf_, config_.sun_sensor->noise_rad)};
   }
-  std::vector<RejectedSample> rejected() const {
-    std::vector<RejectedSample> out;
-    for (const ThreeAxisProduct& product : products_) {
-      if (const auto* sample = std::get_if<RejectedSample>(&product)) {
-        out.push_back(*sample);
-      }
-    }
-    return out;
-  }
+  std::vector<RejectedSample> rejected() const { return of_kind<RejectedSample>(products_); }
   std::vector<Rejection> reasons() const {
     std::vector<Rejection> out;
     for (const RejectedSample& sample : rejected()) {
@@ -122,9 +110,9 @@ TEST_F(ThreeAxisPassTest, LateSamplesAreLeftOutAndSaidOnce) {
   gyro(0.0, 10.0);
   add(pass_.push(sensors_.star(5.0)));
   add(pass_.push(sensors_.star(6.0)));
-  EXPECT_THAT(reasons(), ::testing::ElementsAre(Rejection::Late, Rejection::Late));
+  EXPECT_THAT(reasons(), ElementsAre(Rejection::Late, Rejection::Late));
   EXPECT_EQ(rejected().front().kind, SampleKind::Star);
-  EXPECT_THAT(notices_, ::testing::ElementsAre(Notice{NoticeCode::LateSamples, {}}));
+  EXPECT_THAT(notices_, ElementsAre(Notice{NoticeCode::LateSamples, {}}));
   EXPECT_EQ(pass_.sensors().at(index_of(SampleKind::Star)).rejected, 2);
 }
 
@@ -147,27 +135,25 @@ TEST_F(ThreeAxisPassTest, LeavesOutTheSensorThatAnOperatorExcludes) {
 TEST_F(ThreeAxisPassTest, RepeatedSamplesChangeNothing) {
   ThreeAxisPass once{config_, std::nullopt};
   ThreeAxisPass twice{config_, std::nullopt};
-  std::vector<AttitudeEstimate> of_once;
-  std::vector<AttitudeEstimate> of_twice;
-  const auto keep = [](ThreeAxisOutput output, std::vector<AttitudeEstimate>& into) {
-    for (const ThreeAxisProduct& product : output.products) {
-      if (const auto* const estimate = std::get_if<AttitudeEstimate>(&product)) {
-        into.push_back(*estimate);
-      }
-    }
+  std::vector<ThreeAxisProduct> from_once;
+  std::vector<ThreeAxisProduct> from_twice;
+  const auto keep = [](const ThreeAxisOutput& output, std::vector<ThreeAxisProduct>& into) {
+    into.insert(into.end(), output.products.begin(), output.products.end());
   };
   for (int i = 0; i < 80; ++i) {
     const GyroSample sample = sensors_.gyro(0.25 * i);
     const StarFix fix = sensors_.star(0.25 * i);
-    keep(once.push(fix), of_once);
-    keep(once.push(sample), of_once);
-    keep(twice.push(fix), of_twice);
-    keep(twice.push(sample), of_twice);
-    keep(twice.push(fix), of_twice);
-    keep(twice.push(sample), of_twice);
+    keep(once.push(fix), from_once);
+    keep(once.push(sample), from_once);
+    for (int time = 0; time < 2; ++time) {
+      keep(twice.push(fix), from_twice);
+      keep(twice.push(sample), from_twice);
+    }
   }
-  keep(once.finish(), of_once);
-  keep(twice.finish(), of_twice);
+  keep(once.finish(), from_once);
+  keep(twice.finish(), from_twice);
+  const auto of_once = of_kind<AttitudeEstimate>(from_once);
+  const auto of_twice = of_kind<AttitudeEstimate>(from_twice);
   ASSERT_EQ(of_once.size(), of_twice.size());
   ASSERT_GT(of_once.size(), 70U);
   for (std::size_t i = 0; i < of_once.size(); ++i) {
@@ -183,7 +169,7 @@ TEST_F(ThreeAxisPassTest, ASampleOfABadClockIsOutOfTime) {
   add(pass_.push(sensors_.star(10.0)));
   gyro(10.0, 12.0);
   add(pass_.finish());
-  EXPECT_THAT(reasons(), ::testing::ElementsAre(Rejection::OutOfTime));
+  EXPECT_THAT(reasons(), ElementsAre(Rejection::OutOfTime));
   EXPECT_GT(estimates(), 5U);
 }
 
@@ -192,7 +178,7 @@ TEST_F(ThreeAxisPassTest, ASensorThatTheMissionLacksIsLeftOut) {
   blind.star_tracker.reset();
   ThreeAxisPass pass{blind, std::nullopt};
   add(pass.push(sensors_.star(0.0)));
-  EXPECT_THAT(reasons(), ::testing::ElementsAre(Rejection::NoSensor));
+  EXPECT_THAT(reasons(), ElementsAre(Rejection::NoSensor));
 }
 
 TEST_F(ThreeAxisPassTest, InTheEarthsShadowASunVectorIsLeftOut) {
@@ -202,7 +188,7 @@ TEST_F(ThreeAxisPassTest, InTheEarthsShadowASunVectorIsLeftOut) {
   add(pass_.push(sun(1.0)));
   gyro(2.0, 6.0);
   add(pass_.finish());
-  EXPECT_THAT(reasons(), ::testing::ElementsAre(Rejection::Shadow));
+  EXPECT_THAT(reasons(), ElementsAre(Rejection::Shadow));
   EXPECT_EQ(pass_.sensors().at(index_of(SampleKind::OrbitState)).accepted, 1);
 }
 
@@ -223,7 +209,7 @@ TEST_F(ThreeAxisPassTest, AStateOnNoOrbitIsLeftOut) {
   state.state.velocity_icrf_km_s *= 2.0;
   add(pass_.push(state));
   gyro(-9.0, 0.0);
-  EXPECT_THAT(reasons(), ::testing::ElementsAre(Rejection::NoOrbit));
+  EXPECT_THAT(reasons(), ElementsAre(Rejection::NoOrbit));
 }
 
 TEST_F(ThreeAxisPassTest, ASilentStreamIsComputedToItsEnd) {
@@ -236,7 +222,7 @@ TEST_F(ThreeAxisPassTest, ASilentStreamIsComputedToItsEnd) {
   add(pass_.push(sensors_.gyro(4.5)));
   EXPECT_THAT(rejected(), IsEmpty());  // The sample is already known.
   add(pass_.push(sensors_.star(4.6)));
-  EXPECT_THAT(reasons(), ::testing::ElementsAre(Rejection::Late));
+  EXPECT_THAT(reasons(), ElementsAre(Rejection::Late));
 }
 
 TEST_F(ThreeAxisPassTest, APassWithoutAFixSaysWhatItTakes) {
@@ -244,11 +230,11 @@ TEST_F(ThreeAxisPassTest, APassWithoutAFixSaysWhatItTakes) {
   add(pass_.push(sun(4.0)));
   add(pass_.finish());
   EXPECT_EQ(estimates(), 0U);
-  EXPECT_THAT(notices_, ::testing::ElementsAre(Notice{NoticeCode::AttitudeNeverBegan,
-                                                      {{"gyro", std::int64_t{20}},
-                                                       {"star", std::int64_t{0}},
-                                                       {"sun", std::int64_t{1}},
-                                                       {"magnetometer", std::int64_t{0}}}}));
+  EXPECT_THAT(notices_, ElementsAre(Notice{NoticeCode::AttitudeNeverBegan,
+                                           {{"gyro", std::int64_t{20}},
+                                            {"star", std::int64_t{0}},
+                                            {"sun", std::int64_t{1}},
+                                            {"magnetometer", std::int64_t{0}}}}));
 }
 
 /// Has a magnetometer but no star tracker.
@@ -266,6 +252,14 @@ class MagnetometerPassTest : public ThreeAxisPassTest {
     const Eigen::Vector3d position_km = orbit_.at(at_s(t_s)).value().position_icrf_km;
     return Sensors{body_, config_, rng_}.field(
         t_s, field_icrf_nt(model_, at_s(t_s), position_km, earth_).value());
+  }
+  void run() {
+    for (int second = 0; second < kSeconds; ++second) {
+      add(pass_.push(sun(second)));
+      add(pass_.push(field(second)));
+      gyro(second, second + 1.0);
+    }
+    add(pass_.finish());
   }
   AttitudeEstimate last() const { return std::get<AttitudeEstimate>(products_.back()); }
 
@@ -291,32 +285,19 @@ TEST_F(MagnetometerPassTest, AStepOfTheOrbitBetweenFieldsIsDoubted) {
              Orbit{testing::stepped(segment, at_s(step_s), Eigen::Vector3d::Zero(),
                                     Eigen::Vector3d{0.0, 0.12, 0.0})},
              model_};
-    for (int second = 0; second < kSeconds; ++second) {
-      add(pass_.push(sun(second)));
-      add(pass_.push(field(second)));
-      gyro(second, second + 1.0);
-    }
-    add(pass_.finish());
+    run();
     EXPECT_EQ(testing::has(notices_, NoticeCode::OrbitStepsInPass), step_s > 0.0);
     EXPECT_EQ(has(last().assessment, ReasonCode::OrbitSteps), step_s > 0.0);
-    for (const ThreeAxisProduct& product : products_) {
-      if (const auto* const estimate = std::get_if<AttitudeEstimate>(&product)) {
-        EXPECT_FALSE(step_s > 0.0 && estimate->t > at_s(step_s + 2.0) &&
-                     is_unopposed(estimate->assessment.quality));
-        EXPECT_FALSE(estimate->t < at_s(step_s) &&
-                     has(estimate->assessment, ReasonCode::OrbitSteps));
-      }
+    for (const AttitudeEstimate& estimate : of_kind<AttitudeEstimate>(products_)) {
+      EXPECT_FALSE(step_s > 0.0 && estimate.t > at_s(step_s + 2.0) &&
+                   is_unopposed(estimate.assessment.quality));
+      EXPECT_FALSE(estimate.t < at_s(step_s) && has(estimate.assessment, ReasonCode::OrbitSteps));
     }
   }
 }
 
 TEST_F(MagnetometerPassTest, FieldSunAndGyroMakeAnAttitude) {
-  for (int second = 0; second < kSeconds; ++second) {
-    add(pass_.push(sun(second)));
-    add(pass_.push(field(second)));
-    gyro(second, second + 1.0);
-  }
-  add(pass_.finish());
+  run();
   EXPECT_EQ(last().assessment.quality, Quality::Ok);
   EXPECT_LT(degrees(last().sigma_rad()), 0.4);
   EXPECT_LT(error_rad(last().q_icrf_body, body_.q_icrf_body(kSeconds - 0.25)).norm(),
@@ -335,8 +316,7 @@ TEST_F(MagnetometerPassTest, AFieldOfAnotherStrengthIsLeftOutBeforeThereIsAnAtti
     gyro(second, second + 1.0);
   }
   add(pass_.finish());
-  EXPECT_THAT(reasons(),
-              ::testing::ElementsAreArray(std::vector<Rejection>(4, Rejection::Innovation)));
+  EXPECT_THAT(reasons(), ElementsAreArray(std::vector<Rejection>(4, Rejection::Innovation)));
   for (const RejectedSample& sample : rejected()) {
     EXPECT_EQ(sample.kind, SampleKind::Magnetometer);
     // The error is 5 % of 20,000 to 60,000 nT, over a noise of 100 nT.
@@ -353,7 +333,7 @@ TEST_F(MagnetometerPassTest, WithoutAnOrbitAFieldIsLeftOutUntilAStateComes) {
   add(pass_.push(TimedOrbitState{.t = at_s(1.5), .state = orbit_.at(at_s(1.5)).value()}));
   add(pass_.push(field(2.0)));
   add(pass_.finish());
-  EXPECT_THAT(reasons(), ::testing::ElementsAre(Rejection::NoOrbit, Rejection::NoOrbit));
+  EXPECT_THAT(reasons(), ElementsAre(Rejection::NoOrbit, Rejection::NoOrbit));
   ASSERT_THAT(notices_, SizeIs(2));
   EXPECT_EQ(notices_[0].code, NoticeCode::FieldWithoutOrbit);
   EXPECT_EQ(notices_[1].code, NoticeCode::AttitudeNeverBegan);
@@ -379,7 +359,7 @@ TEST_F(MagnetometerPassTest, AFieldThatTheMissionLacksTheSensorOfIsLeftOut) {
   config_.magnetometer.reset();
   pass_ = {config_, orbit_, model_};
   add(pass_.push(sample));
-  EXPECT_THAT(reasons(), ::testing::ElementsAre(Rejection::NoSensor));
+  EXPECT_THAT(reasons(), ElementsAre(Rejection::NoSensor));
 }
 
 }  // namespace spindrift::three_axis_pass_test
