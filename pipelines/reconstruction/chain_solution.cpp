@@ -9,7 +9,8 @@
 #include "pipelines/frames/rotation_vector.h"
 #include "pipelines/reconstruction/chain_covariance.h"
 #include "pipelines/reconstruction/chain_fit.h"
-#include "pipelines/statistics/variance_factor.h"
+#include "pipelines/statistics/median.h"
+#include "pipelines/statistics/significance.h"
 
 namespace spindrift {
 namespace {
@@ -78,12 +79,7 @@ double louder_sun(const SolvedChain& solved) {
   for (const ChainSun& sun : solved.chain.sun) {
     lengths.push_back((predicted_sun(solved.state, sun) - sun.of.measured_body).norm());
   }
-  if (lengths.empty()) {
-    return 1.0;
-  }
-  const auto middle = lengths.begin() + std::ssize(lengths) / 2;
-  std::nth_element(lengths.begin(), middle, lengths.end());
-  const double louder = *middle / kMedianLength / solved.chain.noise.sun_rad;
+  const double louder = upper_median(lengths) / kMedianLength / solved.chain.noise.sun_rad;
   return louder > kLouder ? louder : 1.0;
 }
 

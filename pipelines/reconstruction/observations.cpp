@@ -9,12 +9,10 @@
 #include <span>
 #include <utility>
 
-#include "pipelines/ephemeris/shadow.h"
 #include "pipelines/ephemeris/sun.h"
 #include "pipelines/frames/angle.h"
-#include "pipelines/reconstruction/request_check.h"
 #include "pipelines/reconstruction/torque_free_arc.h"
-#include "pipelines/statistics/variance_factor.h"
+#include "pipelines/statistics/significance.h"
 #include "pipelines/three_axis/gyro_screening.h"
 #include "pipelines/time/time_span.h"
 #include "pipelines/time/utc.h"

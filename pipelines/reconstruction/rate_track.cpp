@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "pipelines/frames/rotation_vector.h"
+#include "pipelines/statistics/median.h"
 #include "pipelines/three_axis/rate_wander.h"
 #include "pipelines/time/tai_time.h"
 
@@ -39,16 +40,11 @@ std::vector<double> wander_rad2_s3(std::span<const TimedRate> samples, double no
 }  // namespace
 
 double usual_step_s(std::span<const TimedRate> samples) {
-  if (samples.size() < 2) {
-    return 0.0;
-  }
   std::vector<double> steps_s;
   for (std::size_t i = 1; i < samples.size(); ++i) {
     steps_s.push_back(samples[i].t_s - samples[i - 1].t_s);
   }
-  const auto middle = steps_s.begin() + std::ssize(steps_s) / 2;
-  std::nth_element(steps_s.begin(), middle, steps_s.end());
-  return *middle;
+  return upper_median(steps_s);
 }
 
 RateTrack::RateTrack(std::vector<TimedRate> samples, double begin_s, double end_s,

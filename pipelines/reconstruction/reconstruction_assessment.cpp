@@ -6,7 +6,6 @@
 #include "pipelines/frames/angle.h"
 #include "pipelines/frames/uncertain_attitude.h"
 #include "pipelines/statistics/significance.h"
-#include "pipelines/statistics/variance_factor.h"
 #include "pipelines/three_axis/products.h"
 
 namespace spindrift {

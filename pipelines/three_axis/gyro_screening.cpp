@@ -6,6 +6,7 @@
 #include <iterator>
 #include <utility>
 
+#include "pipelines/statistics/median.h"
 #include "pipelines/statistics/significance.h"
 #include "pipelines/three_axis/frozen_samples.h"
 #include "pipelines/three_axis/gyro_tests.h"
@@ -99,9 +100,7 @@ std::optional<double> noise_of(std::span<const GyroSample> samples, double noise
   if (deviations.size() < 3 * kFewest) {
     return std::nullopt;
   }
-  const auto middle = deviations.begin() + std::ssize(deviations) / 2;
-  std::nth_element(deviations.begin(), middle, deviations.end());
-  return *middle / kMedianDeviation / noise_rad_s;
+  return upper_median(deviations) / kMedianDeviation / noise_rad_s;
 }
 
 }  // namespace

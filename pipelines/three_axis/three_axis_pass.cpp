@@ -4,9 +4,7 @@
 #include <cmath>
 
 #include "pipelines/ephemeris/kepler_orbit.h"
-#include "pipelines/ephemeris/shadow.h"
 #include "pipelines/frames/angle.h"
-#include "pipelines/geomagnetism/field_at_spacecraft.h"
 
 namespace spindrift {
 namespace {

@@ -3,11 +3,9 @@
 #include <cmath>
 #include <utility>
 
-#include "pipelines/ephemeris/shadow.h"
 #include "pipelines/ephemeris/sun.h"
 #include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
-#include "pipelines/geomagnetism/field_at_spacecraft.h"
 #include "pipelines/ground_model/sensors/three_axis_reading.h"
 
 namespace spindrift {

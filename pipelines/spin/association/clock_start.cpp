@@ -205,10 +205,8 @@ std::optional<ClockStart> start_clock(const SpinConfig& config, std::span<const 
     return std::nullopt;
   }
   std::vector<PeriodNote> sorted = sane;
-  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-  std::nth_element(
-      sorted.begin(), middle, sorted.end(),
-      [](const PeriodNote& a, const PeriodNote& b) { return a.period_s < b.period_s; });
+  const auto middle = sorted.begin() + std::ssize(sorted) / 2;
+  std::ranges::nth_element(sorted, middle, {}, &PeriodNote::period_s);
   const PeriodNote chosen = note_of_one_turn(sane, *middle);
   const double period_s = chosen.period_s;
   const auto agrees = same_period_as(chosen);

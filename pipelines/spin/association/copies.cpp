@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cstddef>
 #include <utility>
+#include <vector>
 
+#include "pipelines/statistics/median.h"
 #include "pipelines/time/time_span.h"
 
 namespace spindrift {
@@ -32,11 +34,10 @@ bool are_most(const std::deque<bool>& had_copies) {
 // Fewest of the last choices for the later copy to count: a spoilt edge leaves it now and then.
 constexpr std::ptrdiff_t kFewestLater = 3;
 
-double quantile(std::deque<double> values, double share) {
-  const auto place =
-      values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), place, values.end());
-  return *place;
+double quantile(const std::deque<double>& values, double share) {
+  std::vector<double> reordered{values.begin(), values.end()};
+  const double place = share * static_cast<double>(values.size() - 1);
+  return in_order_at(reordered, static_cast<std::size_t>(place));
 }
 
 }  // namespace

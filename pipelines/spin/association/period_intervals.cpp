@@ -1,8 +1,11 @@
 #include "pipelines/spin/association/period_intervals.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
-#include <cstddef>
+#include <numbers>
+
+#include "pipelines/time/time_span.h"
 
 namespace spindrift {
 namespace {
@@ -12,6 +15,37 @@ constexpr std::size_t kMostNotes = 16;
 constexpr std::int64_t kMostTurnsRefused = 5;
 
 }  // namespace
+
+SpinPeriodWindow::SpinPeriodWindow(const SpinScreening& screening, double edge_sigma_s)
+    : screening_{screening},
+      candidate_sigma_s_{std::numbers::sqrt2 * edge_sigma_s},
+      differences_s_{static_cast<std::size_t>(screening.window)} {}
+
+PeriodCandidate SpinPeriodWindow::add(TaiTime from, TaiTime to, std::int64_t turns,
+                                      double expected_s) {
+  assert(turns > 0 && to > from);
+  const auto turns_d = static_cast<double>(turns);
+  return add(elapsed_s(from, to) / turns_d, turns_d, expected_s);
+}
+
+PeriodCandidate SpinPeriodWindow::refused(TaiTime from, TaiTime to, std::int64_t turns,
+                                          Rejection rejected_by) const {
+  const auto turns_d = static_cast<double>(turns);
+  return {.period_s = elapsed_s(from, to) / turns_d,
+          .sigma_s = candidate_sigma_s_ / turns_d,
+          .rejected_by = rejected_by};
+}
+
+PeriodCandidate SpinPeriodWindow::add(double period_s, double turns, double expected_s) {
+  const double difference_s = period_s - expected_s;
+  differences_s_.add(difference_s);
+  const RobustMean mean =
+      differences_s_.mean({.sigma = screening_.sigma, .stated = candidate_sigma_s_});
+  return {.period_s = period_s,
+          .sigma_s = candidate_sigma_s_ / turns,
+          .rejected_by = mean.keeps(difference_s) ? std::nullopt : std::optional{Rejection::Period},
+          .test = Rational{.expected = expected_s + mean.mean, .limit = mean.limit}};
+}
 
 void PeriodIntervals::begin_anew(double edge_sigma_s) {
   window_ = SpinPeriodWindow{screening_, edge_sigma_s};

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "pipelines/statistics/median.h"
 #include "pipelines/statistics/significance.h"
 
 namespace spindrift {
@@ -28,9 +29,7 @@ double median_off(std::span<const PhasePoint> points, const Line& line,
   scratch.resize(points.size());
   std::transform(points.begin(), points.end(), scratch.begin(),
                  [&](const PhasePoint& point) { return line.off(point); });
-  const auto middle = scratch.begin() + static_cast<std::ptrdiff_t>(points.size() / 2);
-  std::nth_element(scratch.begin(), middle, scratch.end());
-  return *middle;
+  return upper_median(scratch);
 }
 
 Line least_squares(const std::vector<PhasePoint>& points, double most_drift) {

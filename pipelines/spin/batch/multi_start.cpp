@@ -10,7 +10,6 @@
 #include "pipelines/spin/batch/batch_fit.h"
 #include "pipelines/spin/batch/initial_state.h"
 #include "pipelines/spin/batch/pass_nutation.h"
-#include "pipelines/spin/batch/uniform_spin_residuals.h"
 #include "pipelines/statistics/significance.h"
 
 namespace spindrift {

@@ -9,17 +9,17 @@
 #include "pipelines/statistics/distributions.h"
 #include "pipelines/statistics/significance.h"
 #include "pipelines/statistics/symmetric_eigen.h"
-#include "pipelines/statistics/variance_factor.h"
 
 namespace spindrift {
 namespace {
 
-using Errors = Eigen::Matrix<double, kModelErrors, 1>;
 using ErrorMatrix = Eigen::Matrix<double, kModelErrors, kModelErrors>;
+using Errors = Eigen::Matrix<double, kModelErrors, 1>;
+using Limits = std::array<double, kModelErrors + 1>;
+using Normal = Eigen::Matrix<double, AngleEquations::kUnknowns, AngleEquations::kUnknowns>;
+using Right = Eigen::Matrix<double, AngleEquations::kUnknowns, 1>;
 using SomeErrors = Eigen::VectorXd;
 using SomeErrorsMatrix = Eigen::MatrixXd;
-using Right = Eigen::Matrix<double, AngleEquations::kUnknowns, 1>;
-using Normal = Eigen::Matrix<double, AngleEquations::kUnknowns, AngleEquations::kUnknowns>;
 
 /// Confidence that the errors do not exceed their upper limit.
 constexpr double kCovered = 0.9;
@@ -29,7 +29,6 @@ constexpr double kUnseen_rad = 0.1;
 constexpr double kNoiseAngles = 300.0;
 
 /// Limits of the chi-square by the number of seen errors.
-using Limits = std::array<double, kModelErrors + 1>;
 Limits limits_beyond(double chance) {
   Limits limits{};
   for (std::size_t freedom = 1; freedom < limits.size(); ++freedom) {
@@ -163,6 +162,9 @@ double excess_noise(const AngleEquations& equations) {
   return variance_factor(excess, std::min(freedom, kNoiseAngles));
 }
 
+// Evidence from before a restart keeps the weight of this many edges.
+constexpr double kFadedEdges = 100.0;
+
 }  // namespace
 
 ModelTest test_model(const AngleEquations& equations, const OffsetPrior& offsets_s2) {
@@ -194,6 +196,17 @@ ModelTest test_model_errors(const ErrorInformation& seen, double excess_noise,
   explain(errors.information, errors.score, verdict);
   verdict.beyond_allowance = spectrum.chi_square(kModelError_rad * kModelError_rad) > significant;
   return verdict;
+}
+
+void ModelEvidence::add(const ErrorInformation& errors, double edges) {
+  edges_ += edges;
+  errors_ += errors;
+}
+
+void ModelEvidence::fade() {
+  const double share = edges_ > kFadedEdges ? kFadedEdges / edges_ : 1.0;
+  edges_ *= share;
+  errors_ *= share;
 }
 
 }  // namespace spindrift

@@ -11,7 +11,6 @@
 #include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
 #include "pipelines/spin/nutation/tilt_signal.h"
-#include "pipelines/spin/nutation/tilt_spectrum.h"
 #include "pipelines/statistics/significance.h"
 
 namespace spindrift {

@@ -5,7 +5,7 @@
 
 #include "pipelines/frames/celestial.h"
 #include "pipelines/spin/types/model_allowance.h"
-#include "pipelines/statistics/variance_factor.h"
+#include "pipelines/statistics/significance.h"
 
 namespace spindrift {
 namespace {

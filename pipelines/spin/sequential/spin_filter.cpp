@@ -8,7 +8,6 @@
 #include "pipelines/spin/measurement/edge_use.h"
 #include "pipelines/spin/sensor_model/edge_prediction.h"
 #include "pipelines/spin/types/spin_rate.h"
-#include "pipelines/statistics/iterated_update.h"
 #include "pipelines/statistics/linear_update.h"
 
 namespace spindrift {

@@ -1,10 +1,9 @@
-#include "pipelines/ephemeris/earth_pole.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 
+#include "pipelines/ephemeris/earth_orientation.h"
 #include "pipelines/time/utc.h"
 
 namespace spindrift::earth_pole_test {

@@ -1,8 +1,8 @@
-#include "pipelines/ephemeris/orbit_frame.h"
-
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+
+#include "pipelines/ephemeris/flight_frames.h"
 
 namespace spindrift::orbit_frame_test {
 

@@ -1,8 +1,7 @@
+#include "pipelines/ground_model/control/actuators.h"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-
-#include "pipelines/ground_model/control/thrusters.h"
-#include "pipelines/ground_model/control/wheels.h"
 
 namespace spindrift::actuators_test {
 

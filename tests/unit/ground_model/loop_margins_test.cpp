@@ -1,5 +1,3 @@
-#include "pipelines/ground_model/control/loop_margins.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -7,6 +5,7 @@
 
 #include "pipelines/frames/angle.h"
 #include "pipelines/ground_model/control/control_laws.h"
+#include "pipelines/ground_model/flights/channel_margins.h"
 
 namespace spindrift::loop_margins_test {
 

@@ -1,5 +1,3 @@
-#include "pipelines/reconstruction/reconstruct.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -9,6 +7,7 @@
 
 #include "pipelines/frames/angle.h"
 #include "pipelines/frames/rotation_vector.h"
+#include "pipelines/reconstruction/separation.h"
 #include "tests/support/recorded_separation.h"
 #include "tests/support/separation_flight.h"
 

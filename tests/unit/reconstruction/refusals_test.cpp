@@ -4,7 +4,7 @@
 #include <limits>
 #include <optional>
 
-#include "pipelines/reconstruction/reconstruct.h"
+#include "pipelines/reconstruction/separation.h"
 #include "tests/support/separation_flight.h"
 
 namespace spindrift::refusals_test {

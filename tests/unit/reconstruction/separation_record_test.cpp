@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "pipelines/reconstruction/observations.h"
-#include "pipelines/reconstruction/reconstruct.h"
+#include "pipelines/reconstruction/separation.h"
 #include "tests/support/separation_flight.h"
 
 namespace spindrift::separation_record_test {
