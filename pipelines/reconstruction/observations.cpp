@@ -22,10 +22,6 @@ namespace {
 
 using enum SeparationEvent;
 
-// Number of usual steps by which T2, T4 or a star fix may lie outside the gyro samples, to allow
-// for a sample that was still due.
-constexpr double kHeldSteps = 2.0;
-
 Unexpected refused(ErrorCode code, std::string message) {
   return Unexpected{{code, std::move(message)}};
 }
@@ -183,7 +179,7 @@ std::optional<Error> turns_too_often(const Observations& all) {
 }  // namespace
 
 double held_s(std::span<const GyroSample> gyro) {
-  return gyro.empty() ? 0.0 : kHeldSteps * usual_step_s(timed(gyro, gyro.front().t));
+  return gyro.empty() ? 0.0 : 2.0 * usual_step_s(timed(gyro, gyro.front().t));
 }
 
 Observation sun_observation(const Observations& all, const SunObservation& sun,

@@ -16,8 +16,6 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-constexpr double kGap = 1.75;
-
 /// Returns the density of each step, the larger of those before and after it. The first and last
 /// elements are for the times before the first sample and after the last one.
 std::vector<double> wander_rad2_s3(std::span<const TimedRate> samples, double noise_rad_s) {
@@ -50,7 +48,7 @@ double usual_step_s(std::span<const TimedRate> samples) {
 RateTrack::RateTrack(std::vector<TimedRate> samples, double begin_s, double end_s,
                      double noise_rad_s)
     : samples_{std::move(samples)} {
-  const double longest_s = kGap * usual_step_s(samples_);
+  const double longest_s = 1.75 * usual_step_s(samples_);
   const std::vector<double> wander = wander_rad2_s3(samples_, noise_rad_s);
   const bool held_before = begin_s < samples_.front().t_s;
   const bool held_behind = end_s > samples_.back().t_s;

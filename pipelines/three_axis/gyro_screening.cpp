@@ -86,12 +86,11 @@ void leave_out_outliers(ScreenedGyro& gyro, double noise_rad_s) {
 
 /// Uses evenly spaced samples only, because the rate may not be linear across a gap.
 std::optional<double> noise_of(std::span<const GyroSample> samples, double noise_rad_s) {
-  constexpr double kEven = 0.1;
   std::vector<double> deviations;
   for (std::size_t i = 1; i + 1 < samples.size(); ++i) {
     const double before_s = elapsed_s(samples[i - 1].t, samples[i].t);
     const double behind_s = elapsed_s(samples[i].t, samples[i + 1].t);
-    if (std::abs(behind_s - before_s) < kEven * before_s) {
+    if (std::abs(behind_s - before_s) < 0.1 * before_s) {
       const OffLine line = off_line(samples[i + 1], samples[i], samples[i - 1]);
       std::transform(line.off_rad_s.begin(), line.off_rad_s.end(), std::back_inserter(deviations),
                      [&](double value) { return std::abs(value) / line.spread; });

@@ -45,11 +45,7 @@ struct ComparedSample {
 /// Returns the time over which a departure is judged: ten seconds and twenty samples at least, so
 /// that single outliers are no departure.
 /// @param step_s Time between samples.
-inline double holding_s(double step_s) {
-  constexpr double kLeast_s = 10.0;
-  constexpr double kSamples = 20.0;
-  return std::max(kLeast_s, kSamples * step_s);
-}
+inline double holding_s(double step_s) { return std::max(10.0, 20.0 * step_s); }
 
 /// Accumulates residuals, flight minus model, in the unit of the channel. A statistic is 0 where
 /// there are too few residuals for it.

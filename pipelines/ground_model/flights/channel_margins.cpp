@@ -21,8 +21,7 @@ double half_sampling_rad_s(const LoopSampling& sampling) {
 /// Returns the root of a function that is positive just beside `above` and not positive at `below`.
 template <class Function>
 double root_between(double above, double below, const Function& function) {
-  constexpr int kHalvings = 100;
-  for (int i = 0; i < kHalvings; ++i) {
+  for (int i = 0; i < 100; ++i) {
     const double middle = std::midpoint(above, below);
     (function(middle) > 0.0 ? above : below) = middle;
   }

@@ -57,9 +57,7 @@ Expected<AttitudeControl> laws_of(const SeparationTruth& truth) {
 
 /// Returns a step of which the flight is a whole multiple.
 double step_s(double end_s, double fastest_rad_s) {
-  constexpr double kTurn_rad = 0.01;
-  constexpr double kLongest_s = 1.0;
-  const double wanted_s = std::min(kLongest_s, kTurn_rad / std::max(fastest_rad_s, 1e-6));
+  const double wanted_s = std::min(1.0, 0.01 / std::max(fastest_rad_s, 1e-6));
   return end_s / std::ceil(end_s / wanted_s);
 }
 

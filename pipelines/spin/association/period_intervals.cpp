@@ -8,13 +8,6 @@
 #include "pipelines/time/time_span.h"
 
 namespace spindrift {
-namespace {
-
-constexpr std::size_t kMostNotes = 16;
-// After this many turns of refused intervals the edge that they start from is doubtful.
-constexpr std::int64_t kMostTurnsRefused = 5;
-
-}  // namespace
 
 SpinPeriodWindow::SpinPeriodWindow(const SpinScreening& screening, double edge_sigma_s)
     : screening_{screening},
@@ -54,7 +47,7 @@ void PeriodIntervals::begin_anew(double edge_sigma_s) {
 
 void PeriodIntervals::note(const PeriodNote& note) {
   notes_.push_back(note);
-  if (notes_.size() > kMostNotes) {
+  if (notes_.size() > 16) {
     notes_.pop_front();
   }
 }
@@ -87,7 +80,8 @@ std::optional<PeriodCandidate> PeriodIntervals::candidate(
                                   : window_.add(start_->t, *edge, turns, expected_s(middle));
   candidate.sigma_s =
       std::hypot(candidate.sigma_s, apparent_motion_s(reference, candidate.period_s));
-  if (!candidate.rejected_by || (!rejected_by && turns >= kMostTurnsRefused)) {
+  // After this many turns of refused intervals the edge that they start from is doubtful.
+  if (!candidate.rejected_by || (!rejected_by && turns >= 5)) {
     start_ = {.t = *edge, .revolution = revolution.number};
   }
   return candidate;

@@ -15,9 +15,6 @@ namespace {
 
 constexpr double kShortest_s = 60.0 / kFastestSearched_rpm;
 constexpr double kLongest_s = 60.0 / kSlowestSearched_rpm;
-constexpr std::size_t kMostEdges = 32;
-// Edges up to this many places apart may be one turn apart, with spurious ones between them.
-constexpr std::size_t kNeighbours = 3;
 // Part of the period within which an edge is on the comb while that is being found.
 constexpr double kNear = 0.02;
 // Part of it once the comb is fitted, unless the stated noise asks for more.
@@ -27,11 +24,7 @@ constexpr double kNearlyAsMany = 0.8;
 constexpr double kLeastShare = 0.65;
 // Least share of turns with an edge: with fewer, the period is a fraction of the true one.
 constexpr double kLeastFilled = 0.45;
-// A longer gap is a silence, not lost edges.
-constexpr double kMostLost = 5.0;
 constexpr double kMostDrift_per_s2 = drift_per_s2(kMostDrift_rpm_h);
-// An uneven comb is taken if it leaves less than this part of the scatter about an even one.
-constexpr double kFarBetter = 0.5;
 // Where up to six receivers give each edge, this share of the intervals is at most about a turn; a
 // turn is at least kLeastOfInterval of the interval at that quantile.
 constexpr double kAboutATurn = 0.875;
@@ -74,7 +67,8 @@ Teeth teeth_from(const std::vector<double>& edges_s, std::size_t first, double p
 double turns_heard(const Teeth& teeth) {
   double turns = 1.0;
   for (std::size_t i = 1; i < teeth.size(); ++i) {
-    turns += std::min(teeth[i].turn - teeth[i - 1].turn, kMostLost);
+    // A longer gap is a silence, not lost edges.
+    turns += std::min(teeth[i].turn - teeth[i - 1].turn, 5.0);
   }
   return turns;
 }
@@ -88,7 +82,8 @@ Found best_teeth(const std::vector<double>& edges_s) {
   Found best{.period_s = 0.0, .teeth = {}};
   std::size_t most = 0;
   for (std::size_t i = 0; i < edges_s.size(); ++i) {
-    for (std::size_t j = i + 1; j < std::min(i + 1 + kNeighbours, edges_s.size()); ++j) {
+    // Edges up to three places apart may be one turn apart, with spurious ones between them.
+    for (std::size_t j = i + 1; j < std::min(i + 4, edges_s.size()); ++j) {
       const double period_s = edges_s[j] - edges_s[i];
       if (!(period_s >= kShortest_s && period_s <= kLongest_s)) {
         continue;
@@ -135,15 +130,16 @@ double bend_of(const Teeth& teeth, double noise, double period_s) {
   const double bend = upper_median(bends);
   Teeth straight = teeth;
   straighten(straight, bend);
+  // An uneven comb is taken if it leaves less than this part of the scatter about an even one.
   const bool better = fit_robust_line(straight, noise, kNear * 2.0)->scatter <
-                      kFarBetter * fit_robust_line(teeth, noise, kNear * 2.0)->scatter;
+                      0.5 * fit_robust_line(teeth, noise, kNear * 2.0)->scatter;
   const bool possible = std::abs(bend) <= kMostDrift_per_s2 * period_s * period_s;
   return better && possible ? bend : 0.0;
 }
 
 std::optional<PulseTrain> train_of(std::span<const TaiTime> edges, double noise_s,
                                    std::size_t fewest) {
-  edges = edges.last(std::min(edges.size(), kMostEdges));
+  edges = edges.last(std::min(edges.size(), std::size_t{32}));
   if (edges.size() < fewest) {
     return std::nullopt;
   }
@@ -217,8 +213,6 @@ constexpr std::size_t kFewestAfterStep = 6;
 // has an edge. Otherwise the time stamps have stepped by a fraction of a turn.
 constexpr double kMuchFaster = 0.75;
 constexpr double kNearlyEvery = 0.8;
-// Turns by which the whole comb may deviate from a whole multiple of the clock period.
-constexpr double kSameTurns = 0.05;
 
 bool is_fraction(const PulseTrain& comb, double period_s) {
   return comb.period_s < kMuchFaster * period_s &&
@@ -229,7 +223,8 @@ bool is_fraction(const PulseTrain& comb, double period_s) {
 bool is_multiple(const PulseTrain& comb, double period_s) {
   const double clock_turns = comb.period_s / period_s;
   const double whole = std::round(clock_turns);
-  return whole > 1.0 && std::abs(clock_turns - whole) * comb.turns < kSameTurns;
+  // Turns by which the whole comb may deviate from a whole multiple of the clock period.
+  return whole > 1.0 && std::abs(clock_turns - whole) * comb.turns < 0.05;
 }
 
 }  // namespace

@@ -11,8 +11,6 @@
 namespace spindrift {
 namespace {
 
-constexpr double kAgree_sigma = 3.0;
-
 struct Line {
   double turn;
   double phase;
@@ -87,7 +85,7 @@ std::optional<RobustLine> fit_robust_line(std::span<const PhasePoint> points, do
   // With few points the best line passes through half of them by construction.
   const double few = 1.0 + 5.0 / static_cast<double>(points.size());
   const double scatter = std::max(noise, kSigmaPerMad * few * least_off);
-  std::vector<PhasePoint> agreeing = near_to(best, kAgree_sigma * scatter, points);
+  std::vector<PhasePoint> agreeing = near_to(best, 3.0 * scatter, points);
   best = least_squares(agreeing, most_drift);
   return RobustLine{.turn = best.turn,
                     .phase = best.phase,

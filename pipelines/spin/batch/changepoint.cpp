@@ -13,7 +13,6 @@ namespace {
 
 using Motion = Eigen::Matrix<double, kMotionUnknowns, kMotionUnknowns>;
 
-constexpr std::size_t kSpans = 64;
 // The chance of such a chi-square is 1e-10 for five degrees of freedom, at one of 63 places of a
 // change, and 1e-13 for the one of the outlier test, at one of 2,016; but outliers come in bursts.
 constexpr double kSignificant = 55.0;
@@ -163,7 +162,7 @@ std::optional<Changepoint> find_rate_changepoint(std::span<const PassEdge> edges
 
 std::optional<Changepoint> find_changepoint(const PassModel& model, std::span<const PassEdge> edges,
                                             const SpinState& state) {
-  const std::vector<SpanInformation> spans = information_by_span(model, edges, state, kSpans);
+  const std::vector<SpanInformation> spans = information_by_span(model, edges, state, 64);
   if (spans.size() < 2) {
     return std::nullopt;
   }

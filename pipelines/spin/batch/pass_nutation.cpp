@@ -38,9 +38,6 @@ NutationStretch stretch_of(std::span<const PassEdge> edges, const FoundNutation&
   return stretch;
 }
 
-// Nutation of 0.2 deg moves edges by ten sigmas.
-constexpr double kFarthestSigmas = 30.0;
-
 }  // namespace
 
 double scatter_of(std::span<const UniformSpinResidual> residuals) {
@@ -69,7 +66,8 @@ std::vector<UniformSpinResidual> uniform_spin_residuals(const PassModel& model,
                            .expected = met->expected});
     }
   }
-  const double farthest = kFarthestSigmas * scatter_of(residuals);
+  // Nutation of 0.2 deg moves edges by ten sigmas.
+  const double farthest = 30.0 * scatter_of(residuals);
   std::erase_if(residuals, [&](const UniformSpinResidual& residual) {
     return !(std::abs(residual.off_rad) < farthest * residual.sigma_rad);
   });

@@ -115,8 +115,6 @@ bool determined(const AxisCandidate& candidate) {
 // Each step is at most a tenth of the last; a slower root is about to vanish.
 constexpr int kMostSteps = 10;
 constexpr double kAtRest_rad = 1e-8;
-// Roots closer than this are the same.
-constexpr double kSame_rad = 1e-6;
 
 Eigen::Vector3d axis_of(const SunEarthDirections& sun_earth, const AxisAngles& place) {
   return axis_icrf(AxisInput<double>{.sun_icrf = sun_earth.sun_icrf,
@@ -160,7 +158,8 @@ bool is_among(const std::vector<AxisAngles>& places, const AxisAngles& place,
               const SunEarthDirections& sun_earth) {
   const Eigen::Vector3d axis_icrf = axis_of(sun_earth, place);
   return std::any_of(places.begin(), places.end(), [&](const AxisAngles& other) {
-    return angle_between_rad(axis_of(sun_earth, other), axis_icrf) < kSame_rad;
+    // Roots closer than this are the same.
+    return angle_between_rad(axis_of(sun_earth, other), axis_icrf) < 1e-6;
   });
 }
 

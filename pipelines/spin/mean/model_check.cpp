@@ -25,8 +25,6 @@ using SomeErrorsMatrix = Eigen::MatrixXd;
 constexpr double kCovered = 0.9;
 // A combination of errors counts as unseen when its sigma exceeds this.
 constexpr double kUnseen_rad = 0.1;
-// Caps the angles for the noise test, so that noise slightly above the stated is not called wrong.
-constexpr double kNoiseAngles = 300.0;
 
 /// Limits of the chi-square by the number of seen errors.
 Limits limits_beyond(double chance) {
@@ -64,7 +62,7 @@ class Spectrum {
     const double least = kLeast.at(freedom());
     double low_rad = 0.0;
     double high_rad = 1.0;
-    for (int i = 0; i < kHalvings; ++i) {
+    for (int i = 0; i < 30; ++i) {
       const double middle_rad = 0.5 * (low_rad + high_rad);
       (chi_square(middle_rad * middle_rad) > least ? low_rad : high_rad) = middle_rad;
     }
@@ -89,8 +87,6 @@ class Spectrum {
   }
 
  private:
-  static constexpr int kHalvings = 30;
-
   Eigen::Array<bool, Eigen::Dynamic, 1> seen() const {
     return information_.values.array() > 1.0 / (kUnseen_rad * kUnseen_rad);
   }
@@ -159,7 +155,9 @@ double excess_noise(const AngleEquations& equations) {
     return 1.0;
   }
   const double excess = (equations.squares() - fitted) / freedom;
-  return variance_factor(excess, std::min(freedom, kNoiseAngles));
+  // Caps the angles for the noise test, so that noise slightly above the stated is not called
+  // wrong.
+  return variance_factor(excess, std::min(freedom, 300.0));
 }
 
 // Evidence from before a restart keeps the weight of this many edges.

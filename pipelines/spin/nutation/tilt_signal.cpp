@@ -20,13 +20,7 @@ using Edges = std::span<const UniformSpinResidual* const>;
 using Points = std::vector<std::complex<double>>;
 using Residuals = std::vector<const UniformSpinResidual*>;
 
-// Within this time Sun and Earth move like a parabola, even on low orbits.
-constexpr double kStretch_s = 600.0;
 constexpr int kSlowUnknowns = 4;
-// Fewer edges carry little beside their own parabola.
-constexpr std::size_t kFewestEdges = 12;
-// Residuals without noise still get a finite weight.
-constexpr double kLeastScatter = 1e-3;
 
 Residuals by_channel_and_time(std::span<const UniformSpinResidual> residuals) {
   Residuals sorted(residuals.size());
@@ -48,7 +42,8 @@ std::vector<Edges> stretches_of(const Residuals& sorted) {
         [&](const UniformSpinResidual* edge) { return edge->channel != (*first)->channel; });
     const double begin_s = (*first)->t_s;
     const double span_s = (*(channel_end - 1))->t_s - begin_s;
-    const double count = std::max(1.0, std::ceil(span_s / kStretch_s));
+    // Within this time Sun and Earth move like a parabola, even on low orbits.
+    const double count = std::max(1.0, std::ceil(span_s / 600.0));
     const auto number_of = [&](const UniformSpinResidual* edge) {
       return span_s > 0.0
                  ? std::min(count - 1.0, std::floor((edge->t_s - begin_s) / span_s * count))
@@ -60,7 +55,8 @@ std::vector<Edges> stretches_of(const Residuals& sorted) {
         return number_of(edge) != number;
       });
       const Edges stretch{first, end};
-      if (stretch.size() >= kFewestEdges) {
+      // Fewer edges carry little beside their own parabola.
+      if (stretch.size() >= 12) {
         stretches.push_back(stretch);
       }
       first = end;
@@ -86,10 +82,6 @@ Eigen::MatrixX4d parabolas(Edges stretch) {
 }
 
 constexpr double kPointsPerTurn = 8.0;
-// Points of the spectrum per resolved frequency, at least.
-constexpr double kFineness = 2.0;
-// Residual oscillations per stretch that parabolas leave of slow changes.
-constexpr double kSlowest = 3.0;
 
 std::size_t power_of_two_from(double size) {
   std::size_t power = 1;
@@ -103,7 +95,8 @@ std::size_t power_of_two_from(double size) {
 Points spread(const TiltSignal& signal) {
   const double first = signal.turns().minCoeff();
   const double span = signal.turns().maxCoeff() - first;
-  Points points(power_of_two_from(kFineness * kPointsPerTurn * (span + 1.0)));
+  // Points of the spectrum per resolved frequency, at least.
+  Points points(power_of_two_from(2.0 * kPointsPerTurn * (span + 1.0)));
   for (Eigen::Index i = 0; i < signal.edges(); ++i) {
     const double place = (signal.turns()[i] - first) * kPointsPerTurn;
     const double whole = std::floor(place);
@@ -214,14 +207,15 @@ void TiltSignal::weigh_by(const Eigen::VectorXd& rest) {
   }
   for (const Stretch& stretch : stretches_) {
     const std::size_t channel = index_of(stretch.channel);
-    const double scatter =
-        std::max(std::sqrt(squares.at(channel) / freedom.at(channel)), kLeastScatter);
+    // Residuals without noise still get a finite weight.
+    const double scatter = std::max(std::sqrt(squares.at(channel) / freedom.at(channel)), 1e-3);
     off_.segment(stretch.first, stretch.edges) /= scatter;
     per_tilt_.segment(stretch.first, stretch.edges) /= scatter;
   }
 }
 
-double unseen_per_turn(const TiltSignal& signal) { return kSlowest / signal.turns_in_stretch(); }
+/// Parabolas leave slow changes of up to three oscillations per stretch.
+double unseen_per_turn(const TiltSignal& signal) { return 3.0 / signal.turns_in_stretch(); }
 
 double strongest_per_turn(const TiltSignal& signal) {
   const Points points = spread(signal);

@@ -13,8 +13,6 @@
 namespace spindrift {
 namespace {
 
-// The information of many turns is an integral, by Gauss and Legendre over stretches this long.
-constexpr double kStretch_s = 10.0;
 // Conditions are looked for this often: channels that meet may part within seconds, and no function
 // to search tells when.
 constexpr double kLook_s = 1.0;
@@ -33,8 +31,8 @@ class Planner {
 
   /// Advances to a later time, or to the start itself.
   Expected<PassStep> step_to(TaiTime t) {
-    const auto stretches =
-        static_cast<std::int64_t>(std::ceil(seconds_between(t_, t) / kStretch_s));
+    // The information of many turns is an integral, by Gauss and Legendre over stretches this long.
+    const auto stretches = static_cast<std::int64_t>(std::ceil(seconds_between(t_, t) / 10.0));
     const double length_s = seconds_between(t_, t) / static_cast<double>(stretches);
     const TaiTime from = t_;
     for (std::int64_t i = 1; i < stretches; ++i) {

@@ -17,14 +17,6 @@ using PerBias = Eigen::Matrix<double, 1, kSensorBiases>;
 using PerError = Eigen::Matrix<double, 1, kModelErrors>;
 using Slope = Eigen::Matrix<double, 5, 1>;
 
-// The Sun within this sine of the axis (0.6 deg) has no azimuth.
-constexpr double kNearestAxis = 0.01;
-// Within this cosine (6 deg) of the end of slit 2 an edge does not measure the axis.
-constexpr double kLeastSlope = 0.1;
-
-// Half a chord counts as at least this many times the noise of its edges.
-constexpr double kNarrowestSigmas = 2.0;
-
 /// Holds the Sun's azimuth, which is that of a slit in a meridian when it sees the Sun.
 struct SunView {
   double azimuth_rad;
@@ -35,7 +27,8 @@ struct SunView {
 
 std::optional<SunView> view_of_sun(const Eigen::Vector3d& sun_spin) {
   const double across = std::hypot(sun_spin.x(), sun_spin.y());
-  if (!(across > kNearestAxis)) {
+  // The Sun within this sine of the axis (0.6 deg) has no azimuth.
+  if (!(across > 0.01)) {
     return std::nullopt;
   }
   const Eigen::Vector3d towards{sun_spin.x() / across, sun_spin.y() / across, 0.0};
@@ -65,7 +58,8 @@ std::optional<SlitView> view_of_slit(const SunSensor& slit, const Eigen::Vector3
   const double sin_lag = tan_cant / std::tan(measured_rad);
   const double cos_lag = std::sqrt(1.0 - sin_lag * sin_lag);
   // The negated comparison also rejects the NaN of sin_lag beyond 1, where the slit ends.
-  if (!(cos_lag > kLeastSlope)) {
+  // Within this cosine (6 deg) of the end of slit 2 an edge does not measure the axis.
+  if (!(cos_lag > 0.1)) {
     return std::nullopt;
   }
   const double sine = std::sin(measured_rad);
@@ -181,10 +175,6 @@ HorizonAxes biased_horizon(Horizon horizon, const SensorBiases& biases) {
   return horizon_axes(horizon);
 }
 
-// Relative eigenvalue below which phase, rate and drift are not separated, as with edges of one
-// time.
-constexpr double kLeastShare = 1e-12;
-
 /// Scales the matrix to a unit diagonal, since dt^2 and a tilt differ by ten orders.
 Eigen::Matrix3d pseudo_inverse(const Eigen::Matrix3d& normal) {
   Eigen::Vector3d unit = Eigen::Vector3d::Zero();
@@ -195,7 +185,9 @@ Eigen::Matrix3d pseudo_inverse(const Eigen::Matrix3d& normal) {
                                                               unit.asDiagonal()};
   Eigen::Vector3d inverse = Eigen::Vector3d::Zero();
   for (Eigen::Index i = 0; i < 3; ++i) {
-    if (scaled.eigenvalues()[i] > kLeastShare) {
+    // Relative eigenvalue below which phase, rate and drift are not separated, as with edges of one
+    // time.
+    if (scaled.eigenvalues()[i] > 1e-12) {
       inverse[i] = 1.0 / scaled.eigenvalues()[i];
     }
   }
@@ -248,8 +240,9 @@ std::optional<PredictedEdge> linearise_by_depth(const SpinConfig& config, const 
   if (!limb) {
     return std::nullopt;
   }
+  // Half a chord counts as at least this many times the noise of its edges.
   const double slope = std::max(std::abs(limb->depth_per_rotation.z()),
-                                kNarrowestSigmas * sigma_rad * std::abs(limb->depth_bend));
+                                2.0 * sigma_rad * std::abs(limb->depth_bend));
   const double scale = crossing == Crossing::In ? slope : -slope;
   return PredictedEdge{.phase_rad = wrapped_rad(phase_rad - limb->depth / scale),
                        .phase_per_rotation = -limb->depth_per_rotation / scale,

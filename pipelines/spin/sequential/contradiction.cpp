@@ -21,9 +21,6 @@ constexpr Weight kFixesAlone{.fixes = 30, .sigmas = 8.0};
 
 // Within this angle edges are linear.
 constexpr double kPoor_rad = kRadPerDeg;
-// Limit in sigmas of a mean known to a degree. A better mean is not tested more strictly, as fixes
-// lie to one side when noise suppresses some of them.
-constexpr double kSigmas = 1.5;
 
 }  // namespace
 
@@ -39,8 +36,10 @@ void StartConfirmation::note(const SpinFix& fix, const StartingPoint& followed) 
   fixes_->add(fix);
   const double mean_rad2 = fixes_->covariance_rad2().trace() * fixes_->excess_scatter();
   const double sigma_rad = std::hypot(kPoor_rad, std::sqrt(followed.covariance_rad2.trace()));
+  // Limit in sigmas of a mean known to a degree. A better mean is not tested more strictly, as
+  // fixes lie to one side when noise suppresses some of them.
   if (mean_rad2 < kPoor_rad * kPoor_rad &&
-      angle_between_rad(fixes_->axis_icrf(), followed.axis_icrf) < kSigmas * sigma_rad) {
+      angle_between_rad(fixes_->axis_icrf(), followed.axis_icrf) < 1.5 * sigma_rad) {
     fixes_.reset();
   }
 }
