@@ -43,4 +43,10 @@ Eigen::Quaterniond TurningEarth::orientation(TaiTime t) {
                                              Eigen::Vector3d::UnitZ()};
 }
 
+Eigen::Vector3d earth_pole_icrf(TaiTime t) {
+  double of_date_from_icrf[3][3];  // NOLINT(*-avoid-c-arrays): ERFA's own type.
+  eraPmat06(kTaiEpoch_jd, tt_days(t), of_date_from_icrf);
+  return Eigen::Map<const Eigen::Vector3d>{&of_date_from_icrf[2][0]};
+}
+
 }  // namespace spindrift

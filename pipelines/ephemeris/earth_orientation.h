@@ -1,8 +1,9 @@
 /// @file
-/// Orientation of the Earth in ICRF.
+/// Orientation of the Earth, and its pole, the short axis of the ellipsoid, in ICRF.
 
 #pragma once
 
+#include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <cstdint>
 #include <optional>
@@ -28,5 +29,11 @@ class TurningEarth {
   std::optional<std::int64_t> hour_;  ///< Hours of TAI since 1970; empty: none yet.
   Eigen::Quaterniond q_icrf_at_hour_;
 };
+
+/// Returns the mean pole of date, ICRF, unit vector: bias and precession IAU 2006 (eraPmat06).
+///
+/// Nutation (10 arcsec) and polar motion (0.5 arcsec) are left out: they move the limb of an
+/// ellipsoid flattened by 1/298 by less than 0.04 arcsec.
+Eigen::Vector3d earth_pole_icrf(TaiTime t);
 
 }  // namespace spindrift

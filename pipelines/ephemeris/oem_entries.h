@@ -1,5 +1,6 @@
 /// @file
-/// The `KEY = value` lines of an OEM (CCSDS 502.0-B), and their errors. For its parser only.
+/// The `KEY = value` lines of an OEM (CCSDS 502.0-B), their errors, and the metadata of a segment
+/// that they give. For its parser only.
 
 #pragma once
 
@@ -10,6 +11,7 @@
 #include <string_view>
 
 #include "pipelines/core/expected.h"
+#include "pipelines/ephemeris/oem.h"
 #include "pipelines/time/tai_time.h"
 
 namespace spindrift {
@@ -37,5 +39,22 @@ Expected<std::string> oem_choice(const OemEntries& entries, std::string_view key
 
 /// Returns the time of `key`, which must be present.
 Expected<TaiTime> oem_time(const OemEntries& entries, std::string_view key, OemReadTime read_time);
+
+/// The metadata of a segment.
+struct OemMetadata {
+  std::string object_name;
+  std::string object_id;
+  OemReadTime read_time = nullptr;
+  TaiTime start;
+  TaiTime stop;
+  TaiTime usable_start;
+  TaiTime usable_stop;
+  std::optional<Interpolation> interpolation;
+  int degree = 0;  ///< Degree of `interpolation`.
+};
+
+/// @param entries Must hold all keys that the standard requires.
+/// @return InvalidConfiguration with line, key and what is allowed.
+Expected<OemMetadata> oem_metadata_from(const OemEntries& entries);
 
 }  // namespace spindrift

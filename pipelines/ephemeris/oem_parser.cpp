@@ -14,7 +14,6 @@
 #include "pipelines/ephemeris/oem.h"
 #include "pipelines/ephemeris/oem_entries.h"
 #include "pipelines/ephemeris/oem_holes.h"
-#include "pipelines/ephemeris/oem_metadata.h"
 #include "pipelines/ephemeris/state_jump.h"
 #include "pipelines/time/utc.h"
 

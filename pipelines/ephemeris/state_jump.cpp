@@ -12,17 +12,6 @@
 namespace spindrift {
 namespace {
 
-// With this step two-body motion near the Earth's surface is accurate to a metre.
-constexpr double kIntegration_s = 30.0;
-// Steps for a month: no orbit is known that long from one state alone.
-constexpr double kMostSteps = 1e5;
-constexpr double kTolerance_km = 10.0;
-constexpr double kToleranceOfWay = 0.05;
-
-// States may be printed to no more digits than that.
-constexpr double kRounding_km = 1.0;
-constexpr double kRounding_km_s = 1e-3;
-
 struct Slope {
   Eigen::Vector3d velocity_km_s;
   Eigen::Vector3d acceleration_km_s2;
@@ -51,8 +40,9 @@ double left_out_km_s2(double range_km) {
 /// A state propagated by two-body motion, and bounds of its error.
 struct Fall {
   OrbitState state;
-  double bound_km = kRounding_km;
-  double bound_km_s = kRounding_km_s;
+  // States may be printed to no more digits than that.
+  double bound_km = 1.0;
+  double bound_km_s = 1e-3;
 };
 
 /// Grows the bounds by the perturbations, and by the error so far times 2 mu / r^3, gravity's
@@ -66,7 +56,9 @@ void widen(Fall& fall, double dt_s) {
 
 /// Propagates a state by two-body motion with fourth-order Runge-Kutta.
 Fall fall_from(const OrbitState& from, double duration_s) {
-  const double steps = std::clamp(std::ceil(duration_s / kIntegration_s), 1.0, kMostSteps);
+  // Steps of half a minute are accurate to a metre near the Earth's surface. The most steps last
+  // for a month: no orbit is known that long from one state alone.
+  const double steps = std::clamp(std::ceil(duration_s / 30.0), 1.0, 1e5);
   const double dt_s = duration_s / steps;
   Fall fall{.state = from};
   for (int i = 0; i < steps; ++i) {
@@ -133,9 +125,8 @@ std::optional<double> jump_km(const EphemerisPoint& from, const EphemerisPoint& 
   }
   const double speed_km_s =
       std::max(from.state.velocity_icrf_km_s.norm(), to.state.velocity_icrf_km_s.norm());
-  const double tolerance_km = kTolerance_km +
-                              kToleranceOfWay * speed_km_s * seconds_between(from.t, to.t) +
-                              step->manoeuvre_km;
+  const double tolerance_km =
+      10.0 + 0.05 * speed_km_s * seconds_between(from.t, to.t) + step->manoeuvre_km;
   return step->off_km > tolerance_km ? std::optional{step->off_km} : std::nullopt;
 }
 

@@ -3,10 +3,12 @@
 #include <erfa.h>
 #include <erfam.h>
 
+#include <Eigen/Geometry>
 #include <chrono>
 #include <cmath>
 
 #include "pipelines/ephemeris/terrestrial_time.h"
+#include "pipelines/frames/wgs84.h"
 
 namespace spindrift {
 namespace {
@@ -76,6 +78,11 @@ Eigen::Vector3d ApparentSun::direction_icrf(TaiTime t, const OrbitState& spacecr
       earth.barycentric_icrf_km_s - earth.heliocentric_icrf_km_s;
   const double light_time_s = sun_now_km.norm() / kLight_km_s;
   return aberrated(sun_now_km - light_time_s * sun_velocity_km_s, earth.barycentric_icrf_km_s);
+}
+
+bool is_in_shadow(const Eigen::Vector3d& position_icrf_km, const Eigen::Vector3d& sun_icrf) {
+  return position_icrf_km.dot(sun_icrf) < 0.0 &&
+         position_icrf_km.cross(sun_icrf).norm() < wgs84::kEquatorialRadius_km;
 }
 
 }  // namespace spindrift

@@ -1,5 +1,5 @@
 /// @file
-/// The apparent Sun as a spacecraft near the Earth sees it.
+/// The apparent Sun as a spacecraft near the Earth sees it, unless it is in the Earth's shadow.
 ///
 /// Computed by ERFA's eraEpv00: within 11.2 km of DE405 from 1900 to 2100 (note 4 of that
 /// function), which is 0.015 arcsec; twice that by 1800 and 2200. TAI + 32.184 s is used for TDB:
@@ -43,5 +43,11 @@ class ApparentSun {
   EarthMotion at_hour_;
   EarthMotion at_next_hour_;
 };
+
+/// Returns whether the Sun's centre is behind the Earth, taken as a sphere of the equatorial radius
+/// without air. In a low orbit the times are right within seconds. A Sun that is partly covered,
+/// before and after, appears displaced by up to a quarter of a degree.
+/// @param sun_icrf Unit vector spacecraft -> Sun.
+bool is_in_shadow(const Eigen::Vector3d& position_icrf_km, const Eigen::Vector3d& sun_icrf);
 
 }  // namespace spindrift

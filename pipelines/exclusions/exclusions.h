@@ -1,17 +1,36 @@
 /// @file
-/// Collects an operator's exclusions of telemetry.
+/// The operator actions that exclude channels and time segments of telemetry, and what they
+/// exclude.
 
 #pragma once
 
 #include <algorithm>
 #include <iterator>
 #include <map>
+#include <optional>
 #include <vector>
 
-#include "pipelines/exclusions/channel_actions.h"
 #include "pipelines/time/tai_time.h"
 
 namespace spindrift {
+
+/// @tparam Channel Pulse channel of a spinner or sample kind of a three-axis spacecraft.
+template <class Channel>
+struct ExcludeChannel {
+  Channel channel;
+};
+
+template <class Channel>
+struct IncludeChannel {
+  Channel channel;
+};
+
+template <class Channel>
+struct ExcludeSegment {
+  TaiTime from;
+  TaiTime to;                      ///< End, exclusive.
+  std::optional<Channel> channel;  ///< Empty for all channels.
+};
 
 template <class Channel>
 class Exclusions {

@@ -72,4 +72,19 @@ inline double angle_between_rad(const Eigen::Quaterniond& a, const Eigen::Quater
   return rotation_vector_of(a.conjugate() * b).norm();
 }
 
+/// Returns the rotation matrix; exactly the identity for zero.
+inline Eigen::Matrix3d rotation_by(const Eigen::Vector3d& vector_rad) {
+  if (vector_rad.isZero(0.0)) {
+    return Eigen::Matrix3d::Identity();
+  }
+  return Eigen::AngleAxisd{vector_rad.norm(), vector_rad.stableNormalized()}.toRotationMatrix();
+}
+
+/// Returns the left Jacobian J of SO(3), rotation_by(v + dv) = rotation_by(J dv) rotation_by(v), to
+/// second order in v: 2e-7 at a degree.
+inline Eigen::Matrix3d rotation_per_vector(const Eigen::Vector3d& vector_rad) {
+  const Eigen::Matrix3d cross = cross_matrix(vector_rad);
+  return Eigen::Matrix3d::Identity() + 0.5 * cross + cross * cross / 6.0;
+}
+
 }  // namespace spindrift

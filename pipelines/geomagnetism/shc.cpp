@@ -15,9 +15,6 @@
 namespace spindrift {
 namespace {
 
-/// Lowest and highest degree, epochs, order and steps; the years that they span may follow.
-constexpr std::size_t kHeadNumbers = 5;
-
 struct Row {
   int line = 0;
   std::vector<double> numbers;
@@ -66,7 +63,8 @@ Expected<std::vector<Row>> rows_of(std::string_view text) {
 
 Expected<void> check_head(const Row& head, const Row& epochs) {
   const std::vector<double>& numbers = head.numbers;
-  if (numbers.size() < kHeadNumbers) {
+  // Lowest and highest degree, epochs, order and steps; the years that they span may follow.
+  if (numbers.size() < 5) {
     return refused(head.line, "must begin with degrees, number of epochs, order and steps");
   }
   if (numbers[0] != 1.0 || numbers[1] != kHighestDegree) {

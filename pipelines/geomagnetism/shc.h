@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "pipelines/core/expected.h"
-#include "pipelines/geomagnetism/main_field_model.h"
+#include "pipelines/geomagnetism/main_field.h"
 
 namespace spindrift {
 

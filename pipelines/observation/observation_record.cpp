@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "pipelines/statistics/variance_factor.h"
+#include "pipelines/statistics/significance.h"
 
 namespace spindrift {
 

@@ -44,7 +44,7 @@ class ObservationRecord {
 
   /// Returns the root mean square of the whitened residuals used; 1 for noise as stated.
   double noise() const { return std::sqrt(mean_square_.mean()); }
-  /// Returns actual over stated variance if significantly above 1 (variance_factor.h); else 1.
+  /// Returns actual over stated variance if significantly above 1 (significance.h); else 1.
   double excess_noise() const;
 
   /// Restarts the shares with the estimator. The noise keeps its value but loses weight.

@@ -29,7 +29,6 @@ constexpr std::int64_t kFewResiduals = 10;
 
 SensorResiduals sun_residuals(const Observations& all, const ChainSolution& fine,
                               std::vector<Observation>& said) {
-  static const double kLimit = squares_of(0.5);
   const Chain& chain = fine.solved.chain;
   const Matrix3d noise_rad2 = std::pow(chain.noise.sun_rad, 2) * Matrix3d::Identity();
   SensorResiduals residuals;
@@ -37,7 +36,7 @@ SensorResiduals sun_residuals(const Observations& all, const ChainSolution& fine
   for (const ChainSun& sun : chain.sun) {
     Observation one = sun_observation(
         all, sun.of, sun.of.measured_body - predicted_sun(fine.solved.state, sun), noise_rad2);
-    one.limit = kLimit;
+    one.limit = squares_of(0.5);
     if (one.nis > one.limit) {
       one.rejected_by = Rejection::Innovation;
       ++residuals.outliers;

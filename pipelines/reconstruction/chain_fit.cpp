@@ -28,13 +28,7 @@ using Eigen::Quaterniond;
 using Eigen::Vector3d;
 using Jacobian = Eigen::Map<Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>;
 
-constexpr double kFunctionTolerance = 1e-9;
 constexpr int kMostIterations = 100;
-/// The largest radius that Ceres accepts, which disables Levenberg-Marquardt damping. Damping ties
-/// each attitude to its present value by a part of its weight and nearly stops a common rotation of
-/// all nodes, which the links leave free.
-constexpr double kTrustRegion = 1e16;
-constexpr double kFarLoss_sigmas = 3.0;
 constexpr double kFullWeight = 16.0;  ///< Squared deviation, in sigmas squared.
 constexpr double kNoWeight = 64.0;
 
@@ -197,7 +191,7 @@ class ChainProblem {
     return options;
   }
 
-  ceres::HuberLoss far_{kFarLoss_sigmas};
+  ceres::HuberLoss far_{3.0};  ///< In sigmas.
   NearLoss near_;
   ceres::EigenQuaternionManifold manifold_;
   ceres::Problem problem_;
@@ -277,8 +271,11 @@ Expected<ChainFit> fit(const Chain& chain, ChainState start, SunLoss loss) {
   options.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
   options.num_threads = 1;
   options.max_num_iterations = kMostIterations;
-  options.initial_trust_region_radius = kTrustRegion;
-  options.function_tolerance = kFunctionTolerance;
+  // The largest radius that Ceres accepts, which disables Levenberg-Marquardt damping. Damping ties
+  // each attitude to its present value by a part of its weight and nearly stops a common rotation
+  // of all nodes, which the links leave free.
+  options.initial_trust_region_radius = 1e16;
+  options.function_tolerance = 1e-9;
   options.logging_type = ceres::SILENT;
   ceres::Solver::Summary summary;
   ceres::Solve(options, &problem.problem(), &summary);

@@ -9,22 +9,14 @@
 #include "pipelines/frames/rotation_vector.h"
 #include "pipelines/reconstruction/chain_covariance.h"
 #include "pipelines/reconstruction/chain_fit.h"
-#include "pipelines/statistics/variance_factor.h"
+#include "pipelines/statistics/median.h"
+#include "pipelines/statistics/significance.h"
 
 namespace spindrift {
 namespace {
 
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
-
-// Limits of the coarse solution: the number of sun vectors and star fixes, thinned evenly, and the
-// first span on either side of the star fix, in which no bias turns the body far, with its growth.
-constexpr std::size_t kCoarseSun = 300;
-constexpr std::size_t kCoarseStars = 100;
-constexpr double kFirstSpan_s = 300.0;
-constexpr double kSpanGrowth = 4.0;
-/// Median length of a vector of two standard normal components.
-constexpr double kMedianLength = 1.17741;
 
 /// Returns every n-th sample within the span, such that at most `most` remain.
 template <class Sample>
@@ -49,15 +41,15 @@ Expected<SolvedChain> coarse_solution(const Observations& all,
   const StarObservation& first = stars.front();
   Vector3d bias_rad_s = Vector3d::Zero();
   int iterations = 0;
-  for (double span_s = kFirstSpan_s;; span_s *= kSpanGrowth) {
+  // In the first span no bias turns the body far.
+  for (double span_s = 300.0;; span_s *= 4.0) {
     const double from_s = std::max(0.0, first.t_s - span_s);
     const double to_s = std::min(all.end_s, first.t_s + span_s);
     const std::span<const SunObservation> sun{all.sun};
-    SolvedChain solved{
-        .chain = chain_of(all.rates, {from_s, to_s}, thinned(sun, from_s, to_s, kCoarseSun),
-                          thinned(stars, from_s, to_s, kCoarseStars), bias_rad_s, noise),
-        .state = {},
-        .iterations = 0};
+    SolvedChain solved{.chain = chain_of(all.rates, {from_s, to_s}, thinned(sun, from_s, to_s, 300),
+                                         thinned(stars, from_s, to_s, 100), bias_rad_s, noise),
+                       .state = {},
+                       .iterations = 0};
     auto fitted =
         fit(solved.chain, started_at(solved.chain, solved.chain.stars.front()), SunLoss::Far);
     if (!fitted) {
@@ -78,12 +70,8 @@ double louder_sun(const SolvedChain& solved) {
   for (const ChainSun& sun : solved.chain.sun) {
     lengths.push_back((predicted_sun(solved.state, sun) - sun.of.measured_body).norm());
   }
-  if (lengths.empty()) {
-    return 1.0;
-  }
-  const auto middle = lengths.begin() + std::ssize(lengths) / 2;
-  std::nth_element(lengths.begin(), middle, lengths.end());
-  const double louder = *middle / kMedianLength / solved.chain.noise.sun_rad;
+  // The median length of a vector of two standard normal components is 1.17741.
+  const double louder = upper_median(lengths) / 1.17741 / solved.chain.noise.sun_rad;
   return louder > kLouder ? louder : 1.0;
 }
 

@@ -12,15 +12,14 @@ namespace {
 using Eigen::Matrix3d;
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
 
-constexpr double kMostArcPoints = 60.0;
-
-/// Returns attitudes from T1 to T2, T2 excluded, at least one second apart; empty if T1 is T2.
+/// Returns at most 60 attitudes from T1 to T2, T2 excluded, at least one second apart; empty if T1
+/// is T2.
 std::vector<ReconstructedAttitude> arc_to_separation(const ReconstructionRequest& request,
                                                      const Observations& all,
                                                      const ReconstructedAttitude& control_on,
                                                      const Matrix3d& rotation_bias_covariance) {
   const double arc_s = seconds_between(all.events.front().t, all.origin);
-  const double points = std::clamp(std::floor(arc_s), 1.0, kMostArcPoints);
+  const double points = std::clamp(std::floor(arc_s), 1.0, 60.0);
   const std::optional<Inertia>& inertia = request.sensors.inertia;
   const auto kg_m2 = inertia ? std::optional{inertia->kg_m2} : std::nullopt;
   Matrix6d at_start;  // Signs follow from rate = measured rate - bias.

@@ -9,12 +9,10 @@
 #include <span>
 #include <utility>
 
-#include "pipelines/ephemeris/shadow.h"
 #include "pipelines/ephemeris/sun.h"
 #include "pipelines/frames/angle.h"
-#include "pipelines/reconstruction/request_check.h"
 #include "pipelines/reconstruction/torque_free_arc.h"
-#include "pipelines/statistics/variance_factor.h"
+#include "pipelines/statistics/significance.h"
 #include "pipelines/three_axis/gyro_screening.h"
 #include "pipelines/time/time_span.h"
 #include "pipelines/time/utc.h"
@@ -23,10 +21,6 @@ namespace spindrift {
 namespace {
 
 using enum SeparationEvent;
-
-// Number of usual steps by which T2, T4 or a star fix may lie outside the gyro samples, to allow
-// for a sample that was still due.
-constexpr double kHeldSteps = 2.0;
 
 Unexpected refused(ErrorCode code, std::string message) {
   return Unexpected{{code, std::move(message)}};
@@ -185,7 +179,7 @@ std::optional<Error> turns_too_often(const Observations& all) {
 }  // namespace
 
 double held_s(std::span<const GyroSample> gyro) {
-  return gyro.empty() ? 0.0 : kHeldSteps * usual_step_s(timed(gyro, gyro.front().t));
+  return gyro.empty() ? 0.0 : 2.0 * usual_step_s(timed(gyro, gyro.front().t));
 }
 
 Observation sun_observation(const Observations& all, const SunObservation& sun,

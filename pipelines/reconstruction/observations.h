@@ -64,8 +64,8 @@ inline constexpr double kUsedBehindFirstFix_s = 120.0;
 SensorResiduals gyro_residuals(const Observations& all);
 void add_gyro_left_out(const Observations& all, std::vector<Observation>& said);
 
-/// Returns how far, in s, an event or star fix may lie outside the gyro samples, to allow for a
-/// sample that was still due. The samples must be in time order.
+/// Returns how far, in s, an event or star fix may lie outside the gyro samples: two usual steps,
+/// to allow for a sample that was still due. The samples must be in time order.
 double held_s(std::span<const GyroSample> gyro);
 
 /// @return Errors as listed at reconstruct().

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "pipelines/frames/rotation_vector.h"
+#include "pipelines/statistics/median.h"
 #include "pipelines/three_axis/rate_wander.h"
 #include "pipelines/time/tai_time.h"
 
@@ -14,8 +15,6 @@ namespace {
 
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
-
-constexpr double kGap = 1.75;
 
 /// Returns the density of each step, the larger of those before and after it. The first and last
 /// elements are for the times before the first sample and after the last one.
@@ -39,22 +38,17 @@ std::vector<double> wander_rad2_s3(std::span<const TimedRate> samples, double no
 }  // namespace
 
 double usual_step_s(std::span<const TimedRate> samples) {
-  if (samples.size() < 2) {
-    return 0.0;
-  }
   std::vector<double> steps_s;
   for (std::size_t i = 1; i < samples.size(); ++i) {
     steps_s.push_back(samples[i].t_s - samples[i - 1].t_s);
   }
-  const auto middle = steps_s.begin() + std::ssize(steps_s) / 2;
-  std::nth_element(steps_s.begin(), middle, steps_s.end());
-  return *middle;
+  return upper_median(steps_s);
 }
 
 RateTrack::RateTrack(std::vector<TimedRate> samples, double begin_s, double end_s,
                      double noise_rad_s)
     : samples_{std::move(samples)} {
-  const double longest_s = kGap * usual_step_s(samples_);
+  const double longest_s = 1.75 * usual_step_s(samples_);
   const std::vector<double> wander = wander_rad2_s3(samples_, noise_rad_s);
   const bool held_before = begin_s < samples_.front().t_s;
   const bool held_behind = end_s > samples_.back().t_s;

@@ -6,16 +6,12 @@
 #include "pipelines/frames/angle.h"
 #include "pipelines/frames/uncertain_attitude.h"
 #include "pipelines/statistics/significance.h"
-#include "pipelines/statistics/variance_factor.h"
 #include "pipelines/three_axis/products.h"
 
 namespace spindrift {
 namespace {
 
 using enum ReasonCode;
-
-constexpr double kManyFixesGated = 1.0 / 3.0;
-constexpr double kLongGap_s = 10.0;  ///< The body may turn and stop in it, which no sigma covers.
 
 bool is_many(std::int64_t some, std::int64_t others, double share) {
   return static_cast<double>(some) > share * static_cast<double>(some + others);
@@ -50,8 +46,9 @@ void add_sun(const Observations& all, const Reconstruction& result, Doubts& doub
 void add_gyro(const Observations& all, Doubts& doubts) {
   if (all.rates.gaps() > 0) {
     const double longest_s = all.rates.longest_gap_s();
+    // In a long gap the body may turn and stop, which no sigma covers.
     doubts.add({GyroGaps, {{"count", all.rates.gaps()}, {"longest_s", longest_s}}},
-               longest_s > kLongGap_s);
+               longest_s > 10.0);
   }
   doubts.count(GyroSaturated, all.gyro_left_out_by(Rejection::Saturated), true);
   doubts.count(GyroFrozen, all.gyro_left_out_by(Rejection::Frozen), true);
@@ -88,7 +85,7 @@ Assessment assess(const ReconstructionRequest& request, const Observations& all,
   Doubts doubts{.assessment = {unchecked ? Quality::Converging : Quality::Ok}};
   doubts.count(StarFixes, result.star.count, false);
   const std::int64_t gated = std::ssize(stars.gated());
-  doubts.count(StarFixesGated, gated, is_many(gated, std::ssize(stars.accepted), kManyFixesGated));
+  doubts.count(StarFixesGated, gated, is_many(gated, std::ssize(stars.accepted), 1.0 / 3.0));
   if (stars.contradict) {
     doubts.add({StarFixesContradict}, true);
   }

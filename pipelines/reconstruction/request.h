@@ -1,5 +1,5 @@
 /// @file
-/// The input of a separation reconstruction.
+/// The input of a separation reconstruction, and whether its values can be used.
 
 #pragma once
 
@@ -7,8 +7,9 @@
 #include <optional>
 #include <vector>
 
+#include "pipelines/core/expected.h"
 #include "pipelines/ephemeris/orbit.h"
-#include "pipelines/ephemeris/timed_orbit_state.h"
+#include "pipelines/ephemeris/orbit_state.h"
 #include "pipelines/three_axis/config.h"
 #include "pipelines/three_axis/samples.h"
 #include "pipelines/time/tai_time.h"
@@ -57,5 +58,8 @@ std::optional<Orbit> orbit_of(const ReconstructionRequest& request);
 
 /// Returns the number of gyro samples, sun vectors and star fixes.
 std::int64_t sample_count(const ReconstructionRequest& request);
+
+/// Checks sensors, inertia, sigmas and every single sample, but not the event times.
+std::optional<Error> refusal_of(const ReconstructionRequest& request);
 
 }  // namespace spindrift

@@ -30,8 +30,6 @@ using Eigen::Quaterniond;
 using Eigen::Vector3d;
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
 
-/// Relative tolerance of the cost between iterations, as in Li 2017.
-constexpr double kTolerance = 1e-6;
 /// Disables the other convergence tests, which would end a slow body's step before it is solved.
 constexpr double kNoTolerance = 1e-14;
 
@@ -92,7 +90,8 @@ struct Solver {
     options.jacobi_scaling = false;
     options.min_lm_diagonal = 1.0;
     options.max_lm_diagonal = 1.0;
-    options.function_tolerance = kTolerance;
+    // Relative tolerance of the cost between iterations, as in Li 2017.
+    options.function_tolerance = 1e-6;
     options.gradient_tolerance = kNoTolerance;
     options.parameter_tolerance = kNoTolerance;
     options.logging_type = ceres::SILENT;

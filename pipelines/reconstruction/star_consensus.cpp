@@ -60,8 +60,7 @@ Observation said_by(TaiTime t, std::vector<Difference> differ) {
     return said;
   }
   const auto middle = differ.begin() + (std::ssize(differ) - 1) / 2;
-  std::nth_element(differ.begin(), middle, differ.end(),
-                   [](const Difference& a, const Difference& b) { return a.nis < b.nis; });
+  std::ranges::nth_element(differ, middle, {}, &Difference::nis);
   said.residual = middle->residual;
   said.nis = middle->nis;
   if (said.nis > said.limit) {

@@ -13,8 +13,6 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-constexpr double kStep_rad = 0.01;
-
 struct RigidBody {
   explicit RigidBody(const std::optional<Matrix3d>& inertia_kg_m2)
       : kg_m2{inertia_kg_m2.value_or(Matrix3d::Identity())}, inverse{kg_m2.inverse()} {
@@ -88,7 +86,7 @@ ArcState torque_free_arc(const ArcState& from, const std::optional<Matrix3d>& in
   const RigidBody body{inertia_kg_m2};
   State at{from.body.q_icrf_body.normalized().coeffs(), from.body.rate_body_rad_s, from.slopes};
   const double turned_rad = from.body.rate_body_rad_s.norm() * std::abs(duration_s);
-  const double steps = std::max(1.0, std::ceil(turned_rad / kStep_rad));
+  const double steps = std::max(1.0, std::ceil(turned_rad / 0.01));
   for (double i = 0.0; i < steps; ++i) {
     at = stepped(at, body, duration_s / steps);
   }

@@ -1,5 +1,6 @@
 /// @file
-/// The Kalman update in Joseph form, in which rounding makes no variance negative.
+/// The Kalman update in Joseph form, in which rounding makes no variance negative, and the limits
+/// of its iteration for directions, that of Gauss and Newton.
 
 #pragma once
 
@@ -38,5 +39,10 @@ struct LinearUpdate {
   Noise expected;  ///< Covariance of the innovation.
   Eigen::Matrix<double, kState, kSize> gain;
 };
+
+/// A larger correction (0.06 deg) is linearised again at its result.
+inline constexpr double kFarFromLinear_rad = 1e-3;
+/// Largest number of linearisations.
+inline constexpr int kMostLinearisations = 8;
 
 }  // namespace spindrift

@@ -12,9 +12,6 @@
 namespace spindrift {
 namespace {
 
-constexpr std::size_t kFewValues = 10;
-constexpr int kMostRounds = 20;
-
 double median_of_sorted(std::span<const double> sorted) {
   const std::size_t middle = sorted.size() / 2;
   return sorted.size() % 2 == 1 ? sorted[middle] : 0.5 * (sorted[middle - 1] + sorted[middle]);
@@ -46,13 +43,13 @@ std::span<const double> kept_by(const RobustMean& mean, std::span<const double> 
 }
 
 RobustMean robust_mean(std::span<const double> sorted, const ClipRule& rule) {
-  const double floor = sorted.size() < kFewValues ? rule.sigma * rule.stated : rule.stated;
+  const double floor = sorted.size() < 10 ? rule.sigma * rule.stated : rule.stated;
   RobustMean result{};
   result.mean = median_of_sorted(sorted);
   result.limit = std::max(rule.sigma * kSigmaPerMad * median_deviation(sorted, result.mean), floor);
 
   std::span<const double> kept_before;
-  for (int round = 0; round < kMostRounds; ++round) {
+  for (int round = 0; round < 20; ++round) {
     const RobustMean before = result;
     const std::span<const double> kept = kept_by(before, sorted);
     const bool same_set = kept.data() == kept_before.data() && kept.size() == kept_before.size();

@@ -4,7 +4,6 @@
 #include <string>
 #include <utility>
 
-#include "pipelines/ephemeris/shadow.h"
 #include "pipelines/time/time_span.h"
 
 namespace spindrift {

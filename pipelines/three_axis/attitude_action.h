@@ -5,7 +5,7 @@
 
 #include <variant>
 
-#include "pipelines/exclusions/channel_actions.h"
+#include "pipelines/exclusions/exclusions.h"
 #include "pipelines/three_axis/products.h"
 
 namespace spindrift {

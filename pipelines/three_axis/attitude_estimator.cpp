@@ -21,22 +21,14 @@ using Eigen::Vector3d;
 // Random walk of the gyro bias as a fraction of its prior sigma, 1 % in a day: invisible within ten
 // minutes, but enough for the filter to replace the bias of the first hour within a day.
 constexpr double kBiasWalk_sqrt_s = 3e-5;
-// Sigma per axis of an unmeasured rate: a launcher releases a body with at most 10 deg/s.
-constexpr double kUnknownRate_rad_s = 5.0 * kRadPerDeg;
 // Longest age at which a direction is still of use without a gyro.
 constexpr double kAtOnce_s = 1.0;
-// A shorter run of repeats occurs when a sensor is read more often than it measures.
-constexpr int kFrozenForLong = 5;
 // A sensor with one bad sample in ten stays clear of the share limit by chance, while one that is
 // rejected entirely reaches it at its tenth sample. Rejected samples do not count as noise.
 constexpr RecordRules kSampleRules{
     .recent = 20.0, .fewest_freedoms = 30.0, .most_freedoms = 900.0, .noise_from_share = 1.0};
 constexpr double kMany = 0.4;
 constexpr double kFewestSamples = 5.0;
-// At most ten estimates per second of telemetry time, allowing for jitter of the sample times.
-constexpr double kShortest_s = 0.095;
-// Estimates carry the bias at most once a second, because it drifts over hours.
-constexpr double kBetweenBiases_s = 1.0;
 
 /// Its trace is the mean square of the rotation angle between two random attitudes.
 Matrix3d any_attitude_rad2() {
@@ -284,7 +276,8 @@ void AttitudeEstimator::coast(TaiTime t, Products& out) {
     filter_.reset();
     rival_.reset();
     const double dt_s = t_ ? elapsed_s(*t_, t) : 0.0;
-    carried_.turn(t, Vector3d::Zero(), {.noise_rad2 = 0.0, .drift_rad = kUnknownRate_rad_s * dt_s},
+    // Sigma per axis of an unmeasured rate: a launcher releases a body with at most 10 deg/s.
+    carried_.turn(t, Vector3d::Zero(), {.noise_rad2 = 0.0, .drift_rad = 5.0 * kRadPerDeg * dt_s},
                   kAtOnce_s);
     t_ = t;
     return;
@@ -582,7 +575,8 @@ void AttitudeEstimator::lose(Products& out) {
 }
 
 void AttitudeEstimator::give_where_due(Products& out) {
-  if (filter_ && (!given_ || elapsed_s(*given_, *t_) >= kShortest_s)) {
+  // At most ten estimates per second of telemetry time, allowing for jitter of the sample times.
+  if (filter_ && (!given_ || elapsed_s(*given_, *t_) >= 0.095)) {
     give(out);
   }
 }
@@ -598,7 +592,8 @@ void AttitudeEstimator::give(Products& out) {
   if (rate_rad_s_ && !gyro_is_out()) {
     estimate.rate_body_rad_s = *rate_rad_s_ - filter_->bias_rad_s();
   }
-  if (gyro_.last() && (!bias_given_ || elapsed_s(*bias_given_, *t_) >= kBetweenBiases_s)) {
+  // Estimates carry the bias at most once a second, because it drifts over hours.
+  if (gyro_.last() && (!bias_given_ || elapsed_s(*bias_given_, *t_) >= 1.0)) {
     bias_given_ = t_;
     estimate.gyro_bias = {.rad_s = filter_->bias_rad_s(),
                           .covariance_rad2_s2 = filter_->covariance().bottomRightCorner<3, 3>()};
@@ -640,7 +635,8 @@ bool AttitudeEstimator::is_held() const {
 /// Returns whether the sensor is known to be wrong. For a star tracker, other sensors must confirm
 /// an attitude that its own earlier fixes supported; else it would be one sensor against another.
 bool AttitudeEstimator::is_out(SampleKind kind) const {
-  return frozen_.at(index_of(kind)).repeats() >= kFrozenForLong ||
+  // A shorter run of repeats occurs when a sensor is read more often than it measures.
+  return frozen_.at(index_of(kind)).repeats() >= 5 ||
          (kind == SampleKind::Star && has_fixes_ && rival_ && rival_->stands() &&
           rival_->is_refuted());
 }

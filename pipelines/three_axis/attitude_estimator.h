@@ -12,7 +12,7 @@
 /// rad for lack of measurements. The filter then begins again at the next fix.
 ///
 /// Samples that repeat bit for bit are left out (frozen_samples.h). Star fixes that the attitude
-/// rejects but that agree with each other form a rival attitude (rival_attitude.h). Sun and
+/// rejects but that agree with each other form a rival attitude. Sun and
 /// magnetic field decide between the two. Where they do not decide, the star fixes win in the end,
 /// and the estimate is DOUBTFUL until Sun or field confirm it or the fixes return to the former
 /// attitude. An attitude that only its first fix supports yields at once to star fixes that agree
@@ -47,10 +47,33 @@
 #include "pipelines/three_axis/gyro_watch.h"
 #include "pipelines/three_axis/mekf.h"
 #include "pipelines/three_axis/products.h"
-#include "pipelines/three_axis/rival_attitude.h"
 #include "pipelines/three_axis/samples.h"
+#include "pipelines/time/tai_time.h"
 
 namespace spindrift {
+
+/// A second attitude, kept when star fixes contradict the one in force: either the star tracker or
+/// the attitude is wrong. Star fixes alone cannot decide which; Sun and magnetic field can.
+struct RivalAttitude {
+  /// Number of samples beyond which an agreement is not accidental.
+  static constexpr int kEnough = 3;
+
+  Mekf filter;
+  TaiTime since;
+  /// True if star fixes overruled this attitude; false if they formed it.
+  bool was_in_force = false;
+  /// True if star fixes have ever supported this attitude.
+  bool has_fixes = true;
+  /// Number of star fixes that fit this attitude and not the one in force.
+  int star_fixes = 0;
+  /// Samples of other sensors that fit only the attitude in force, minus those that fit only this.
+  int against = 0;
+
+  /// Returns whether this attitude is more than an outlier.
+  bool stands() const { return was_in_force || star_fixes >= kEnough; }
+  bool is_refuted() const { return against >= kEnough; }
+  bool is_proven() const { return against <= -kEnough; }
+};
 
 /// Holds a direction measured by one sensor and its reference in ICRF.
 struct SeenDirection {

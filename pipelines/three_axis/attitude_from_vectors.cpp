@@ -11,9 +11,6 @@
 namespace spindrift {
 namespace {
 
-// Smallest ratio of the eigenvalues of the information matrix that exceeds rounding errors.
-constexpr double kFewestOfMost = 1e-14;
-
 /// @return Covariance of the attitude, rad^2, body axes.
 Expected<Eigen::Matrix3d> observed(std::span<const ObservedDirection> directions) {
   Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
@@ -23,7 +20,8 @@ Expected<Eigen::Matrix3d> observed(std::span<const ObservedDirection> directions
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver{information};
   const double least = solver.eigenvalues()[0];
   const double most = solver.eigenvalues()[2];
-  if (!(least * kLargestSigma_rad * kLargestSigma_rad > 1.0 && least > kFewestOfMost * most)) {
+  // Smallest ratio of the eigenvalues of the information matrix that exceeds rounding errors.
+  if (!(least * kLargestSigma_rad * kLargestSigma_rad > 1.0 && least > 1e-14 * most)) {
     return Unexpected{
         {ErrorCode::Unobservable,
          fmt::format("{} directions do not determine the attitude: all lie so nearly along one "

@@ -8,11 +8,23 @@
 #include "pipelines/core/expected.h"
 #include "pipelines/frames/uncertain_attitude.h"
 #include "pipelines/three_axis/attitude_from_vectors.h"
-#include "pipelines/three_axis/carry_error.h"
 #include "pipelines/three_axis/products.h"
 #include "pipelines/time/tai_time.h"
 
 namespace spindrift {
+
+/// Holds the error about each axis that propagation with the gyro adds to a direction or an
+/// attitude, with variance `variance_rad2()`.
+struct CarryError {
+  double noise_rad2 = 0.0;  ///< Variance of independent errors, which adds up.
+  double drift_rad = 0.0;   ///< Drift by the unknown bias, whose turns add up linearly.
+
+  void add(const CarryError& more) {
+    noise_rad2 += more.noise_rad2;
+    drift_rad += more.drift_rad;
+  }
+  double variance_rad2() const { return noise_rad2 + drift_rad * drift_rad; }
+};
 
 class CarriedDirections {
  public:

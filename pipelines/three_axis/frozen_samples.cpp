@@ -9,17 +9,12 @@
 namespace spindrift {
 namespace {
 
-constexpr double kByChance = 1e-9;
-// Factor by which a sensor may be quieter than stated.
-constexpr double kQuieter = 3.0;
-// Decimal rounding may put a change off a multiple of the step by this fraction of the step.
-constexpr double kRounding = 0.05;
-
 /// Returns the greatest step of which both values are multiples, by Euclid's algorithm.
 double common_step(double a, double b) {
   while (true) {
     const double left = std::abs(std::remainder(std::max(a, b), std::min(a, b)));
-    if (left <= kRounding * std::min(a, b)) {
+    // Decimal rounding may put a change off a multiple of the step by this fraction of the step.
+    if (left <= 0.05 * std::min(a, b)) {
       return std::min(a, b);
     }
     a = std::min(a, b);
@@ -95,7 +90,8 @@ double FrozenSamples::step() const { return steps_.size() > 0 ? steps_.maxCoeff(
 double FrozenSamples::longest_by_chance(const Values& steps, double noise) const {
   double chance = 1.0;
   for (const double step : steps) {
-    chance *= std::min(step * kQuieter / (2.0 * noise * std::sqrt(std::numbers::pi)), 1.0);
+    // Factor by which a sensor may be quieter than stated.
+    chance *= std::min(step * 3.0 / (2.0 * noise * std::sqrt(std::numbers::pi)), 1.0);
   }
   if (chance >= 1.0) {
     return std::numeric_limits<double>::infinity();
@@ -103,7 +99,7 @@ double FrozenSamples::longest_by_chance(const Values& steps, double noise) const
   if (chance == 0.0) {
     return fewest_.unknown - 1.0;
   }
-  return std::max(1.0 + std::log(kByChance) / std::log(chance), fewest_.known - 1.0);
+  return std::max(1.0 + std::log(1e-9) / std::log(chance), fewest_.known - 1.0);
 }
 
 }  // namespace spindrift

@@ -6,6 +6,7 @@
 #include <iterator>
 #include <utility>
 
+#include "pipelines/statistics/median.h"
 #include "pipelines/statistics/significance.h"
 #include "pipelines/three_axis/frozen_samples.h"
 #include "pipelines/three_axis/gyro_tests.h"
@@ -85,12 +86,11 @@ void leave_out_outliers(ScreenedGyro& gyro, double noise_rad_s) {
 
 /// Uses evenly spaced samples only, because the rate may not be linear across a gap.
 std::optional<double> noise_of(std::span<const GyroSample> samples, double noise_rad_s) {
-  constexpr double kEven = 0.1;
   std::vector<double> deviations;
   for (std::size_t i = 1; i + 1 < samples.size(); ++i) {
     const double before_s = elapsed_s(samples[i - 1].t, samples[i].t);
     const double behind_s = elapsed_s(samples[i].t, samples[i + 1].t);
-    if (std::abs(behind_s - before_s) < kEven * before_s) {
+    if (std::abs(behind_s - before_s) < 0.1 * before_s) {
       const OffLine line = off_line(samples[i + 1], samples[i], samples[i - 1]);
       std::transform(line.off_rad_s.begin(), line.off_rad_s.end(), std::back_inserter(deviations),
                      [&](double value) { return std::abs(value) / line.spread; });
@@ -99,9 +99,7 @@ std::optional<double> noise_of(std::span<const GyroSample> samples, double noise
   if (deviations.size() < 3 * kFewest) {
     return std::nullopt;
   }
-  const auto middle = deviations.begin() + std::ssize(deviations) / 2;
-  std::nth_element(deviations.begin(), middle, deviations.end());
-  return *middle / kMedianDeviation / noise_rad_s;
+  return upper_median(deviations) / kMedianDeviation / noise_rad_s;
 }
 
 }  // namespace

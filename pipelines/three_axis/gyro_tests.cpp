@@ -12,8 +12,6 @@ namespace {
 
 using Eigen::Vector3d;
 
-constexpr double kClipped = 0.999;  // Fraction of the range.
-
 /// Returns the absolute change of rate per axis from `from` to `t`, extrapolated from the change
 /// between the adjacent samples `a` and `b`.
 Vector3d change_rad_s(const GyroSample& a, const GyroSample& b, TaiTime from, TaiTime t) {
@@ -29,7 +27,7 @@ std::optional<RejectedSample> rejected_alone(const GyroSample& sample, const Gyr
       .t = sample.t, .kind = SampleKind::Gyro, .rejected_by = Rejection::Frozen, .failed = frozen};
   if (sensor.range_rad_s) {
     const FailedTest range{.value = sample.rate_body_rad_s.cwiseAbs().maxCoeff(),
-                           .limit = kClipped * *sensor.range_rad_s};
+                           .limit = 0.999 * *sensor.range_rad_s};
     if (range.value >= range.limit) {
       rejected.rejected_by = Rejection::Saturated;
       rejected.failed = range;

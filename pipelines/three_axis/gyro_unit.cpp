@@ -8,23 +8,6 @@
 #include "pipelines/time/time_span.h"
 
 namespace spindrift {
-namespace {
-
-// A shorter turn between two fixes is not significant against their noise.
-constexpr double kSignificant = 20.0;  // In standard deviations of a fix.
-// Tolerances for agreement of a turn: a fraction of it for rate changes between the samples, and
-// the noise of two fixes and of the bias, which three axes exceed with a probability of 0.001.
-constexpr double kLeft = 0.05;
-constexpr double kSigmas = 4.0;
-// A larger misfit, as a fraction of the turn, is a disagreement whatever the bias. Otherwise rates
-// that another unit makes too small would agree with every slow turn.
-constexpr double kAnother = 0.5;
-// Longer turns are not integrated, because the bias would dominate.
-constexpr double kLongest_s = 60.0;
-constexpr double kLongestStep_s = 2.5;
-constexpr int kEnough = 3;
-
-}  // namespace
 
 void GyroUnit::note(const GyroSample& sample) {
   if (is_heard_at(sample.t)) {
@@ -42,17 +25,19 @@ void GyroUnit::note(TaiTime t, const ObservedAttitude& fix) {
     return;
   }
   turn_to(t, last_->rate_body_rad_s);
-  if (!fix_ || elapsed_s(fixed_, t) > kLongest_s) {
+  // Longer turns are not integrated, because the bias would dominate.
+  if (!fix_ || elapsed_s(fixed_, t) > 60.0) {
     begin(t, fix);
     return;
   }
   const Eigen::Quaterniond seen = fix_->conjugate() * fix.q_icrf_body;
-  if (rotation_vector_of(seen).norm() < kSignificant * fix.sigma_rad) {
+  // A shorter turn between two fixes is not significant against their noise.
+  if (rotation_vector_of(seen).norm() < 20.0 * fix.sigma_rad) {
     return;
   }
   if (const auto factor = factor_that_agrees(seen, fix.sigma_rad)) {
     in_a_row_ = *factor == factor_ ? 0 : in_a_row_ + 1;
-    if (in_a_row_ >= kEnough) {
+    if (in_a_row_ >= 3) {
       factor_ = *factor;
       in_a_row_ = 0;
     }
@@ -60,9 +45,7 @@ void GyroUnit::note(TaiTime t, const ObservedAttitude& fix) {
   begin(t, fix);
 }
 
-bool GyroUnit::is_heard_at(TaiTime t) const {
-  return last_ && elapsed_s(last_->t, t) <= kLongestStep_s;
-}
+bool GyroUnit::is_heard_at(TaiTime t) const { return last_ && elapsed_s(last_->t, t) <= 2.5; }
 
 void GyroUnit::begin(TaiTime t, const ObservedAttitude& fix) {
   fixed_ = t;
@@ -81,15 +64,18 @@ void GyroUnit::turn_to(TaiTime t, const Eigen::Vector3d& rate_rad_s) {
 std::optional<double> GyroUnit::factor_that_agrees(const Eigen::Quaterniond& seen,
                                                    double sigma_rad) const {
   const double seen_rad = rotation_vector_of(seen).norm();
-  const double left_rad =
-      kLeft * seen_rad +
-      kSigmas * (std::numbers::sqrt2 * sigma_rad + bias_sigma_rad_s_ * elapsed_s(fixed_, reached_));
+  // Tolerances for agreement of a turn: a fraction of it for rate changes between the samples, and
+  // the noise of two fixes and of the bias, which three axes exceed with a probability of 0.001.
+  const double left_rad = 0.05 * seen_rad + 4.0 * (std::numbers::sqrt2 * sigma_rad +
+                                                   bias_sigma_rad_s_ * elapsed_s(fixed_, reached_));
   if (angle_between_rad(turned_.front(), seen) <= left_rad) {
     return kFactors.front();
   }
   std::optional<double> agrees;
   for (std::size_t i = 1; i < kFactors.size(); ++i) {
-    if (angle_between_rad(turned_[i], seen) <= std::min(left_rad, kAnother * seen_rad)) {
+    // A larger misfit, as a fraction of the turn, is a disagreement whatever the bias. Otherwise
+    // rates that another unit makes too small would agree with every slow turn.
+    if (angle_between_rad(turned_[i], seen) <= std::min(left_rad, 0.5 * seen_rad)) {
       agrees = kFactors[i];
     }
   }

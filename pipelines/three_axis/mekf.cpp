@@ -5,7 +5,6 @@
 
 #include "pipelines/frames/rotation_vector.h"
 #include "pipelines/frames/shortest_turn.h"
-#include "pipelines/statistics/iterated_update.h"
 #include "pipelines/statistics/linear_update.h"
 
 namespace spindrift {

@@ -3,8 +3,7 @@
 
 #pragma once
 
-#include "pipelines/ephemeris/timed_orbit_state.h"
-#include "pipelines/three_axis/magnetic_field.h"
+#include "pipelines/ephemeris/orbit_state.h"
 #include "pipelines/three_axis/products.h"
 #include "pipelines/three_axis/samples.h"
 

@@ -36,6 +36,13 @@ struct SunDirection {
   Sender sender = Sender::First;
 };
 
+/// Holds the measurement of the magnetometer.
+struct MagneticField {
+  TaiTime t;
+  Eigen::Vector3d field_body_nt = Eigen::Vector3d::Zero();
+  Sender sender = Sender::First;
+};
+
 /// Returns whether two vectors agree but for rounding. The same direction may be sent with another
 /// length, so the normalised vectors are compared as well.
 template <int N>
@@ -50,6 +57,9 @@ inline bool say_the_same(const GyroSample& a, const GyroSample& b) {
 }
 inline bool say_the_same(const SunDirection& a, const SunDirection& b) {
   return are_same_direction(a.sun_body, b.sun_body);
+}
+inline bool say_the_same(const MagneticField& a, const MagneticField& b) {
+  return same_but_for_rounding(a.field_body_nt, b.field_body_nt);
 }
 /// The quaternions q and -q are the same attitude.
 inline bool say_the_same(const StarFix& a, const StarFix& b) {

@@ -4,18 +4,9 @@
 #include <cmath>
 
 #include "pipelines/ephemeris/kepler_orbit.h"
-#include "pipelines/ephemeris/shadow.h"
 #include "pipelines/frames/angle.h"
-#include "pipelines/geomagnetism/field_at_spacecraft.h"
 
 namespace spindrift {
-namespace {
-
-// Fewer rejections may be due to chance or to a passing cause.
-constexpr std::int64_t kFewestLeftOut = 50;
-constexpr double kMostLeftOut = 0.9;
-
-}  // namespace
 
 std::chrono::nanoseconds reorder_horizon(const OrderedSample& /*sample*/) {
   return std::chrono::seconds{1};
@@ -160,10 +151,8 @@ Expected<OrbitState> ThreeAxisPass::spacecraft_at(TaiTime t) const {
 
 void ThreeAxisPass::compute(const SunDirection& sun, ThreeAxisOutput& out) {
   const auto spacecraft = spacecraft_at(sun.t);
-  constexpr auto kAtEarth = [] {
-    return OrbitState{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
-  };
-  const Eigen::Vector3d sun_icrf = sun_.direction_icrf(sun.t, spacecraft.value_or(kAtEarth()));
+  const OrbitState at_earth{Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
+  const Eigen::Vector3d sun_icrf = sun_.direction_icrf(sun.t, spacecraft.value_or(at_earth));
   if (spacecraft && is_in_shadow(spacecraft->position_icrf_km, sun_icrf)) {
     leave_out({sun.t, sun}, Rejection::Shadow, out);
     return;
@@ -256,7 +245,8 @@ void ThreeAxisPass::say_what_is_left_out(ThreeAxisOutput& out) {
     std::int64_t& count = left_out_[{sample->kind, sample->rejected_by}];
     const double share =
         static_cast<double>(++count) / static_cast<double>(sensor.accepted + sensor.rejected);
-    if (count >= kFewestLeftOut && share >= kMostLeftOut &&
+    // Fewer rejections may be due to chance or to a passing cause.
+    if (count >= 50 && share >= 0.9 &&
         said_left_out_.emplace(sample->kind, sample->rejected_by).second) {
       out.notices.push_back(most_left_out(*sample, 100.0 * share));
     }

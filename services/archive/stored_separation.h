@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "pipelines/core/expected.h"
-#include "pipelines/ephemeris/timed_orbit_state.h"
+#include "pipelines/ephemeris/orbit_state.h"
 #include "pipelines/three_axis/samples.h"
 
 namespace spindrift {

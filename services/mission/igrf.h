@@ -10,7 +10,7 @@
 #include <string_view>
 
 #include "pipelines/core/expected.h"
-#include "pipelines/geomagnetism/main_field_model.h"
+#include "pipelines/geomagnetism/main_field.h"
 #include "pipelines/time/tai_time.h"
 
 namespace spindrift {

@@ -5,8 +5,8 @@
 
 #include <optional>
 
-#include "pipelines/reconstruction/launcher_check.h"
 #include "pipelines/reconstruction/request.h"
+#include "pipelines/reconstruction/separation.h"
 #include "services/mission/document.h"
 
 namespace spindrift {

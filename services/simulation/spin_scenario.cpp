@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "pipelines/ephemeris/earth_pole.h"
+#include "pipelines/ephemeris/earth_orientation.h"
 #include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
 #include "pipelines/spin/types/spin_rate.h"

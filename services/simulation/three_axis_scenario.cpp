@@ -10,7 +10,7 @@
 #include "pipelines/frames/euler312.h"
 #include "pipelines/frames/inertia.h"
 #include "pipelines/frames/rotation_vector.h"
-#include "pipelines/ground_model/control/held_momentum.h"
+#include "pipelines/ground_model/control/actuators.h"
 #include "services/mission/igrf.h"
 #include "services/mission/values.h"
 #include "services/simulation/silences.h"

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <tuple>
 
-#include "pipelines/three_axis/magnetic_field.h"
+#include "pipelines/three_axis/samples.h"
 #include "services/telemetry/plausible.h"
 #include "services/telemetry/telemetry.h"
 

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <tuple>
 
-#include "pipelines/ephemeris/timed_orbit_state.h"
+#include "pipelines/ephemeris/orbit_state.h"
 #include "services/telemetry/plausible.h"
 #include "services/telemetry/telemetry.h"
 

@@ -5,7 +5,7 @@
 
 #include <benchmark/benchmark.h>
 
-#include "pipelines/reconstruction/reconstruct.h"
+#include "pipelines/reconstruction/separation.h"
 #include "tests/support/separation_flight.h"
 
 namespace spindrift {

@@ -4,7 +4,7 @@
 #include "pipelines/reconstruction/chain_covariance.h"
 #include "pipelines/reconstruction/chain_fit.h"
 #include "pipelines/reconstruction/chain_solution.h"
-#include "pipelines/reconstruction/reconstruct.h"
+#include "pipelines/reconstruction/separation.h"
 #include "tests/support/attitude_smoother.h"
 #include "tests/support/separation_flight.h"
 

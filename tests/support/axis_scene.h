@@ -11,7 +11,7 @@
 #include <set>
 
 #include "pipelines/spin/types/products.h"
-#include "pipelines/spin/types/sun_earth_directions.h"
+#include "pipelines/spin/types/sky.h"
 #include "tests/support/lone_fix.h"
 #include "tests/support/spinning_body.h"
 

@@ -8,7 +8,7 @@
 #include <GeographicLib/SphericalHarmonic.hpp>
 #include <vector>
 
-#include "pipelines/geomagnetism/gauss_coefficients.h"
+#include "pipelines/geomagnetism/main_field.h"
 
 namespace spindrift::testing {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "pipelines/ephemeris/earth_pole.h"
+#include "pipelines/ephemeris/earth_orientation.h"
 #include "pipelines/ephemeris/sun.h"
 #include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"

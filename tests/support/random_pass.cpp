@@ -8,7 +8,7 @@
 #include <numbers>
 #include <optional>
 
-#include "pipelines/ephemeris/earth_pole.h"
+#include "pipelines/ephemeris/earth_orientation.h"
 #include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
 #include "pipelines/spin/sensor_model/geometry.h"

@@ -5,7 +5,7 @@
 #include "pipelines/ephemeris/kepler_orbit.h"
 #include "pipelines/frames/angle.h"
 #include "pipelines/frames/rotation_vector.h"
-#include "pipelines/ground_model/flights/separation_motion.h"
+#include "pipelines/ground_model/flights/three_axis_flights.h"
 #include "pipelines/ground_model/link/chance.h"
 #include "pipelines/ground_model/link/three_axis_telemetry.h"
 

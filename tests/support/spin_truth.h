@@ -3,7 +3,7 @@
 
 #pragma once
 
-#include "pipelines/ephemeris/earth_pole.h"
+#include "pipelines/ephemeris/earth_orientation.h"
 #include "pipelines/ground_model/sensors/spin_edges.h"
 #include "tests/support/observed_spin.h"
 

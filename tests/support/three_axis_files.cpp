@@ -10,7 +10,7 @@
 #include "pipelines/ephemeris/kepler_orbit.h"
 #include "pipelines/ephemeris/sun.h"
 #include "pipelines/frames/angle.h"
-#include "pipelines/geomagnetism/field_at_spacecraft.h"
+#include "pipelines/geomagnetism/main_field.h"
 #include "services/mission/igrf.h"
 #include "tests/support/turning_body.h"
 

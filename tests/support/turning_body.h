@@ -13,7 +13,6 @@
 
 #include "pipelines/three_axis/attitude_estimator.h"
 #include "pipelines/three_axis/config.h"
-#include "pipelines/three_axis/magnetic_field.h"
 #include "pipelines/three_axis/samples.h"
 
 namespace spindrift::testing {

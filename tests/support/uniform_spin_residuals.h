@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "pipelines/ground_model/sensors/spin_edges.h"
-#include "pipelines/spin/nutation/uniform_spin_residual.h"
+#include "pipelines/spin/nutation/tilt_signal.h"
 #include "pipelines/spin/types/config.h"
 
 namespace spindrift::testing {

@@ -1,17 +1,90 @@
 /// @file
-/// Detects flight that leaves the band about the model and stays outside.
+/// Compares samples of flight and model channel by channel, and detects flight that leaves the band
+/// about the model and stays outside.
 
 #pragma once
 
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <deque>
 #include <optional>
+#include <string>
+#include <string_view>
 #include <vector>
 
-#include "pipelines/ground_model/comparison/compared_sample.h"
-#include "pipelines/ground_model/comparison/residual_statistics.h"
 #include "pipelines/supervision/condition_watch.h"
+#include "pipelines/time/tai_time.h"
 
 namespace spindrift {
+
+struct ComparedChannel {
+  std::string name;       ///< Name, e.g. "gyro_x". Channel "gyro" tells whether the sensor sends.
+  std::string_view unit;  ///< Unit of the values; empty for a channel that only has to send.
+  double holding_s;       ///< Time over which a departure of flight is judged.
+};
+
+/// Values of flight and model in the unit of the channel.
+struct ComparedValue {
+  double flight;
+  double model;
+  double sigma;  ///< Standard deviation of their difference due to noise; above 0.
+
+  double residual() const { return flight - model; }
+  double normalised() const { return residual() / sigma; }
+};
+
+struct ComparedSample {
+  std::size_t channel;  ///< Index among the model's channels.
+  TaiTime t;
+  bool came;  ///< False where the model sends and flight does not.
+  std::optional<ComparedValue> value = {};
+};
+
+/// Returns the time over which a departure is judged: ten seconds and twenty samples at least, so
+/// that single outliers are no departure.
+/// @param step_s Time between samples.
+inline double holding_s(double step_s) { return std::max(10.0, 20.0 * step_s); }
+
+/// Accumulates residuals, flight minus model, in the unit of the channel. A statistic is 0 where
+/// there are too few residuals for it.
+class ResidualStatistics {
+ public:
+  void add(const ComparedValue& value) {
+    const double residual = value.residual();
+    const double before = residual - mean_;
+    ++count_;
+    mean_ += before / static_cast<double>(count_);
+    about_mean_ += before * (residual - mean_);
+    squares_ += residual * residual;
+    normalised_squares_ += value.normalised() * value.normalised();
+    most_ = std::max(most_, std::abs(residual));
+  }
+
+  std::int64_t count() const { return count_; }
+  double mean() const { return mean_; }
+  /// Returns the standard deviation about the mean.
+  double sigma() const {
+    return count_ > 1 ? std::sqrt(about_mean_ / static_cast<double>(count_ - 1)) : 0.0;
+  }
+  double rms() const { return root_mean(squares_); }
+  /// Returns the rms of the residuals divided by their sigma: 1 where only noise makes them.
+  double normalised_rms() const { return root_mean(normalised_squares_); }
+  double most() const { return most_; }  ///< Largest absolute residual.
+
+ private:
+  double root_mean(double squares) const {
+    return count_ > 0 ? std::sqrt(squares / static_cast<double>(count_)) : 0.0;
+  }
+
+  std::int64_t count_ = 0;
+  double mean_ = 0.0;
+  double about_mean_ = 0.0;  ///< Sum of squares about the mean.
+  double squares_ = 0.0;
+  double normalised_squares_ = 0.0;
+  double most_ = 0.0;
+};
 
 /// Holds the result of the comparison in one channel.
 struct ChannelComparison {

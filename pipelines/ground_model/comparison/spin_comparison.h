@@ -18,7 +18,7 @@
 
 #include "pipelines/core/expected.h"
 #include "pipelines/ephemeris/orbit.h"
-#include "pipelines/ground_model/comparison/compared_sample.h"
+#include "pipelines/ground_model/comparison/departure_watch.h"
 #include "pipelines/ground_model/link/pulse_link.h"
 #include "pipelines/ground_model/sensors/spin_edges.h"
 #include "pipelines/spin/telemetry_order/pulse_reorder_window.h"

@@ -6,11 +6,10 @@
 #include <cmath>
 #include <utility>
 
-#include "pipelines/ephemeris/shadow.h"
 #include "pipelines/frames/angle.h"
 #include "pipelines/frames/rotation_vector.h"
 #include "pipelines/frames/shortest_turn.h"
-#include "pipelines/geomagnetism/field_at_spacecraft.h"
+#include "pipelines/geomagnetism/main_field.h"
 #include "pipelines/ground_model/link/silence.h"
 #include "pipelines/ground_model/sensors/three_axis_reading.h"
 #include "pipelines/time/time_span.h"

@@ -22,7 +22,7 @@
 #include "pipelines/ephemeris/earth_orientation.h"
 #include "pipelines/ephemeris/orbit.h"
 #include "pipelines/ephemeris/sun.h"
-#include "pipelines/ground_model/comparison/compared_sample.h"
+#include "pipelines/ground_model/comparison/departure_watch.h"
 #include "pipelines/ground_model/dynamics/body_motion.h"
 #include "pipelines/ground_model/flights/three_axis_flights.h"
 #include "pipelines/ground_model/link/three_axis_telemetry.h"

@@ -30,8 +30,7 @@ Expected<AttitudeControl> AttitudeControl::make(const ControlPlan& plan, const D
 
 Vector3d AttitudeControl::torque_body_nm(double t_s, const MeasuredBody& measured) {
   // Tolerance so that a multiple of the period is not taken for the period before by rounding.
-  constexpr double kRounding_s = 1e-6;
-  const double now_s = t_s + kRounding_s;
+  const double now_s = t_s + 1e-6;
   if (mode_ == ControlMode::Drift && now_s >= plan_.control_on_s) {
     mode_ = ControlMode::Damping;
   }

@@ -12,10 +12,8 @@
 #include <variant>
 
 #include "pipelines/frames/rotation_vector.h"
+#include "pipelines/ground_model/control/actuators.h"
 #include "pipelines/ground_model/control/control_laws.h"
-#include "pipelines/ground_model/control/held_momentum.h"
-#include "pipelines/ground_model/control/thrusters.h"
-#include "pipelines/ground_model/control/wheels.h"
 #include "pipelines/ground_model/dynamics/disturbances.h"
 #include "pipelines/ground_model/dynamics/rigid_body.h"
 

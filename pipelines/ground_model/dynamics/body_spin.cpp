@@ -8,7 +8,7 @@
 
 #include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
-#include "pipelines/ground_model/dynamics/coarse_step.h"
+#include "pipelines/ground_model/dynamics/rigid_body.h"
 
 namespace spindrift {
 namespace {

@@ -6,8 +6,7 @@
 #include <cmath>
 
 #include "pipelines/frames/angle.h"
-#include "pipelines/geomagnetism/field_at_spacecraft.h"
-#include "pipelines/ground_model/dynamics/coarse_step.h"
+#include "pipelines/ground_model/dynamics/rigid_body.h"
 
 namespace spindrift {
 

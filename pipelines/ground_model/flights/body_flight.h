@@ -10,7 +10,7 @@
 #include "pipelines/ephemeris/earth_orientation.h"
 #include "pipelines/ephemeris/orbit.h"
 #include "pipelines/frames/body_state.h"
-#include "pipelines/geomagnetism/main_field_model.h"
+#include "pipelines/geomagnetism/main_field.h"
 #include "pipelines/ground_model/control/closed_loop.h"
 #include "pipelines/ground_model/dynamics/body_motion.h"
 #include "pipelines/ground_model/dynamics/disturbances.h"

@@ -1,9 +1,15 @@
 #include "pipelines/ground_model/flights/three_axis_flights.h"
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
-#include "pipelines/ephemeris/orbit_frame.h"
+#include "pipelines/ephemeris/flight_frames.h"
+#include "pipelines/ephemeris/sun.h"
+#include "pipelines/frames/angle.h"
 #include "pipelines/frames/rotation_vector.h"
+#include "pipelines/ground_model/control/attitude_control.h"
+#include "pipelines/ground_model/dynamics/rigid_body.h"
 
 namespace spindrift {
 namespace {
@@ -36,7 +42,66 @@ Expected<FlownBody> seen(BodyMotion motion, TaiTime start, const ThreeAxisSensor
       });
 }
 
+Expected<AttitudeControl> laws_of(const SeparationTruth& truth) {
+  const SeparationControl& control = truth.control;
+  return AttitudeControl::make({.control_on_s = truth.control_on_s,
+                                .damped_rad_s = 0.0,
+                                .pointing_at_s = truth.acquisition_s},
+                               RelayDamping{.torque_nm = control.thrusters.torque_nm,
+                                            .dead_band_rad_s = control.dead_band_rad_s},
+                               SunAcquisition{.inertia_kg_m2 = truth.body.inertia_kg_m2,
+                                              .torque_nm_most = control.thrusters.torque_nm,
+                                              .slew_rad_s = control.slew_rad_s,
+                                              .period_s = control.period_s});
+}
+
+/// Returns a step of which the flight is a whole multiple.
+double step_s(double end_s, double fastest_rad_s) {
+  const double wanted_s = std::min(1.0, 0.01 / std::max(fastest_rad_s, 1e-6));
+  return end_s / std::ceil(end_s / wanted_s);
+}
+
 }  // namespace
+
+Expected<BodyMotion> tumbling_motion(const TumblingTruth& truth, const Orbit& orbit) {
+  const auto body = RigidBody::make(truth.body.inertia_kg_m2);
+  if (!body) {
+    return Unexpected{body.error()};
+  }
+  const double fastest = fastest_rad_s(truth.body.inertia_kg_m2,
+                                       truth.body.at_start.rate_body_rad_s, truth.wheels_body_nms);
+  if (const auto fine = check_step(kLongestStep_s, fastest); !fine) {
+    return Unexpected{fine.error()};
+  }
+  ClosedLoop<BodyMotion> loop{
+      BodyMotion{*body, truth.body.at_start, step_s(truth.body.end_s, fastest)},
+      HeldMomentum{truth.wheels_body_nms}, truth.body.disturbances, 1};
+  return fly(loop, truth.body, orbit,
+             [](TaiTime, const OrbitState&) { return Eigen::Vector3d::Zero().eval(); })
+      .map([&] { return std::move(loop).body(); });
+}
+
+Expected<BodyMotion> separation_motion(const SeparationTruth& truth, const Orbit& orbit) {
+  const auto thrusters = Thrusters::make(truth.control.thrusters);
+  if (!thrusters) {
+    return Unexpected{thrusters.error()};
+  }
+  auto loop = loop_of(truth.body, *thrusters, truth.control.period_s);
+  if (!loop) {
+    return Unexpected{std::move(loop.error())};
+  }
+  auto laws = laws_of(truth);
+  if (!laws) {
+    return Unexpected{std::move(laws.error())};
+  }
+  ApparentSun sun;
+  return fly(*loop, truth.body, orbit,
+             [&](TaiTime t, const OrbitState& spacecraft) {
+               return laws->torque_body_nm(loop->t_s(),
+                                           loop->measured(sun.direction_icrf(t, spacecraft)));
+             })
+      .map([&] { return std::move(*loop).body(); });
+}
 
 Expected<FlownSeparation> flown(const SeparationScenario& scenario, const Orbit& orbit) {
   const BodyTruth& body = scenario.truth.body;

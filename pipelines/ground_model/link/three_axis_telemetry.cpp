@@ -3,11 +3,9 @@
 #include <cmath>
 #include <utility>
 
-#include "pipelines/ephemeris/shadow.h"
 #include "pipelines/ephemeris/sun.h"
 #include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
-#include "pipelines/geomagnetism/field_at_spacecraft.h"
 #include "pipelines/ground_model/sensors/three_axis_reading.h"
 
 namespace spindrift {
@@ -92,10 +90,8 @@ class Downlink {
 
  private:
   std::vector<double> due_s(const Sampling& sampling) const {
-    constexpr double kRounding_s = 1e-6;
     std::vector<double> times_s;
-    for (double i = 0.0; sampling.from_s + i * sampling.step_s <= motion_.end_s() + kRounding_s;
-         ++i) {
+    for (double i = 0.0; sampling.from_s + i * sampling.step_s <= motion_.end_s() + 1e-6; ++i) {
       times_s.push_back(sampling.from_s + i * sampling.step_s);
     }
     return times_s;

@@ -11,11 +11,10 @@
 
 #include "pipelines/core/expected.h"
 #include "pipelines/ephemeris/orbit.h"
-#include "pipelines/geomagnetism/main_field_model.h"
+#include "pipelines/geomagnetism/main_field.h"
 #include "pipelines/ground_model/dynamics/body_motion.h"
 #include "pipelines/ground_model/link/chance.h"
 #include "pipelines/ground_model/link/silence.h"
-#include "pipelines/three_axis/magnetic_field.h"
 #include "pipelines/three_axis/samples.h"
 #include "pipelines/time/tai_time.h"
 

@@ -13,25 +13,15 @@
 namespace spindrift {
 namespace {
 
-// Most edges kept without a clock: noise alone must not fill the memory.
-constexpr std::size_t kMostWaiting = 1024;
 // A revolution stays open at least this long, so that a channel seen for the first time finds it.
 constexpr double kOpen_turns = 0.75;
 constexpr double kChordGate_turns = 0.2;
-// However long the silence, an edge counts with a turn only if it lies nearer to it than this.
-constexpr double kMostReach_turns = 0.4;
 // A clock less certain than this may have miscounted the turns of a silence: it starts afresh.
 constexpr double kLost_turns = 0.2;
-// Another channel takes over after this many revolutions without a good reference edge.
-constexpr int kSilentReference = 10;
 // A channel is learnt from the edges that waited for the clock when it was seen in at least
 // kFewestSeen turns, and in at least one of kMostTurnsAnEdge turns.
 constexpr std::size_t kFewestSeen = 3;
 constexpr std::size_t kMostTurnsAnEdge = 3;
-// Edges of all channels are kept for a few more turns than a step of the rate is searched in.
-constexpr std::size_t kMostRecent = 16 * kPulseChannels;
-// A channel is fit to set the clock after this many good edges in a row.
-constexpr int kFitReference = 3;
 
 constexpr std::array<PulseChannel, kPulseChannels> kChannels = {
     PulseChannel::Sun1,     PulseChannel::Sun2,    PulseChannel::NorthIn,
@@ -84,7 +74,8 @@ void Associator::place_or_wait(const Pulse& pulse, Association& out) {
   }
   waiting_.push_back(pulse);
   try_to_start(false, out);
-  if (!clock_ && waiting_.size() > kMostWaiting) {
+  // Most edges kept without a clock: noise alone must not fill the memory.
+  if (!clock_ && waiting_.size() > 1024) {
     out.left_over.push_back(left_over(waiting_.front()));
     waiting_.erase(waiting_.begin());
   }
@@ -209,7 +200,8 @@ void Associator::learn_phases() {
 
 void Associator::note_recent(const Pulse& pulse) {
   recent_.push_back(pulse);
-  if (recent_.size() > kMostRecent) {
+  // Edges of all channels are kept for a few more turns than a step of the rate is searched in.
+  if (recent_.size() > 16 * kPulseChannels) {
     recent_.pop_front();
   }
 }
@@ -289,8 +281,9 @@ SpinPeriod Associator::period_at(TaiTime t) const {
 
 /// Returns how far from its expectation an edge still counts with a turn: further after a silence.
 double Associator::reach_turns(PulseChannel channel, double phase_turns) const {
+  // However long the silence, an edge counts with a turn only if it lies nearer to it than this.
   return std::clamp(config_.screening.sigma * clock_sigma_turns(phase_turns), gate_turns(channel),
-                    kMostReach_turns);
+                    0.4);
 }
 
 void Associator::place(const Pulse& pulse, bool spoilt, Association& out) {
@@ -532,14 +525,15 @@ void Associator::count_silence(const Revolution& revolution) {
   using enum PulseChannel;
   turns_without_reference_ = revolution.good_edge(reference_) ? 0 : turns_without_reference_ + 1;
   const auto is_fit = [&](PulseChannel channel) {
-    return channel != reference_ && revolution.good_edge(channel) &&
-           phases_.in_a_row(channel) >= kFitReference;
+    // A channel is fit to set the clock after this many good edges in a row.
+    return channel != reference_ && revolution.good_edge(channel) && phases_.in_a_row(channel) >= 3;
   };
   if (is_fit(Sun1)) {
     change_reference(Sun1, revolution.number);
   } else if (!sees_the_sun(reference_) && is_fit(Sun2)) {
     change_reference(Sun2, revolution.number);
-  } else if (turns_without_reference_ >= kSilentReference) {
+  } else if (turns_without_reference_ >= 10) {
+    // Another channel takes over after this many revolutions without a good reference edge.
     const auto* const fit = std::find_if(kChannels.begin(), kChannels.end(), is_fit);
     if (fit != kChannels.end()) {
       change_reference(*fit, revolution.number);

@@ -26,7 +26,7 @@
 #include "pipelines/spin/association/expected_phases.h"
 #include "pipelines/spin/association/interfering_pairs.h"
 #include "pipelines/spin/association/period_intervals.h"
-#include "pipelines/spin/association/rate_step.h"
+#include "pipelines/spin/association/period_search.h"
 #include "pipelines/spin/association/spin_clock.h"
 #include "pipelines/spin/types/config.h"
 #include "pipelines/spin/types/products.h"

@@ -28,10 +28,6 @@ constexpr std::size_t kNotesToAgree = 3;
 // a straight line: its ends may then be off by as much, its slope by twice that along the whole.
 constexpr double kHidden_scatters = 3.0;
 constexpr double kSamePeriod = 0.01;
-// Periods of channels differ by less, unless one has half of its edges or twice as many.
-constexpr double kAnotherPeriod = 1.2;
-// The motion of the Earth and noise change an interval by a smaller part of it.
-constexpr double kSameInterval = 0.02;
 // A pass begins where kFewestOfRun edges follow within kOneRun_turns.
 constexpr std::ptrdiff_t kFewestOfRun = 3;
 constexpr double kOneRun_turns = 10.0;
@@ -74,7 +70,8 @@ PeriodNote note_of_one_turn(const std::vector<PeriodNote>& notes, const PeriodNo
 /// period of several turns, but some of its edges may still be one turn apart.
 bool have_interval(const std::vector<TaiTime>& edges, double period_s) {
   return std::adjacent_find(edges.begin(), edges.end(), [period_s](TaiTime a, TaiTime b) {
-           return std::abs(elapsed_s(a, b) - period_s) <= kSameInterval * period_s;
+           // The motion of the Earth and noise change an interval by a smaller part of it.
+           return std::abs(elapsed_s(a, b) - period_s) <= 0.02 * period_s;
          }) != edges.end();
 }
 
@@ -118,7 +115,8 @@ SpinClock counted_from(SpinClock::Setting setting, const std::vector<TaiTime>& e
 }  // namespace
 
 bool is_another_period(double one_s, double other_s) {
-  return std::max(one_s, other_s) > kAnotherPeriod * std::min(one_s, other_s);
+  // Periods of channels differ by less, unless one has half of its edges or twice as many.
+  return std::max(one_s, other_s) > 1.2 * std::min(one_s, other_s);
 }
 
 OtherChannels other_channels(const SpinConfig& config, std::span<const Pulse> pulses,
@@ -205,10 +203,8 @@ std::optional<ClockStart> start_clock(const SpinConfig& config, std::span<const 
     return std::nullopt;
   }
   std::vector<PeriodNote> sorted = sane;
-  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
-  std::nth_element(
-      sorted.begin(), middle, sorted.end(),
-      [](const PeriodNote& a, const PeriodNote& b) { return a.period_s < b.period_s; });
+  const auto middle = sorted.begin() + std::ssize(sorted) / 2;
+  std::ranges::nth_element(sorted, middle, {}, &PeriodNote::period_s);
   const PeriodNote chosen = note_of_one_turn(sane, *middle);
   const double period_s = chosen.period_s;
   const auto agrees = same_period_as(chosen);

@@ -3,40 +3,30 @@
 #include <algorithm>
 #include <cstddef>
 #include <utility>
+#include <vector>
 
+#include "pipelines/statistics/median.h"
 #include "pipelines/time/time_span.h"
 
 namespace spindrift {
 namespace {
 
 constexpr std::size_t kLast = 10;
-// Copies become usual with at least this many revolutions: one edge in twenty may come doubled.
-constexpr std::ptrdiff_t kFewest = 3;
 // Copies stay usual with at least this many: two receivers that lose half still give a third twice.
 constexpr std::ptrdiff_t kFewestToStay = 2;
 constexpr std::size_t kMostBehind = 100;
 constexpr std::size_t kFewestBehind = 30;
-// Interquartile range of the distances, in parts of their median, from which copies come in any
-// order: 1.2 where both orders are equally likely, 0.8 where one holds in 95 of 100 revolutions,
-// and the bias is a fiftieth of the scatter.
-constexpr double kAnyOrder = 0.8;
-// Part of an edge's noise below which the median distance does not matter: the bias is up to 0.6 of
-// that distance, and so no more than the noise of a mean of thousands of edges.
-constexpr double kNothing = 0.02;
 
 bool are_most(const std::deque<bool>& had_copies) {
   const auto with = std::count(had_copies.begin(), had_copies.end(), true);
-  return with >= kFewest && 2 * with > std::ssize(had_copies);
+  // Copies become usual with at least this many revolutions: one edge in twenty may come doubled.
+  return with >= 3 && 2 * with > std::ssize(had_copies);
 }
 
-// Fewest of the last choices for the later copy to count: a spoilt edge leaves it now and then.
-constexpr std::ptrdiff_t kFewestLater = 3;
-
-double quantile(std::deque<double> values, double share) {
-  const auto place =
-      values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
-  std::nth_element(values.begin(), place, values.end());
-  return *place;
+double quantile(const std::deque<double>& values, double share) {
+  std::vector<double> reordered{values.begin(), values.end()};
+  const double place = share * static_cast<double>(values.size() - 1);
+  return in_order_at(reordered, static_cast<std::size_t>(place));
 }
 
 }  // namespace
@@ -85,7 +75,8 @@ std::optional<bool> Copies::is_later(PulseChannel channel) const {
   if (!are_usual(channel) || choices.size() < kLast) {
     return std::nullopt;
   }
-  return std::count(choices.begin(), choices.end(), true) >= kFewestLater;
+  // Fewest of the last choices for the later copy to count: a spoilt edge leaves it now and then.
+  return std::count(choices.begin(), choices.end(), true) >= 3;
 }
 
 bool Copies::disagree_with_others(PulseChannel channel) const {
@@ -102,13 +93,18 @@ bool Copies::disagree_with_others(PulseChannel channel) const {
 
 bool Copies::are_apart(PulseChannel channel, double noise_s) const {
   const std::deque<double>& behind_s = channels_.at(index_of(channel)).behind_s;
-  return are_usual(channel) && !behind_s.empty() && quantile(behind_s, 0.5) > kNothing * noise_s;
+  // Part of an edge's noise below which the median distance does not matter: the bias is up to 0.6
+  // of that distance, and so no more than the noise of a mean of thousands of edges.
+  return are_usual(channel) && !behind_s.empty() && quantile(behind_s, 0.5) > 0.02 * noise_s;
 }
 
 bool Copies::are_in_any_order(PulseChannel channel, double noise_s) const {
   const std::deque<double>& behind_s = channels_.at(index_of(channel)).behind_s;
+  // Interquartile range of the distances, in parts of their median, from which copies come in any
+  // order: 1.2 where both orders are equally likely, 0.8 where one holds in 95 of 100 revolutions,
+  // and the bias is a fiftieth of the scatter.
   return are_apart(channel, noise_s) && behind_s.size() >= kFewestBehind &&
-         quantile(behind_s, 0.75) - quantile(behind_s, 0.25) > kAnyOrder * quantile(behind_s, 0.5);
+         quantile(behind_s, 0.75) - quantile(behind_s, 0.25) > 0.8 * quantile(behind_s, 0.5);
 }
 
 }  // namespace spindrift

@@ -23,8 +23,6 @@ constexpr double kSunDrift = 1e-4;
 constexpr double kSunWander = 1e-6;
 // A chord hovering about sun1 keeps its revolution until it has drifted this far past.
 constexpr double kHover_turns = 0.25;
-// Most edges that a channel is learnt from.
-constexpr std::size_t kMostLearnt = 32;
 // This many edges in a row that miss their place and agree on another move it there; fewer where no
 // more were accepted at the old one. Strays of a silent channel, one in fifty turns, do so by
 // chance once in ten million turns, as they must come within kAgreeWithin revolutions.
@@ -34,11 +32,6 @@ constexpr std::size_t kFewestToAgree = 3;
 constexpr double kWidest_turns = 0.02;
 constexpr std::size_t kMostStrays = 9;
 constexpr int kAgreeWithin = 20;
-// A channel is silent after this many revolutions without a good edge.
-constexpr int kSilent = 30;
-// The lag between the slits differs from their separation by less: beyond, the Sun is on the other
-// side of the body.
-constexpr double kSlitLag_turns = 0.25;
 
 double fraction(double turns) { return turns - std::floor(turns); }
 
@@ -161,12 +154,15 @@ bool ExpectedPhases::can_be_at(PulseChannel channel, double count) const {
   }
   const double behind = count - at(other, count);
   const double lag = (channel == Sun2 ? behind : -behind) - slit_separation_turns_;
-  return std::abs(std::remainder(lag, 1.0)) < kSlitLag_turns;
+  // The lag between the slits differs from their separation by less: beyond, the Sun is on the
+  // other side of the body.
+  return std::abs(std::remainder(lag, 1.0)) < 0.25;
 }
 
 bool ExpectedPhases::learn(PulseChannel channel, std::span<const double> counts,
                            std::size_t fewest_turns, double clock_sigma_turns) {
-  counts = counts.last(std::min(counts.size(), kMostLearnt));
+  // Most edges that a channel is learnt from.
+  counts = counts.last(std::min(counts.size(), std::size_t{32}));
   const auto only_place = [&](std::span<const double> some) {
     auto line = place_of(channel, some, fewest_turns);
     return line && !has_another_place(some, *line) ? std::move(line) : std::nullopt;
@@ -203,7 +199,8 @@ bool ExpectedPhases::learn(PulseChannel channel, std::span<const double> counts,
 void ExpectedPhases::end_revolution() {
   ++revolution_;
   for (Channel& channel : channels_) {
-    if (&channel != &of(reference_) && revolution_ - channel.last_seen > kSilent) {
+    // A channel is silent after this many revolutions without a good edge.
+    if (&channel != &of(reference_) && revolution_ - channel.last_seen > 30) {
       channel.known = false;
       channel.accepted = 0;
       channel.in_a_row = 0;

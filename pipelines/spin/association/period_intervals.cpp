@@ -1,17 +1,44 @@
 #include "pipelines/spin/association/period_intervals.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
-#include <cstddef>
+#include <numbers>
+
+#include "pipelines/time/time_span.h"
 
 namespace spindrift {
-namespace {
 
-constexpr std::size_t kMostNotes = 16;
-// After this many turns of refused intervals the edge that they start from is doubtful.
-constexpr std::int64_t kMostTurnsRefused = 5;
+SpinPeriodWindow::SpinPeriodWindow(const SpinScreening& screening, double edge_sigma_s)
+    : screening_{screening},
+      candidate_sigma_s_{std::numbers::sqrt2 * edge_sigma_s},
+      differences_s_{static_cast<std::size_t>(screening.window)} {}
 
-}  // namespace
+PeriodCandidate SpinPeriodWindow::add(TaiTime from, TaiTime to, std::int64_t turns,
+                                      double expected_s) {
+  assert(turns > 0 && to > from);
+  const auto turns_d = static_cast<double>(turns);
+  return add(elapsed_s(from, to) / turns_d, turns_d, expected_s);
+}
+
+PeriodCandidate SpinPeriodWindow::refused(TaiTime from, TaiTime to, std::int64_t turns,
+                                          Rejection rejected_by) const {
+  const auto turns_d = static_cast<double>(turns);
+  return {.period_s = elapsed_s(from, to) / turns_d,
+          .sigma_s = candidate_sigma_s_ / turns_d,
+          .rejected_by = rejected_by};
+}
+
+PeriodCandidate SpinPeriodWindow::add(double period_s, double turns, double expected_s) {
+  const double difference_s = period_s - expected_s;
+  differences_s_.add(difference_s);
+  const RobustMean mean =
+      differences_s_.mean({.sigma = screening_.sigma, .stated = candidate_sigma_s_});
+  return {.period_s = period_s,
+          .sigma_s = candidate_sigma_s_ / turns,
+          .rejected_by = mean.keeps(difference_s) ? std::nullopt : std::optional{Rejection::Period},
+          .test = Rational{.expected = expected_s + mean.mean, .limit = mean.limit}};
+}
 
 void PeriodIntervals::begin_anew(double edge_sigma_s) {
   window_ = SpinPeriodWindow{screening_, edge_sigma_s};
@@ -20,7 +47,7 @@ void PeriodIntervals::begin_anew(double edge_sigma_s) {
 
 void PeriodIntervals::note(const PeriodNote& note) {
   notes_.push_back(note);
-  if (notes_.size() > kMostNotes) {
+  if (notes_.size() > 16) {
     notes_.pop_front();
   }
 }
@@ -53,7 +80,8 @@ std::optional<PeriodCandidate> PeriodIntervals::candidate(
                                   : window_.add(start_->t, *edge, turns, expected_s(middle));
   candidate.sigma_s =
       std::hypot(candidate.sigma_s, apparent_motion_s(reference, candidate.period_s));
-  if (!candidate.rejected_by || (!rejected_by && turns >= kMostTurnsRefused)) {
+  // After this many turns of refused intervals the edge that they start from is doubtful.
+  if (!candidate.rejected_by || (!rejected_by && turns >= 5)) {
     start_ = {.t = *edge, .revolution = revolution.number};
   }
   return candidate;

@@ -7,6 +7,7 @@
 #include "pipelines/spin/association/copies.h"
 #include "pipelines/spin/association/robust_line.h"
 #include "pipelines/spin/types/spin_rate.h"
+#include "pipelines/statistics/median.h"
 #include "pipelines/time/time_span.h"
 
 namespace spindrift {
@@ -14,9 +15,6 @@ namespace {
 
 constexpr double kShortest_s = 60.0 / kFastestSearched_rpm;
 constexpr double kLongest_s = 60.0 / kSlowestSearched_rpm;
-constexpr std::size_t kMostEdges = 32;
-// Edges up to this many places apart may be one turn apart, with spurious ones between them.
-constexpr std::size_t kNeighbours = 3;
 // Part of the period within which an edge is on the comb while that is being found.
 constexpr double kNear = 0.02;
 // Part of it once the comb is fitted, unless the stated noise asks for more.
@@ -26,11 +24,7 @@ constexpr double kNearlyAsMany = 0.8;
 constexpr double kLeastShare = 0.65;
 // Least share of turns with an edge: with fewer, the period is a fraction of the true one.
 constexpr double kLeastFilled = 0.45;
-// A longer gap is a silence, not lost edges.
-constexpr double kMostLost = 5.0;
 constexpr double kMostDrift_per_s2 = drift_per_s2(kMostDrift_rpm_h);
-// An uneven comb is taken if it leaves less than this part of the scatter about an even one.
-constexpr double kFarBetter = 0.5;
 // Where up to six receivers give each edge, this share of the intervals is at most about a turn; a
 // turn is at least kLeastOfInterval of the interval at that quantile.
 constexpr double kAboutATurn = 0.875;
@@ -73,7 +67,8 @@ Teeth teeth_from(const std::vector<double>& edges_s, std::size_t first, double p
 double turns_heard(const Teeth& teeth) {
   double turns = 1.0;
   for (std::size_t i = 1; i < teeth.size(); ++i) {
-    turns += std::min(teeth[i].turn - teeth[i - 1].turn, kMostLost);
+    // A longer gap is a silence, not lost edges.
+    turns += std::min(teeth[i].turn - teeth[i - 1].turn, 5.0);
   }
   return turns;
 }
@@ -87,7 +82,8 @@ Found best_teeth(const std::vector<double>& edges_s) {
   Found best{.period_s = 0.0, .teeth = {}};
   std::size_t most = 0;
   for (std::size_t i = 0; i < edges_s.size(); ++i) {
-    for (std::size_t j = i + 1; j < std::min(i + 1 + kNeighbours, edges_s.size()); ++j) {
+    // Edges up to three places apart may be one turn apart, with spurious ones between them.
+    for (std::size_t j = i + 1; j < std::min(i + 4, edges_s.size()); ++j) {
       const double period_s = edges_s[j] - edges_s[i];
       if (!(period_s >= kShortest_s && period_s <= kLongest_s)) {
         continue;
@@ -131,20 +127,19 @@ double bend_of(const Teeth& teeth, double noise, double period_s) {
     bends.push_back(2.0 * (slope(i + apart, i + 2 * apart) - slope(i, i + apart)) /
                     (teeth[i + 2 * apart].turn - teeth[i].turn));
   }
-  const auto middle = bends.begin() + static_cast<std::ptrdiff_t>(bends.size() / 2);
-  std::nth_element(bends.begin(), middle, bends.end());
-  const double bend = *middle;
+  const double bend = upper_median(bends);
   Teeth straight = teeth;
   straighten(straight, bend);
+  // An uneven comb is taken if it leaves less than this part of the scatter about an even one.
   const bool better = fit_robust_line(straight, noise, kNear * 2.0)->scatter <
-                      kFarBetter * fit_robust_line(teeth, noise, kNear * 2.0)->scatter;
+                      0.5 * fit_robust_line(teeth, noise, kNear * 2.0)->scatter;
   const bool possible = std::abs(bend) <= kMostDrift_per_s2 * period_s * period_s;
   return better && possible ? bend : 0.0;
 }
 
 std::optional<PulseTrain> train_of(std::span<const TaiTime> edges, double noise_s,
                                    std::size_t fewest) {
-  edges = edges.last(std::min(edges.size(), kMostEdges));
+  edges = edges.last(std::min(edges.size(), std::size_t{32}));
   if (edges.size() < fewest) {
     return std::nullopt;
   }
@@ -190,11 +185,8 @@ std::optional<PulseTrain> train_of(std::span<const TaiTime> edges, double noise_
 double interval_about_a_turn_s(std::span<const TaiTime> edges) {
   std::vector<double> intervals_s(edges.size() - 1);
   std::transform(edges.begin(), edges.end() - 1, edges.begin() + 1, intervals_s.begin(), elapsed_s);
-  const auto place =
-      intervals_s.begin() +
-      static_cast<std::ptrdiff_t>(kAboutATurn * static_cast<double>(intervals_s.size()));
-  std::nth_element(intervals_s.begin(), place, intervals_s.end());
-  return *place;
+  const double place = kAboutATurn * static_cast<double>(intervals_s.size());
+  return in_order_at(intervals_s, static_cast<std::size_t>(place));
 }
 
 /// Returns the first edge of each group within `within_s`; empty where most edges come alone.
@@ -213,6 +205,28 @@ std::vector<TaiTime> first_of_copies(std::span<const TaiTime> edges, double with
   return 2 * with > std::ssize(copied) ? first : std::vector<TaiTime>{};
 }
 
+// The clock is doubted when kDoubtful of the last kRecent edges are not where it expects them.
+constexpr std::size_t kRecent = 9;
+constexpr std::ptrdiff_t kDoubtful = 4;
+constexpr std::size_t kFewestAfterStep = 6;
+// A comb with a shorter period than this part of the clock's is a faster body if nearly every turn
+// has an edge. Otherwise the time stamps have stepped by a fraction of a turn.
+constexpr double kMuchFaster = 0.75;
+constexpr double kNearlyEvery = 0.8;
+
+bool is_fraction(const PulseTrain& comb, double period_s) {
+  return comb.period_s < kMuchFaster * period_s &&
+         static_cast<double>(comb.edges) < kNearlyEvery * (comb.turns + 1.0);
+}
+
+/// Tells whether the comb is the clock's own with edges on every second turn or fewer.
+bool is_multiple(const PulseTrain& comb, double period_s) {
+  const double clock_turns = comb.period_s / period_s;
+  const double whole = std::round(clock_turns);
+  // Turns by which the whole comb may deviate from a whole multiple of the clock period.
+  return whole > 1.0 && std::abs(clock_turns - whole) * comb.turns < 0.05;
+}
+
 }  // namespace
 
 std::optional<PulseTrain> find_pulse_train(std::span<const TaiTime> edges, double noise_s,
@@ -226,6 +240,41 @@ std::optional<PulseTrain> find_pulse_train(std::span<const TaiTime> edges, doubl
   const double interval_s = interval_about_a_turn_s(edges);
   auto train = train_of(first_of_copies(edges, kCopies_turns * interval_s), noise_s, fewest);
   return train && train->period_s >= kLeastOfInterval * interval_s ? train : std::nullopt;
+}
+
+void RateStepDetector::add(TaiTime t, bool good) {
+  recent_.push_back({.t = t, .good = good});
+  if (recent_.size() > kRecent) {
+    recent_.pop_front();
+  }
+}
+
+std::optional<PulseTrain> RateStepDetector::new_pulse_train(double noise_s, double period_s) const {
+  const auto wrong = std::count_if(recent_.begin(), recent_.end(),
+                                   [](const ReferenceEdge& edge) { return !edge.good; });
+  if (wrong < kDoubtful || recent_.back().good) {
+    return std::nullopt;
+  }
+  std::vector<TaiTime> edges(recent_.size());
+  std::transform(recent_.begin(), recent_.end(), edges.begin(),
+                 [](const ReferenceEdge& edge) { return edge.t; });
+  auto comb = find_pulse_train(edges, noise_s, kFewestAfterStep);
+  if (!comb || is_fraction(*comb, period_s) || is_multiple(*comb, period_s)) {
+    return std::nullopt;
+  }
+  const auto on_comb = [&](const ReferenceEdge& edge) {
+    const double t_s = elapsed_s(comb->t, edge.t);
+    const double turns = t_s / comb->period_s + 0.5 * comb->drift_per_s2 * t_s * t_s;
+    return std::abs(std::remainder(turns, 1.0)) * comb->period_s <= kOnComb_sigma * noise_s;
+  };
+  const auto on_it = std::count_if(recent_.begin(), recent_.end(), on_comb);
+  const auto agreeing =
+      std::count_if(recent_.begin(), recent_.end(),
+                    [&](const ReferenceEdge& edge) { return edge.good && on_comb(edge); });
+  // If half of the edges on the comb are good, it is the clock's own.
+  const bool another = on_it >= static_cast<std::ptrdiff_t>(kFewestAfterStep) &&
+                       2 * agreeing < on_it && on_comb(recent_.back());
+  return another ? comb : std::nullopt;
 }
 
 }  // namespace spindrift

@@ -5,12 +5,11 @@
 #include <cmath>
 #include <cstddef>
 
+#include "pipelines/statistics/median.h"
 #include "pipelines/statistics/significance.h"
 
 namespace spindrift {
 namespace {
-
-constexpr double kAgree_sigma = 3.0;
 
 struct Line {
   double turn;
@@ -28,9 +27,7 @@ double median_off(std::span<const PhasePoint> points, const Line& line,
   scratch.resize(points.size());
   std::transform(points.begin(), points.end(), scratch.begin(),
                  [&](const PhasePoint& point) { return line.off(point); });
-  const auto middle = scratch.begin() + static_cast<std::ptrdiff_t>(points.size() / 2);
-  std::nth_element(scratch.begin(), middle, scratch.end());
-  return *middle;
+  return upper_median(scratch);
 }
 
 Line least_squares(const std::vector<PhasePoint>& points, double most_drift) {
@@ -88,7 +85,7 @@ std::optional<RobustLine> fit_robust_line(std::span<const PhasePoint> points, do
   // With few points the best line passes through half of them by construction.
   const double few = 1.0 + 5.0 / static_cast<double>(points.size());
   const double scatter = std::max(noise, kSigmaPerMad * few * least_off);
-  std::vector<PhasePoint> agreeing = near_to(best, kAgree_sigma * scatter, points);
+  std::vector<PhasePoint> agreeing = near_to(best, 3.0 * scatter, points);
   best = least_squares(agreeing, most_drift);
   return RobustLine{.turn = best.turn,
                     .phase = best.phase,

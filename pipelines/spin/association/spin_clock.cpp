@@ -7,11 +7,6 @@
 namespace spindrift {
 namespace {
 
-// Wander of the spin rate in one second, turns/s: what is left of its change beside an even drift,
-// as in the spin filter.
-constexpr double kRateWander = 5e-7;
-// Wander of the drift in one second, turns/s^2.
-constexpr double kDriftWander = 3e-10;
 // Eddy currents, warming and leaks seldom cause more. A few turns reveal a larger drift; allowing
 // for any drift before that would leave the count uncertain through a silence of minutes.
 constexpr double kUsualDrift_per_s2 = 0.1 * kFirstDrift_per_s2;
@@ -50,9 +45,11 @@ SpinPeriod SpinClock::period_at(TaiTime t, double earth_turns) const {
 
 DriftNoise SpinClock::noise(double noise_s, double earth_turns) const {
   const double rate = turns_.change();
+  // The wander of the spin rate in one second, turns/s, is what is left of its change beside an
+  // even drift, as in the spin filter; that of the drift is in turns/s^2.
   return {.measured = noise_s * rate,
-          .wander = std::hypot(kRateWander, earth_turns * rate * std::sqrt(rate)),
-          .bend_wander = kDriftWander};
+          .wander = std::hypot(5e-7, earth_turns * rate * std::sqrt(rate)),
+          .bend_wander = 3e-10};
 }
 
 double SpinClock::sigma_s(double phase_turns, double earth_turns) const {

@@ -5,7 +5,6 @@
 
 #include <cstdint>
 
-#include "pipelines/spin/types/spin_period.h"
 #include "pipelines/spin/types/spin_rate.h"
 #include "pipelines/statistics/drift_filter.h"
 #include "pipelines/time/tai_time.h"

@@ -5,9 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include "pipelines/spin/batch/bias_choice.h"
+#include "pipelines/spin/batch/bias_selection.h"
 #include "pipelines/spin/batch/changepoint.h"
-#include "pipelines/spin/batch/rate_changepoint.h"
 #include "pipelines/spin/batch/sky_search.h"
 #include "pipelines/statistics/significance.h"
 #include "pipelines/time/utc.h"

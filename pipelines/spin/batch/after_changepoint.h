@@ -10,8 +10,8 @@
 #include "pipelines/core/expected.h"
 #include "pipelines/ephemeris/orbit.h"
 #include "pipelines/spin/batch/multi_start.h"
+#include "pipelines/spin/batch/pass_edges.h"
 #include "pipelines/spin/batch/pass_model.h"
-#include "pipelines/spin/batch/starting_axes.h"
 #include "pipelines/spin/types/config.h"
 
 namespace spindrift {

@@ -4,7 +4,9 @@
 
 #include <Eigen/Dense>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 #include "pipelines/ephemeris/orbit_steps.h"
@@ -12,16 +14,14 @@
 #include "pipelines/frames/celestial.h"
 #include "pipelines/frames/uncertain_attitude.h"
 #include "pipelines/spin/batch/after_changepoint.h"
-#include "pipelines/spin/batch/axis_choice.h"
 #include "pipelines/spin/batch/batch_assessment.h"
-#include "pipelines/spin/batch/bias_choice.h"
 #include "pipelines/spin/batch/bias_selection.h"
-#include "pipelines/spin/batch/edge_noise.h"
 #include "pipelines/spin/batch/initial_state.h"
 #include "pipelines/spin/batch/observability.h"
 #include "pipelines/spin/batch/pass_nutation.h"
 #include "pipelines/spin/telemetry_order/time_grid.h"
-#include "pipelines/statistics/variance_factor.h"
+#include "pipelines/statistics/median.h"
+#include "pipelines/statistics/significance.h"
 #include "pipelines/time/time_span.h"
 #include "pipelines/time/utc.h"
 
@@ -176,6 +176,76 @@ BatchSolution solution_of(const Solved& solved, const Eigen::Matrix2d& open_rad2
     solution.nutation_t = later_by_s(solved.model.middle(), best.nutation->found->t_s);
   }
   return solution;
+}
+
+std::optional<OtherAxis> other_axis(const Solved& solved,
+                                    const std::optional<AxisChoice>& of_pass) {
+  if (solved.of.other || !of_pass || !of_pass->other_icrf) {
+    return solved.of.other;
+  }
+  return compared_with(solved.of.best, solved.model, solved.edges, *of_pass->other_icrf);
+}
+
+/// Returns whether the solution's axis is the one that the pass had settled on.
+bool follows(const Eigen::Vector3d& axis_icrf, const std::optional<OtherAxis>& other,
+             const AxisChoice& of_pass) {
+  return of_pass.settled_by != SettledBy::Nothing &&
+         (!other || angle_between_rad(of_pass.axis_icrf, axis_icrf) <
+                        angle_between_rad(of_pass.axis_icrf, other->axis_icrf));
+}
+
+/// Records which of the competing axes the solution has taken and what settled the choice.
+/// @param of_pass Earlier choice of the same pass, if any.
+AxisChoice axis_choice(const Solved& solved, const std::optional<AxisChoice>& of_pass) {
+  const auto other = other_axis(solved, of_pass);
+  AxisChoice choice{.t = solved.edges.back().pulse.t,
+                    .estimator = SpinEstimator::Batch,
+                    .axis_icrf = solved.of.best.fit.state.axis_icrf(),
+                    .other_icrf = {},
+                    .delta_chi_square = {},
+                    .settled_by = SettledBy::Edges};
+  if (other) {
+    choice.other_icrf = other->axis_icrf;
+    choice.delta_chi_square = other->more_misfit;
+  }
+  if (solved.of.alternate_axis_icrf) {
+    choice.settled_by = SettledBy::Nothing;
+  } else if (solved.of.by_prior) {
+    choice.settled_by = SettledBy::Prior;
+  } else if (of_pass && follows(choice.axis_icrf, other, *of_pass)) {
+    choice.settled_by = of_pass->settled_by;
+  }
+  return choice;
+}
+
+/// Returns the observed noise of the edges about a state, separately for sun slits and infrared
+/// beams, from the median deviation of each channel's edges from their median, so that neither
+/// outliers nor a bias affect it. It is never below the stated noise.
+PulseNoise noise_seen(const PassModel& model, std::span<const PassEdge> edges,
+                      const SpinState& state) {
+  std::array<std::vector<double>, kPulseChannels> off;  // Residuals in sigmas.
+  const PassAtState at = model.at(state);
+  for (const PassEdge& edge : edges) {
+    if (const auto met = at.meet(edge.pulse)) {
+      off.at(index_of(edge.pulse.channel)).push_back(met->off_rad / met->sigma_rad);
+    }
+  }
+  std::vector<double> of_slits;
+  std::vector<double> of_beams;
+  for (std::size_t channel = 0; channel < kPulseChannels; ++channel) {
+    const double median = upper_median(off.at(channel));
+    std::vector<double>& deviations =
+        sees_the_sun(static_cast<PulseChannel>(channel)) ? of_slits : of_beams;
+    std::transform(off.at(channel).begin(), off.at(channel).end(), std::back_inserter(deviations),
+                   [median](double value) { return std::abs(value - median); });
+  }
+  const auto times_stated = [](std::vector<double>& deviations) {
+    return std::max(1.0, upper_median(deviations) / kMedianDeviation);
+  };
+  const PulseNoise& stated = model.config().noise;
+  return {.sun_s = stated.sun_s * times_stated(of_slits),
+          .infrared_s = stated.infrared_s * times_stated(of_beams),
+          .grid_s = stated.grid_s};
 }
 
 struct Heard {

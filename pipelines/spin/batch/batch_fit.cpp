@@ -20,13 +20,6 @@
 namespace spindrift {
 namespace {
 
-// At this tolerance the step not taken is at most an eighth of sigma for a pass of 150,000
-// revolutions, a hundredth of the actual error.
-constexpr double kFunctionTolerance = 2e-8;
-constexpr int kMostIterations = 50;
-// The coarse fit begins far from the solution, so edges beyond this limit must still pull.
-constexpr double kCoarseLoss_sigmas = 3.0;
-
 /// Holds the parameters of Ceres; rate and drift are changes since the start, as angles.
 struct Parameters {
   Eigen::Quaterniond q_icrf_spin;
@@ -196,8 +189,10 @@ ceres::Solver::Summary solve(Fit& fit, std::span<const PassEdge> edges, std::siz
   options.linear_solver_type =
       at.nutation.size() > 1 ? ceres::SPARSE_NORMAL_CHOLESKY : ceres::DENSE_NORMAL_CHOLESKY;
   options.num_threads = 1;
-  options.max_num_iterations = kMostIterations;
-  options.function_tolerance = kFunctionTolerance;
+  options.max_num_iterations = 50;
+  // At this tolerance the step not taken is at most an eighth of sigma for a pass of 150,000
+  // revolutions, a hundredth of the actual error.
+  options.function_tolerance = 2e-8;
   options.logging_type = ceres::SILENT;
   ceres::Solver::Summary summary;
   ceres::Solve(options, &problem, &summary);
@@ -219,7 +214,8 @@ BiasSet biases_at_bound(const SensorBiases& biases, BiasSet estimated) {
 SpinState coarse_fit(const PassModel& model, std::span<const PassEdge> edges,
                      const SpinState& start, BiasSet estimated) {
   Fit fit{model, start};
-  ceres::HuberLoss loss{kCoarseLoss_sigmas};
+  // The coarse fit begins far from the solution, so edges beyond this limit must still pull.
+  ceres::HuberLoss loss{3.0};
   const std::size_t stride = std::max<std::size_t>(edges.size() / kCoarseEdges, 1);
   solve(fit, edges, stride, loss, estimated);
   return fit.state();

@@ -1,5 +1,6 @@
 /// @file
-/// Tests whether one attitude and one uniformly drifting rate explain the whole pass.
+/// Tests whether one attitude and one uniformly drifting rate explain the whole pass, and finds a
+/// step of the rate in the times of the revolutions.
 
 #pragma once
 
@@ -23,5 +24,12 @@ struct Changepoint {
 /// @return The clearest change that leaves edges as outliers, else the clearest; empty if none.
 std::optional<Changepoint> find_changepoint(const PassModel& model, std::span<const PassEdge> edges,
                                             const SpinState& state);
+
+/// Finds where two parabolas explain one channel's edge times, by counted revolution, significantly
+/// better than one. It needs no axis and so finds steps after which no state fits, to one
+/// revolution.
+/// @param edges Edges in order of time.
+/// @return The step, whose `t` is the time of the first edge after it; empty if there is none.
+std::optional<Changepoint> find_rate_changepoint(std::span<const PassEdge> edges);
 
 }  // namespace spindrift

@@ -14,11 +14,8 @@
 namespace spindrift {
 namespace {
 
-// This many edges determine a parabola to a fraction of a degree.
-constexpr std::size_t kEnough = 4000;
 // The first parabola is off by at most one turn from end to end, which is little within a span.
 constexpr int kClockSpans = 64;
-constexpr int kPasses = 3;
 
 struct Counted {
   double part;       ///< Time from the middle of the pass, in half lengths.
@@ -80,7 +77,8 @@ Expected<SpinState> initial_state(const PassModel& model, std::span<const PassEd
   const Eigen::Quaterniond q_icrf_spin = frame_about(axis_icrf);
   const Eigen::Matrix3d R_spin_icrf = q_icrf_spin.conjugate().toRotationMatrix();
   const PlacedSensors sensors{model.config(), SensorBiases::Zero()};
-  const std::size_t stride = std::max<std::size_t>(edges.size() / kEnough, 1);
+  // This many edges determine a parabola to a fraction of a degree.
+  const std::size_t stride = std::max<std::size_t>(edges.size() / 4000, 1);
   const std::int64_t middle = edges[edges.size() / 2].revolution;
   std::vector<Counted> counted;
   for (std::size_t i = 0; i < edges.size(); i += stride) {
@@ -99,7 +97,7 @@ Expected<SpinState> initial_state(const PassModel& model, std::span<const PassEd
     return unobservable("no edge is one that a body about the first axis would give");
   }
   Eigen::Vector3d clock = parabola(counted);
-  for (int pass = 0; pass < kPasses; ++pass) {
+  for (int pass = 0; pass < 3; ++pass) {
     count_anew(clock, counted);
     clock = parabola(counted);
   }

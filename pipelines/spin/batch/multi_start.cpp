@@ -10,16 +10,10 @@
 #include "pipelines/spin/batch/batch_fit.h"
 #include "pipelines/spin/batch/initial_state.h"
 #include "pipelines/spin/batch/pass_nutation.h"
-#include "pipelines/spin/batch/uniform_spin_residuals.h"
 #include "pipelines/statistics/significance.h"
 
 namespace spindrift {
 namespace {
-
-// Two starts that end within this angle have reached the same solution.
-constexpr double kSameAxis_rad = 0.1 * kRadPerDeg;
-// Scatter, in stated sigmas, above which the body nutates or the noise is not as stated.
-constexpr double kScattered = 1.3;
 
 Expected<EvaluatedFit> with_stretches(const PassModel& model, std::span<const PassEdge> edges,
                                       SpinState near, BiasSet estimated, PassNutation nutation) {
@@ -37,7 +31,8 @@ bool is_scattered(const PassModel& model, std::span<const PassEdge> edges, const
   for (std::size_t i = 0; i < edges.size(); i += stride) {
     few.push_back(edges[i]);
   }
-  return scatter_of(uniform_spin_residuals(model, few, state)) > kScattered;
+  // Scatter, in stated sigmas, above which the body nutates or the noise is not as stated.
+  return scatter_of(uniform_spin_residuals(model, few, state)) > 1.3;
 }
 
 Expected<EvaluatedFit> with_nutation(const PassModel& model, std::span<const PassEdge> edges,
@@ -66,7 +61,8 @@ Expected<EvaluatedFit> explain_motion(const PassModel& model, std::span<const Pa
 }
 
 bool same_axis(const SpinState& one, const SpinState& other) {
-  return angle_between_rad(one.axis_icrf(), other.axis_icrf()) < kSameAxis_rad;
+  // Two starts that end within this angle have reached the same solution.
+  return angle_between_rad(one.axis_icrf(), other.axis_icrf()) < 0.1 * kRadPerDeg;
 }
 
 bool likelier(const EvaluatedFit& one, const EvaluatedFit& other) {

@@ -10,9 +10,6 @@
 namespace spindrift {
 namespace {
 
-// Component of an open direction above which a bias takes part in it.
-constexpr double kTakesPart = 0.35;
-
 using Scales = Eigen::Matrix<double, kBatchUnknowns, 1>;
 
 /// Returns the units of the unknowns: one radian for motion, one prior sigma for a bias.
@@ -145,7 +142,8 @@ std::vector<BiasSet> Observability::undetermined() const {
   for (Eigen::Index i = 0; i < count && information.values[i] < 1.0; ++i) {
     BiasSet direction;
     for (Eigen::Index j = 0; j < count; ++j) {
-      if (std::abs(information.vectors(j, i)) > kTakesPart) {
+      // Component of an open direction above which a bias takes part in it.
+      if (std::abs(information.vectors(j, i)) > 0.35) {
         direction |= unknowns_of(estimated_[static_cast<std::size_t>(j)]);
       }
     }

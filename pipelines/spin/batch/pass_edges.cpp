@@ -13,9 +13,6 @@
 namespace spindrift {
 namespace {
 
-// Starts this near end at the same place. The narrowest chord vanishes within a degree.
-constexpr double kSameStart_rad = 0.1 * kRadPerDeg;
-
 /// Returns whether the edge itself is bad: out of place or without anything to compare it with.
 /// Otherwise it is one of several edges of an angle that failed its test.
 bool is_bad(Rejection rejection) {
@@ -104,7 +101,8 @@ StartingAxes PassEdges::starts(const std::optional<SpinPrior>& prior) const {
   std::vector<Eigen::Vector3d> all;
   const auto add = [&all](const Eigen::Vector3d& axis_icrf) {
     const bool known = std::any_of(all.begin(), all.end(), [&](const Eigen::Vector3d& other) {
-      return angle_between_rad(other, axis_icrf) < kSameStart_rad;
+      // Starts this near end at the same place. The narrowest chord vanishes within a degree.
+      return angle_between_rad(other, axis_icrf) < 0.1 * kRadPerDeg;
     });
     if (!known) {
       all.push_back(axis_icrf);

@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <Eigen/Core>
 #include <cstdint>
 #include <optional>
 #include <set>
@@ -10,12 +11,20 @@
 
 #include "pipelines/exclusions/exclusions.h"
 #include "pipelines/spin/batch/pass_model.h"
-#include "pipelines/spin/batch/starting_axes.h"
 #include "pipelines/spin/types/config.h"
 #include "pipelines/spin/types/products.h"
 #include "pipelines/spin/types/spin_action.h"
 
 namespace spindrift {
+
+/// Axes at which the estimator `batch` starts.
+struct StartingAxes {
+  std::vector<Eigen::Vector3d> axes_icrf;  ///< Unit vectors, likeliest first.
+  /// True when the true axis is surely near one of them; otherwise the whole sky is searched.
+  bool settled = true;
+  /// Earlier choice of the pass; its other axis is compared with the solution, but is no start.
+  std::optional<AxisChoice> of_pass = {};
+};
 
 class PassEdges {
  public:

@@ -9,7 +9,7 @@ namespace spindrift {
 namespace {
 
 // Noise as stated exceeds the limit in one fit of a million. This chance is separate from the
-// sigmas of variance_factor.h because this limit follows the skewness of the chi-square and so
+// sigmas of significance.h because this limit follows the skewness of the chi-square and so
 // holds for the few edges of a part of a pass too. Results depend on it; kContradictionChance would
 // be 4.86 sigmas instead of 4.75.
 const double kSignificantSigmas = normal_beyond(1e-6);

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "pipelines/spin/batch/pass_model.h"
-#include "pipelines/spin/types/channel_offsets.h"
+#include "pipelines/spin/types/model_allowance.h"
 #include "pipelines/statistics/considered.h"
 
 namespace spindrift {

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "pipelines/frames/celestial.h"
-#include "pipelines/frames/small_rotation.h"
+#include "pipelines/frames/rotation_vector.h"
 #include "pipelines/spin/measurement/sun_earth_ephemeris.h"
 #include "pipelines/time/time_span.h"
 

@@ -1,12 +1,13 @@
 #include "pipelines/spin/batch/pass_nutation.h"
 
 #include <Eigen/Dense>
+#include <algorithm>
 #include <cmath>
 #include <complex>
 
 #include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
-#include "pipelines/spin/batch/uniform_spin_residuals.h"
+#include "pipelines/statistics/median.h"
 #include "pipelines/statistics/significance.h"
 #include "pipelines/time/time_span.h"
 
@@ -38,6 +39,40 @@ NutationStretch stretch_of(std::span<const PassEdge> edges, const FoundNutation&
 }
 
 }  // namespace
+
+double scatter_of(std::span<const UniformSpinResidual> residuals) {
+  std::vector<double> sizes(residuals.size());
+  std::transform(residuals.begin(), residuals.end(), sizes.begin(),
+                 [](const UniformSpinResidual& residual) {
+                   return std::abs(residual.off_rad) / residual.sigma_rad;
+                 });
+  return std::max(1.0, upper_median(sizes) / kMedianDeviation);
+}
+
+std::vector<UniformSpinResidual> uniform_spin_residuals(const PassModel& model,
+                                                        std::span<const PassEdge> edges,
+                                                        const SpinState& state) {
+  const PassAtState at = model.at(state);
+  std::vector<UniformSpinResidual> residuals;
+  for (const PassEdge& edge : edges) {
+    const auto met = at.meet(edge.pulse);
+    if (met) {
+      const double expected_rad = met->phase_rad - met->off_rad;
+      residuals.push_back({.channel = edge.pulse.channel,
+                           .t_s = seconds_between(model.middle(), edge.pulse.t),
+                           .turns = expected_rad / kTurn_rad,
+                           .off_rad = met->off_rad,
+                           .sigma_rad = met->sigma_rad,
+                           .expected = met->expected});
+    }
+  }
+  // Nutation of 0.2 deg moves edges by ten sigmas.
+  const double farthest = 30.0 * scatter_of(residuals);
+  std::erase_if(residuals, [&](const UniformSpinResidual& residual) {
+    return !(std::abs(residual.off_rad) < farthest * residual.sigma_rad);
+  });
+  return residuals;
+}
 
 PassNutation find_pass_nutation(const PassModel& model, std::span<const PassEdge> edges,
                                 SpinState state) {

@@ -11,8 +11,18 @@
 #include "pipelines/spin/batch/pass_information.h"
 #include "pipelines/spin/batch/pass_model.h"
 #include "pipelines/spin/nutation/nutation.h"
+#include "pipelines/spin/nutation/tilt_signal.h"
 
 namespace spindrift {
+
+/// Returns residuals of the edges within 30 sigmas of their prediction, or within 30 times the
+/// observed scatter, because nutation moves edges by several sigmas.
+std::vector<UniformSpinResidual> uniform_spin_residuals(const PassModel& model,
+                                                        std::span<const PassEdge> edges,
+                                                        const SpinState& state);
+
+/// Returns the robust standard deviation of the residuals in sigmas, at least 1.
+double scatter_of(std::span<const UniformSpinResidual> residuals);
 
 struct PassNutation {
   std::vector<NutationStretch> stretches;  ///< Starting values of a fit.

@@ -17,9 +17,8 @@
 #include "pipelines/spin/fix/axis_candidates.h"
 #include "pipelines/spin/measurement/measurement.h"
 #include "pipelines/spin/types/config.h"
-#include "pipelines/spin/types/known_axis.h"
 #include "pipelines/spin/types/products.h"
-#include "pipelines/spin/types/sun_earth_directions.h"
+#include "pipelines/spin/types/sky.h"
 #include "pipelines/time/tai_time.h"
 
 namespace spindrift {

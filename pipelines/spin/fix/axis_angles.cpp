@@ -17,9 +17,6 @@ namespace {
 constexpr double kNearTangentSigmas = 3.0;
 // Sigmas of model errors, which are constant over the pass.
 constexpr double kModelSigmas = 3.0;
-// A chord narrower than this many sigmas is near-tangent: at five sigmas of noise the second-order
-// change of its cosine is a quarter of the first-order change.
-constexpr double kNarrowSigmas = 10.0;
 
 /// Notes cones that touch within noise and model. If they miss each other by so little, the missing
 /// roots may be the true ones.
@@ -69,7 +66,9 @@ std::vector<Uncertain> earth_angles_from_one(const FixInput& input, AxisSolution
   const Uncertain b = std::sin(chord.mount_angle_rad) * Uncertain{cos(0.5 * chord.chord_rad)};
   ConeRootsOf<Uncertain> roots = cone_roots(a, b, Uncertain{cos(input.lone_disc_rad())});
   note_near_tangent(roots.excess, found);
-  if (chord.chord_rad.value() < kNarrowSigmas * noise_of(chord.chord_rad)) {
+  // A chord narrower than this many sigmas is near-tangent: at five sigmas of noise the
+  // second-order change of its cosine is a quarter of the first-order change.
+  if (chord.chord_rad.value() < 10.0 * noise_of(chord.chord_rad)) {
     found.near_tangent = true;
   }
   if (!(roots.excess.value() < 0.0)) {

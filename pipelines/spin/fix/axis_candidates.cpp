@@ -8,9 +8,6 @@
 
 #include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
-#include "pipelines/spin/fix/axis_angles.h"
-#include "pipelines/spin/fix/fix_input.h"
-#include "pipelines/spin/fix/horizon_roots.h"
 #include "pipelines/spin/measurement/beam_view.h"
 #include "pipelines/spin/measurement/uncertain.h"
 #include "pipelines/spin/sensor_model/geometry.h"
@@ -18,6 +15,8 @@
 
 namespace spindrift {
 namespace {
+
+using Tangent = Eigen::Matrix<double, 2, kEdges + kModelErrors>;
 
 tl::unexpected<NoCandidates> unobservable(WhyNoFix why) {
   return tl::unexpected{NoCandidates{.why = std::move(why)}};
@@ -46,8 +45,6 @@ std::optional<Contradiction> disc_contradiction(const FixInput& input, const Axi
   return Contradiction{.value = disc_rad.value() - place.beams.at(index_of(Side::North)).disc_rad,
                        .noise = noise_of(disc_rad)};
 }
-
-using Tangent = Eigen::Matrix<double, 2, kEdges + kModelErrors>;
 
 /// Returns the motion of the solution per motion of the axis from which its beams see the horizon,
 /// both in the tangent plane. A view with the limb farther out or the chord's middle earlier acts
@@ -115,7 +112,77 @@ bool determined(const AxisCandidate& candidate) {
   return candidate.covariance_rad2.trace() < kLeastDetermined_rad * kLeastDetermined_rad;
 }
 
+// Each step is at most a tenth of the last; a slower root is about to vanish.
+constexpr int kMostSteps = 10;
+constexpr double kAtRest_rad = 1e-8;
+
+Eigen::Vector3d axis_of(const SunEarthDirections& sun_earth, const AxisAngles& place) {
+  return axis_icrf(AxisInput<double>{.sun_icrf = sun_earth.sun_icrf,
+                                     .earth_icrf = sun_earth.earth_icrf,
+                                     .sun_angle_rad = place.sun_angle_rad.value(),
+                                     .earth_angle_rad = place.earth_angle_rad.value(),
+                                     .dihedral_rad = place.dihedral_rad.value()})
+      .normalized();
+}
+
+/// Returns the root that `place` converges to, or no root if it vanishes.
+AxisSolutions follow(const FixInput& on_sphere, const AxisAngles& place) {
+  const SunEarthDirections& sun_earth = on_sphere.sun_earth;
+  Eigen::Vector3d axis_icrf = axis_of(sun_earth, place);
+  const auto off_rad = [&](const AxisAngles& other) {
+    return angle_between_rad(axis_of(sun_earth, other), axis_icrf);
+  };
+  AxisSolutions found;
+  for (int step = 0; step < kMostSteps; ++step) {
+    found = solve_axis_angles(
+        fix_input(on_sphere.config, on_sphere.measured, sun_earth,
+                  views_of_horizon(on_sphere.config, on_sphere.measured, sun_earth, axis_icrf)));
+    if (found.places.empty()) {
+      return found;
+    }
+    const AxisAngles nearest = *std::min_element(
+        found.places.begin(), found.places.end(),
+        [&](const AxisAngles& a, const AxisAngles& b) { return off_rad(a) < off_rad(b); });
+    found.places = {nearest};
+    const double moved_rad = off_rad(nearest);
+    if (moved_rad < kAtRest_rad) {
+      return found;
+    }
+    axis_icrf = axis_of(sun_earth, nearest);
+  }
+  found.near_tangent = true;
+  return found;
+}
+
+bool is_among(const std::vector<AxisAngles>& places, const AxisAngles& place,
+              const SunEarthDirections& sun_earth) {
+  const Eigen::Vector3d axis_icrf = axis_of(sun_earth, place);
+  return std::any_of(places.begin(), places.end(), [&](const AxisAngles& other) {
+    // Roots closer than this are the same.
+    return angle_between_rad(axis_of(sun_earth, other), axis_icrf) < 1e-6;
+  });
+}
+
 }  // namespace
+
+AxisSolutions solve_on_horizon(const FixInput& on_sphere) {
+  AxisSolutions first = solve_axis_angles(on_sphere);
+  if (first.places.empty()) {
+    return first;
+  }
+  AxisSolutions found;
+  for (const AxisAngles& place : first.places) {
+    AxisSolutions there = follow(on_sphere, place);
+    found.near_tangent = found.near_tangent || there.near_tangent;
+    found.reason = std::move(there.reason);
+    if (!there.places.empty() &&
+        !is_among(found.places, there.places.front(), on_sphere.sun_earth)) {
+      found.places.push_back(there.places.front());
+    }
+  }
+  rank(on_sphere, found);
+  return found;
+}
 
 int geometry_case_of(const RevolutionMeasurements& measured) {
   using enum SpinQuantity;

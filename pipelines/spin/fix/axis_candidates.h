@@ -13,10 +13,12 @@
 #include <vector>
 
 #include "pipelines/core/no_fix.h"
+#include "pipelines/spin/fix/axis_angles.h"
+#include "pipelines/spin/fix/fix_input.h"
 #include "pipelines/spin/measurement/measurement.h"
 #include "pipelines/spin/types/config.h"
 #include "pipelines/spin/types/model_allowance.h"
-#include "pipelines/spin/types/sun_earth_directions.h"
+#include "pipelines/spin/types/sky.h"
 
 namespace spindrift {
 
@@ -62,6 +64,12 @@ int geometry_case_of(const RevolutionMeasurements& measured);
 /// measurements that no axis explains.
 FoundCandidates axis_candidates(const SpinConfig& config, const RevolutionMeasurements& measured,
                                 const SunEarthDirections& sun_earth);
+
+/// Solves each root on the sphere at rest again with the beams' views of the horizon, until it
+/// converges. The horizon moves a root by about a degree and changes little over that; a root near
+/// another one may move more. Roots that vanish are dropped and the rest is ranked (see rank()).
+/// @param on_sphere Input made with views_of_sphere().
+AxisSolutions solve_on_horizon(const FixInput& on_sphere);
 
 /// Returns whether the measurements suffice for a fix but give no consistent one, which shows that
 /// sensors, orbit or edges are not as described.

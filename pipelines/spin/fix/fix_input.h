@@ -11,7 +11,7 @@
 #include "pipelines/spin/measurement/uncertain.h"
 #include "pipelines/spin/sensor_model/geometry.h"
 #include "pipelines/spin/types/config.h"
-#include "pipelines/spin/types/sun_earth_directions.h"
+#include "pipelines/spin/types/sky.h"
 
 namespace spindrift {
 

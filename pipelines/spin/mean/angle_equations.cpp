@@ -11,8 +11,6 @@ namespace spindrift {
 namespace {
 
 constexpr int kMostAngles = 5;
-// Slope of a chord with the limb beyond which the chord is not linear.
-constexpr double kSteepest = 10.0;
 
 using Errors = Eigen::Matrix<double, kModelErrors, 1>;
 
@@ -114,7 +112,8 @@ class Slopes {
     const double by_earth_angle =
         -steepness / sine *
         (std::cos(mount_angle_rad) - std::cos(disc_rad_) * std::cos(earth_.angle_rad));
-    if (!(by_limb < kSteepest)) {
+    // Slope of a chord with the limb beyond which the chord is not linear.
+    if (!(by_limb < 10.0)) {
       return std::nullopt;
     }
     return Slope{.by_axis = -by_earth_angle * earth_.towards,

@@ -15,10 +15,9 @@
 #include <utility>
 
 #include "pipelines/spin/measurement/measurement.h"
-#include "pipelines/spin/types/channel_offsets.h"
 #include "pipelines/spin/types/config.h"
 #include "pipelines/spin/types/model_allowance.h"
-#include "pipelines/spin/types/sun_earth_directions.h"
+#include "pipelines/spin/types/sky.h"
 #include "pipelines/statistics/considered.h"
 
 namespace spindrift {

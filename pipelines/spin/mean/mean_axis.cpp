@@ -1,7 +1,7 @@
 #include "pipelines/spin/mean/mean_axis.h"
 
 #include "pipelines/frames/celestial.h"
-#include "pipelines/statistics/variance_factor.h"
+#include "pipelines/statistics/significance.h"
 
 namespace spindrift {
 namespace {

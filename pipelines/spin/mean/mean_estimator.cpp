@@ -14,15 +14,6 @@ namespace {
 
 // Angles are linear about a mean that is known to 1 deg.
 constexpr double kLinear_rad = kRadPerDeg;
-// The first fixes are linear about their mean when relinearising moves it by less than this.
-constexpr double kConverged_rad = 1e-5;
-constexpr int kMostPasses = 8;
-// Number of fixes that each trigger a relinearisation.
-constexpr std::size_t kFirstFixes = 8;
-// Below this settled share the mean is that of a selection.
-constexpr double kMostlySettled = 0.5;
-// Ratio of squares beyond which noise and model errors do not explain how far fixes differ.
-constexpr double kScattered = 9.0;
 // Two differing fixes do not show which is right.
 constexpr std::size_t kFewestFixes = 3;
 
@@ -96,7 +87,8 @@ void MeanEstimator::settle(Kept& kept, const SpinFix& fix) {
   add(kept, mean_ ? axis_icrf() : fix.axis_icrf);
   mean_ = fixes_.mean();
   ++settled_;
-  if (settled_ < kFirstFixes || std::has_single_bit(settled_)) {
+  // Number of fixes that each trigger a relinearisation.
+  if (settled_ < 8 || std::has_single_bit(settled_)) {
     relinearise();
   }
   if (mean_->covariance_rad2.trace() < kLinear_rad * kLinear_rad) {
@@ -117,10 +109,11 @@ void MeanEstimator::relinearise() {
     return;
   }
   Eigen::Vector3d axis = average_.axis_icrf();
-  for (int pass = 0; pass < kMostPasses; ++pass) {
+  for (int pass = 0; pass < 8; ++pass) {
     linearise_about(axis);
     const Eigen::Vector3d next = mean_->equations.axis_icrf();
-    if (angle_between_rad(axis, next) < kConverged_rad) {
+    // The first fixes are linear about their mean when relinearising moves it by less than this.
+    if (angle_between_rad(axis, next) < 1e-5) {
       return;
     }
     if (!agrees_with_average()) {
@@ -181,9 +174,9 @@ Eigen::Matrix2d MeanEstimator::offsets_rad2() const {
 /// explains it.
 double MeanEstimator::excess_noise() const {
   const double scatter = average_.excess_scatter();
-  return scatter > kScattered && verdict_.error_rad == 0.0
-             ? std::max(scatter, verdict_.excess_noise)
-             : verdict_.excess_noise;
+  // Ratio of squares beyond which noise and model errors do not explain how far fixes differ.
+  return scatter > 9.0 && verdict_.error_rad == 0.0 ? std::max(scatter, verdict_.excess_noise)
+                                                    : verdict_.excess_noise;
 }
 
 /// Returns the mean square error of one fix, from stated covariances and scatter.
@@ -246,7 +239,8 @@ std::optional<Reason> MeanEstimator::doubt() const {
   if (excess_noise() > verdict_.excess_noise) {
     return Reason{FixesScatter, {{"factor", std::sqrt(excess_noise())}}};
   }
-  if (mean_->settled_share < kMostlySettled) {
+  // Below this settled share the mean is that of a selection.
+  if (mean_->settled_share < 0.5) {
     return Reason{FewSettled, {{"open_percent", 100.0 * (1.0 - mean_->settled_share)}}};
   }
   return std::nullopt;

@@ -39,7 +39,7 @@
 #include "pipelines/spin/types/config.h"
 #include "pipelines/spin/types/products.h"
 #include "pipelines/spin/types/revolution.h"
-#include "pipelines/spin/types/sun_earth_directions.h"
+#include "pipelines/spin/types/sky.h"
 
 namespace spindrift {
 

@@ -9,27 +9,24 @@
 #include "pipelines/statistics/distributions.h"
 #include "pipelines/statistics/significance.h"
 #include "pipelines/statistics/symmetric_eigen.h"
-#include "pipelines/statistics/variance_factor.h"
 
 namespace spindrift {
 namespace {
 
-using Errors = Eigen::Matrix<double, kModelErrors, 1>;
 using ErrorMatrix = Eigen::Matrix<double, kModelErrors, kModelErrors>;
+using Errors = Eigen::Matrix<double, kModelErrors, 1>;
+using Limits = std::array<double, kModelErrors + 1>;
+using Normal = Eigen::Matrix<double, AngleEquations::kUnknowns, AngleEquations::kUnknowns>;
+using Right = Eigen::Matrix<double, AngleEquations::kUnknowns, 1>;
 using SomeErrors = Eigen::VectorXd;
 using SomeErrorsMatrix = Eigen::MatrixXd;
-using Right = Eigen::Matrix<double, AngleEquations::kUnknowns, 1>;
-using Normal = Eigen::Matrix<double, AngleEquations::kUnknowns, AngleEquations::kUnknowns>;
 
 /// Confidence that the errors do not exceed their upper limit.
 constexpr double kCovered = 0.9;
 // A combination of errors counts as unseen when its sigma exceeds this.
 constexpr double kUnseen_rad = 0.1;
-// Caps the angles for the noise test, so that noise slightly above the stated is not called wrong.
-constexpr double kNoiseAngles = 300.0;
 
 /// Limits of the chi-square by the number of seen errors.
-using Limits = std::array<double, kModelErrors + 1>;
 Limits limits_beyond(double chance) {
   Limits limits{};
   for (std::size_t freedom = 1; freedom < limits.size(); ++freedom) {
@@ -65,7 +62,7 @@ class Spectrum {
     const double least = kLeast.at(freedom());
     double low_rad = 0.0;
     double high_rad = 1.0;
-    for (int i = 0; i < kHalvings; ++i) {
+    for (int i = 0; i < 30; ++i) {
       const double middle_rad = 0.5 * (low_rad + high_rad);
       (chi_square(middle_rad * middle_rad) > least ? low_rad : high_rad) = middle_rad;
     }
@@ -90,8 +87,6 @@ class Spectrum {
   }
 
  private:
-  static constexpr int kHalvings = 30;
-
   Eigen::Array<bool, Eigen::Dynamic, 1> seen() const {
     return information_.values.array() > 1.0 / (kUnseen_rad * kUnseen_rad);
   }
@@ -160,8 +155,13 @@ double excess_noise(const AngleEquations& equations) {
     return 1.0;
   }
   const double excess = (equations.squares() - fitted) / freedom;
-  return variance_factor(excess, std::min(freedom, kNoiseAngles));
+  // Caps the angles for the noise test, so that noise slightly above the stated is not called
+  // wrong.
+  return variance_factor(excess, std::min(freedom, 300.0));
 }
+
+// Evidence from before a restart keeps the weight of this many edges.
+constexpr double kFadedEdges = 100.0;
 
 }  // namespace
 
@@ -194,6 +194,17 @@ ModelTest test_model_errors(const ErrorInformation& seen, double excess_noise,
   explain(errors.information, errors.score, verdict);
   verdict.beyond_allowance = spectrum.chi_square(kModelError_rad * kModelError_rad) > significant;
   return verdict;
+}
+
+void ModelEvidence::add(const ErrorInformation& errors, double edges) {
+  edges_ += edges;
+  errors_ += errors;
+}
+
+void ModelEvidence::fade() {
+  const double share = edges_ > kFadedEdges ? kFadedEdges / edges_ : 1.0;
+  edges_ *= share;
+  errors_ *= share;
 }
 
 }  // namespace spindrift

@@ -40,4 +40,25 @@ ModelTest test_model_errors(const ErrorInformation& errors, double excess_noise,
 ModelTest test_model(const AngleEquations& equations,
                      const OffsetPrior& offsets_s2 = OffsetPrior::Zero());
 
+/// Accumulates evidence of model errors (misplaced slits or beams, limb altitude) from innovations.
+/// Innovations should have zero mean. The part of a model error that looks like another axis moves
+/// the axis unseen; the rest stays in the innovations and is tested as above.
+class ModelEvidence {
+ public:
+  /// @param edges Number of edges used.
+  void add(const ErrorInformation& errors, double edges);
+
+  /// Reduces the weight of earlier evidence when the filter restarts.
+  void fade();
+
+  /// @param excess_noise, offsets_s2 Arguments of test_model_errors().
+  ModelTest test(double excess_noise, const OffsetPrior& offsets_s2) const {
+    return test_model_errors(errors_, excess_noise, offsets_s2);
+  }
+
+ private:
+  double edges_ = 0.0;
+  ErrorInformation errors_;
+};
+
 }  // namespace spindrift

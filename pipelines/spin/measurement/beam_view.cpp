@@ -91,12 +91,11 @@ class Earth {
   /// misses and the Earth's centre. Its sphere leads to an axis from which the actual beam is as
   /// deep.
   BeamView beside(double mount_angle_rad, const EarthCrossing& crossing) const {
-    constexpr int kHalvings = 40;
     const double chord_rad = crossing.chord ? crossing.chord->value_rad : 0.0;
     double narrower_rad = mount_angle_rad;
     double wider_rad = earth_angle_rad();
     BeamView view{.disc_rad = sightlines_.disc_rad};
-    for (int i = 0; i < kHalvings; ++i) {
+    for (int i = 0; i < 40; ++i) {
       const double between_rad = 0.5 * (narrower_rad + wider_rad);
       const auto found = crossed_by(between_rad, crossing);
       if (found && found->chord_rad > chord_rad) {

@@ -18,7 +18,7 @@
 
 #include "pipelines/spin/measurement/measurement.h"
 #include "pipelines/spin/types/config.h"
-#include "pipelines/spin/types/sun_earth_directions.h"
+#include "pipelines/spin/types/sky.h"
 
 namespace spindrift {
 

@@ -10,7 +10,6 @@ namespace spindrift {
 namespace {
 
 constexpr int kSteps = 180;
-constexpr int kHalvings = 50;
 
 /// Holds cos(theta_s)cos(theta_e) + sin(theta_s)sin(theta_e)cos(lambda) - cos(theta_se), which
 /// vanishes at the solution, and its partial derivatives.
@@ -43,7 +42,7 @@ Misfit misfit_at(const MixedAzimuth& mixed, double lag_rad) {
 
 double zero_between(const MixedAzimuth& mixed, double before_rad, double after_rad) {
   const bool rising = misfit_at(mixed, before_rad).value < 0.0;
-  for (int i = 0; i < kHalvings; ++i) {
+  for (int i = 0; i < 50; ++i) {
     const double middle_rad = 0.5 * (before_rad + after_rad);
     ((misfit_at(mixed, middle_rad).value < 0.0) == rising ? before_rad : after_rad) = middle_rad;
   }

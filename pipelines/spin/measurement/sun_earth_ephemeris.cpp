@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "pipelines/ephemeris/earth_pole.h"
+#include "pipelines/ephemeris/earth_orientation.h"
 #include "pipelines/spin/sensor_model/geometry.h"
 
 namespace spindrift {

@@ -8,7 +8,6 @@
 #include "pipelines/ephemeris/sun.h"
 #include "pipelines/spin/measurement/measurement.h"
 #include "pipelines/spin/types/sky.h"
-#include "pipelines/spin/types/sun_earth_directions.h"
 #include "pipelines/time/tai_time.h"
 
 namespace spindrift {

@@ -11,22 +11,14 @@
 #include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
 #include "pipelines/spin/nutation/tilt_signal.h"
-#include "pipelines/spin/nutation/tilt_spectrum.h"
 #include "pipelines/statistics/significance.h"
 
 namespace spindrift {
 namespace {
 
-// Chi-square difference of a likelihood ratio of a thousand.
-constexpr double kMuchLikelier = 13.8;
 constexpr double kFewestTurns = 20.0;
 // Limits the spectrum's memory to 2 GiB.
 constexpr double kMostTurns = 4e6;
-// Convergence limit in spectral lines; a line is one cycle wide over the pass.
-constexpr double kConverged_lines = 1e-6;
-constexpr int kMostSteps = 8;
-// Minimum share of a pattern that must remain without its slow changes.
-constexpr double kLeastShare = 1e-6;
 
 /// Returns the span as twice the largest distance from the middle.
 double span_turns(const TiltSignal& signal) { return 2.0 * signal.turns().cwiseAbs().maxCoeff(); }
@@ -61,10 +53,11 @@ Fit fitted(const TiltSignal& signal, double per_turn) {
 Fit climbed(const TiltSignal& signal, double per_turn) {
   Fit fit = fitted(signal, per_turn);
   const double line = 1.0 / span_turns(signal);
-  for (int step = 0; step < kMostSteps; ++step) {
+  for (int step = 0; step < 8; ++step) {
     const double lines = 2.0 * fit.growth().imag() / kTurn_rad;
     // The negated comparison also ends the loop for NaN, which a zero tilt gives.
-    if (!(std::abs(lines) > kConverged_lines)) {
+    // Convergence limit in spectral lines; a line is one cycle wide over the pass.
+    if (!(std::abs(lines) > 1e-6)) {
       break;
     }
     fit = fitted(signal, fit.per_turn + std::clamp(lines, -0.5, 0.5) * line);
@@ -80,11 +73,12 @@ double chi_square(const TiltSignal& signal, double per_turn) {
   const Eigen::Vector2d right = columns.transpose() * signal.off();
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> normal;
   normal.computeDirect(columns.transpose() * columns);
-  return normal.eigenvalues()[0] > kLeastShare * whole ? (normal.eigenvectors().transpose() * right)
-                                                             .cwiseAbs2()
-                                                             .cwiseQuotient(normal.eigenvalues())
-                                                             .sum()
-                                                       : 0.0;
+  // Minimum share of a pattern that must remain without its slow changes.
+  return normal.eigenvalues()[0] > 1e-6 * whole ? (normal.eigenvectors().transpose() * right)
+                                                      .cwiseAbs2()
+                                                      .cwiseQuotient(normal.eigenvalues())
+                                                      .sum()
+                                                : 0.0;
 }
 
 /// Returns the aliases for a sensor that looks once a turn, at least a line away from `per_turn`.
@@ -117,7 +111,8 @@ Choice likeliest(const TiltSignal& signal, double per_turn) {
       choices.begin(), choices.end(),
       [](const Choice& a, const Choice& b) { return a.chi_square < b.chi_square; });
   for (const Choice& choice : choices) {
-    if (choice.per_turn != best.per_turn && choice.chi_square > best.chi_square - kMuchLikelier) {
+    // Chi-square difference of a likelihood ratio of a thousand.
+    if (choice.per_turn != best.per_turn && choice.chi_square > best.chi_square - 13.8) {
       best.others.push_back(choice.per_turn);
     }
   }

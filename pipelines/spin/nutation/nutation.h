@@ -28,7 +28,7 @@
 #include <vector>
 
 #include "pipelines/core/expected.h"
-#include "pipelines/spin/nutation/uniform_spin_residual.h"
+#include "pipelines/spin/nutation/tilt_signal.h"
 
 namespace spindrift {
 

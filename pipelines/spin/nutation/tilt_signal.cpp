@@ -6,23 +6,21 @@
 #include <cmath>
 #include <complex>
 #include <iterator>
+#include <numbers>
 #include <numeric>
 #include <tuple>
+#include <unsupported/Eigen/FFT>
 
 #include "pipelines/frames/angle.h"
 
 namespace spindrift {
 namespace {
 
-// Within this time Sun and Earth move like a parabola, even on low orbits.
-constexpr double kStretch_s = 600.0;
-constexpr int kSlowUnknowns = 4;
-// Fewer edges carry little beside their own parabola.
-constexpr std::size_t kFewestEdges = 12;
-// Residuals without noise still get a finite weight.
-constexpr double kLeastScatter = 1e-3;
-
+using Edges = std::span<const UniformSpinResidual* const>;
+using Points = std::vector<std::complex<double>>;
 using Residuals = std::vector<const UniformSpinResidual*>;
+
+constexpr int kSlowUnknowns = 4;
 
 Residuals by_channel_and_time(std::span<const UniformSpinResidual> residuals) {
   Residuals sorted(residuals.size());
@@ -35,8 +33,6 @@ Residuals by_channel_and_time(std::span<const UniformSpinResidual> residuals) {
   return sorted;
 }
 
-using Edges = std::span<const UniformSpinResidual* const>;
-
 /// Returns the stretches, each with one channel and one part of its time.
 std::vector<Edges> stretches_of(const Residuals& sorted) {
   std::vector<Edges> stretches;
@@ -46,7 +42,8 @@ std::vector<Edges> stretches_of(const Residuals& sorted) {
         [&](const UniformSpinResidual* edge) { return edge->channel != (*first)->channel; });
     const double begin_s = (*first)->t_s;
     const double span_s = (*(channel_end - 1))->t_s - begin_s;
-    const double count = std::max(1.0, std::ceil(span_s / kStretch_s));
+    // Within this time Sun and Earth move like a parabola, even on low orbits.
+    const double count = std::max(1.0, std::ceil(span_s / 600.0));
     const auto number_of = [&](const UniformSpinResidual* edge) {
       return span_s > 0.0
                  ? std::min(count - 1.0, std::floor((edge->t_s - begin_s) / span_s * count))
@@ -58,7 +55,8 @@ std::vector<Edges> stretches_of(const Residuals& sorted) {
         return number_of(edge) != number;
       });
       const Edges stretch{first, end};
-      if (stretch.size() >= kFewestEdges) {
+      // Fewer edges carry little beside their own parabola.
+      if (stretch.size() >= 12) {
         stretches.push_back(stretch);
       }
       first = end;
@@ -81,6 +79,39 @@ Eigen::MatrixX4d parabolas(Edges stretch) {
   }
   const Eigen::HouseholderQR<Eigen::MatrixX4d> qr{columns};
   return qr.householderQ() * Eigen::MatrixX4d::Identity(columns.rows(), kSlowUnknowns);
+}
+
+constexpr double kPointsPerTurn = 8.0;
+
+std::size_t power_of_two_from(double size) {
+  std::size_t power = 1;
+  while (static_cast<double>(power) < size) {
+    power *= 2;
+  }
+  return power;
+}
+
+/// Divides each edge between the two grid points beside it.
+Points spread(const TiltSignal& signal) {
+  const double first = signal.turns().minCoeff();
+  const double span = signal.turns().maxCoeff() - first;
+  // Points of the spectrum per resolved frequency, at least.
+  Points points(power_of_two_from(2.0 * kPointsPerTurn * (span + 1.0)));
+  for (Eigen::Index i = 0; i < signal.edges(); ++i) {
+    const double place = (signal.turns()[i] - first) * kPointsPerTurn;
+    const double whole = std::floor(place);
+    const auto point = static_cast<std::size_t>(whole);
+    const std::complex<double> said = signal.off()[i] * signal.per_tilt()[i];
+    points[point] += (1.0 - (place - whole)) * said;
+    points[point + 1] += (place - whole) * said;
+  }
+  return points;
+}
+
+/// Corrects for the division between points, which weakens fast oscillations by (sin(a)/a)^2.
+double strengthened(double power, double per_turn) {
+  const double a = std::numbers::pi * per_turn / kPointsPerTurn;
+  return power * std::pow(a / std::sin(a), 4);
 }
 
 }  // namespace
@@ -176,11 +207,35 @@ void TiltSignal::weigh_by(const Eigen::VectorXd& rest) {
   }
   for (const Stretch& stretch : stretches_) {
     const std::size_t channel = index_of(stretch.channel);
-    const double scatter =
-        std::max(std::sqrt(squares.at(channel) / freedom.at(channel)), kLeastScatter);
+    // Residuals without noise still get a finite weight.
+    const double scatter = std::max(std::sqrt(squares.at(channel) / freedom.at(channel)), 1e-3);
     off_.segment(stretch.first, stretch.edges) /= scatter;
     per_tilt_.segment(stretch.first, stretch.edges) /= scatter;
   }
+}
+
+/// Parabolas leave slow changes of up to three oscillations per stretch.
+double unseen_per_turn(const TiltSignal& signal) { return 3.0 / signal.turns_in_stretch(); }
+
+double strongest_per_turn(const TiltSignal& signal) {
+  const Points points = spread(signal);
+  Points spectrum;
+  Eigen::FFT<double>{}.fwd(spectrum, points);
+  const double step = kPointsPerTurn / static_cast<double>(points.size());
+  const double unseen = unseen_per_turn(signal);
+  double best_per_turn = 0.5;
+  double best_power = 0.0;
+  const auto end = static_cast<std::size_t>(kFastestPerTurn / step);
+  for (std::size_t i = 1; i <= end; ++i) {
+    const double per_turn = static_cast<double>(i) * step;
+    const bool seen = std::abs(per_turn - std::round(per_turn)) > unseen;
+    const double power = strengthened(std::norm(spectrum[i]), per_turn);
+    if (seen && power > best_power) {
+      best_power = power;
+      best_per_turn = per_turn;
+    }
+  }
+  return best_per_turn;
 }
 
 }  // namespace spindrift

@@ -1,5 +1,5 @@
 /// @file
-/// Treats the edges of a pass as measurements of a small rotating tilt.
+/// Treats the edges of a pass as measurements of a small rotating tilt, and finds its frequency.
 ///
 /// The body, tipped in the frame `spin` by a small rotation (e_x, e_y), gives an edge at the
 /// azimuth
@@ -25,9 +25,22 @@
 #include <span>
 #include <vector>
 
-#include "pipelines/spin/nutation/uniform_spin_residual.h"
+#include "pipelines/spin/sensor_model/edge_prediction.h"
+#include "pipelines/spin/types/pulse.h"
 
 namespace spindrift {
+
+/// Residual of a good edge, in the frame `spin` (edge_prediction.h) about the uniform-spin axis.
+struct UniformSpinResidual {
+  PulseChannel channel;
+  double t_s;  ///< Time from any epoch.
+  /// Expected azimuth of slit 1 at the edge, counted over turns: phase_rad / 2 pi. The phase at t_s
+  /// is not used, because its noise is that of off_rad.
+  double turns;
+  double off_rad;    ///< Azimuth of slit 1 at the edge less the expected one.
+  double sigma_rad;  ///< Noise of `off_rad`: edge-time noise times spin rate.
+  PredictedEdge expected;
+};
 
 /// Holds the residuals in standard deviations, by channel and time, without short stretches.
 class TiltSignal {
@@ -79,5 +92,21 @@ class TiltSignal {
   Eigen::MatrixX4d slow_;  ///< Orthonormal basis of each stretch.
   std::vector<Stretch> stretches_;
 };
+
+/// Fastest nutation of an axisymmetric body, whose moment of inertia about the axis is at most the
+/// sum of the other two.
+inline constexpr double kFastestPerTurn = 2.0;
+
+/// Returns the distance from whole cycles per turn within which a tilt looks like a slow change.
+double unseen_per_turn(const TiltSignal& signal);
+
+/// Returns the frequency of the greatest |D|, to a quarter of the pass's resolution.
+///
+/// With w the residuals times their slopes, D(n) = sum of w exp(-2 pi i n x) is the spectrum of a
+/// tilt at n cycles per turn, over all edges at once. The six edges of a turn have different
+/// phases, so that n and n + 1 differ, which a sensor that looks once a turn cannot tell apart. The
+/// spectrum is computed by one FFT over edges spread onto a uniform grid of eight points per turn.
+/// @param signal Signal with at least twenty turns in a stretch.
+double strongest_per_turn(const TiltSignal& signal);
 
 }  // namespace spindrift

@@ -7,16 +7,43 @@
 #include <array>
 #include <cstddef>
 #include <optional>
+#include <vector>
 
 #include "pipelines/core/expected.h"
 #include "pipelines/ephemeris/orbit.h"
 #include "pipelines/spin/measurement/sun_earth_ephemeris.h"
-#include "pipelines/spin/planning/expected_revolution.h"
+#include "pipelines/spin/sensor_model/edge_prediction.h"
 #include "pipelines/spin/sensor_model/geometry.h"
 #include "pipelines/spin/types/config.h"
+#include "pipelines/spin/types/pulse.h"
+#include "pipelines/spin/types/revolution.h"
+#include "pipelines/spin/types/sky.h"
 #include "pipelines/time/tai_time.h"
 
 namespace spindrift {
+
+/// Channels whose edges come so near to each other that they spoil each other.
+struct ColocatedChannels {
+  PulseChannel one;
+  PulseChannel other;
+};
+
+/// One turn of the body as its sensors should see it, for a known axis and spin rate.
+struct ExpectedRevolution {
+  /// Edges without noise, to the nearest nanosecond; those that meet are rejected as
+  /// `Interference`.
+  Revolution revolution;
+  /// Prediction of each edge that exists.
+  std::array<std::optional<PredictedEdge>, kPulseChannels> predicted;
+  std::vector<ColocatedChannels> meeting;
+};
+
+/// Returns the turn that begins with slit 1 at the Sun at the time of the sky; chords begin in it.
+/// @param R_spin_icrf Rotation to a frame `spin` (edge_prediction.h).
+/// @param sun_hidden Whether the Earth hides the Sun, so that there are no sun edges.
+ExpectedRevolution expected_revolution(const SpinConfig& config, const Sky& sky,
+                                       const Eigen::Matrix3d& R_spin_icrf, double rate_rad_s,
+                                       bool sun_hidden);
 
 enum class BeamSight {
   NoSensor,

@@ -7,15 +7,12 @@
 #include <utility>
 
 #include "pipelines/frames/angle.h"
-#include "pipelines/spin/planning/pass_conditions.h"
-#include "pipelines/spin/sensor_model/edge_information.h"
+#include "pipelines/spin/sensor_model/edge_prediction.h"
 #include "pipelines/time/time_span.h"
 
 namespace spindrift {
 namespace {
 
-// The information of many turns is an integral, by Gauss and Legendre over stretches this long.
-constexpr double kStretch_s = 10.0;
 // Conditions are looked for this often: channels that meet may part within seconds, and no function
 // to search tells when.
 constexpr double kLook_s = 1.0;
@@ -34,8 +31,8 @@ class Planner {
 
   /// Advances to a later time, or to the start itself.
   Expected<PassStep> step_to(TaiTime t) {
-    const auto stretches =
-        static_cast<std::int64_t>(std::ceil(seconds_between(t_, t) / kStretch_s));
+    // The information of many turns is an integral, by Gauss and Legendre over stretches this long.
+    const auto stretches = static_cast<std::int64_t>(std::ceil(seconds_between(t_, t) / 10.0));
     const double length_s = seconds_between(t_, t) / static_cast<double>(stretches);
     const TaiTime from = t_;
     for (std::int64_t i = 1; i < stretches; ++i) {
@@ -102,6 +99,36 @@ class Planner {
 };
 
 }  // namespace
+
+void PassEvents::add(TaiTime t, const std::vector<PassCondition>& conditions) {
+  last_ = t;
+  for (auto event = open_.begin(); event != open_.end();) {
+    if (std::find(conditions.begin(), conditions.end(), event->condition) != conditions.end()) {
+      ++event;
+      continue;
+    }
+    event->to = t;
+    closed_.push_back(std::move(*event));
+    event = open_.erase(event);
+  }
+  for (const PassCondition& condition : conditions) {
+    if (std::none_of(open_.begin(), open_.end(),
+                     [&](const auto& event) { return event.condition == condition; })) {
+      open_.push_back({.from = t, .to = t, .condition = condition});
+    }
+  }
+}
+
+std::vector<PassEvent> PassEvents::finish() {
+  for (PassEvent& event : open_) {
+    event.to = last_;
+    closed_.push_back(std::move(event));
+  }
+  open_.clear();
+  std::stable_sort(closed_.begin(), closed_.end(),
+                   [](const PassEvent& a, const PassEvent& b) { return a.from < b.from; });
+  return std::move(closed_);
+}
 
 Expected<PassPlan> plan_pass(const SpinConfig& config, const Orbit& orbit,
                              const PassRequest& request) {

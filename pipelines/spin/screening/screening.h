@@ -13,7 +13,7 @@
 #include "pipelines/spin/measurement/measurement.h"
 #include "pipelines/spin/types/config.h"
 #include "pipelines/spin/types/products.h"
-#include "pipelines/spin/types/sun_earth_directions.h"
+#include "pipelines/spin/types/sky.h"
 #include "pipelines/statistics/robust_mean.h"
 
 namespace spindrift {

@@ -5,7 +5,7 @@
 
 #include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
-#include "pipelines/frames/small_rotation.h"
+#include "pipelines/frames/rotation_vector.h"
 #include "pipelines/statistics/significance.h"
 
 namespace spindrift {

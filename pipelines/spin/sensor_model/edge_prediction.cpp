@@ -1,26 +1,21 @@
 #include "pipelines/spin/sensor_model/edge_prediction.h"
 
-#include <Eigen/Core>
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "pipelines/frames/celestial.h"
+#include "pipelines/spin/sensor_model/geometry.h"
 #include "pipelines/spin/types/side.h"
 
 namespace spindrift {
 namespace {
 
-// The Sun within this sine of the axis (0.6 deg) has no azimuth.
-constexpr double kNearestAxis = 0.01;
-// Within this cosine (6 deg) of the end of slit 2 an edge does not measure the axis.
-constexpr double kLeastSlope = 0.1;
-
-// Half a chord counts as at least this many times the noise of its edges.
-constexpr double kNarrowestSigmas = 2.0;
-
-using PerError = Eigen::Matrix<double, 1, kModelErrors>;
 using PerBias = Eigen::Matrix<double, 1, kSensorBiases>;
+using PerError = Eigen::Matrix<double, 1, kModelErrors>;
+using Slope = Eigen::Matrix<double, 5, 1>;
 
 /// Holds the Sun's azimuth, which is that of a slit in a meridian when it sees the Sun.
 struct SunView {
@@ -32,7 +27,8 @@ struct SunView {
 
 std::optional<SunView> view_of_sun(const Eigen::Vector3d& sun_spin) {
   const double across = std::hypot(sun_spin.x(), sun_spin.y());
-  if (!(across > kNearestAxis)) {
+  // The Sun within this sine of the axis (0.6 deg) has no azimuth.
+  if (!(across > 0.01)) {
     return std::nullopt;
   }
   const Eigen::Vector3d towards{sun_spin.x() / across, sun_spin.y() / across, 0.0};
@@ -62,7 +58,8 @@ std::optional<SlitView> view_of_slit(const SunSensor& slit, const Eigen::Vector3
   const double sin_lag = tan_cant / std::tan(measured_rad);
   const double cos_lag = std::sqrt(1.0 - sin_lag * sin_lag);
   // The negated comparison also rejects the NaN of sin_lag beyond 1, where the slit ends.
-  if (!(cos_lag > kLeastSlope)) {
+  // Within this cosine (6 deg) of the end of slit 2 an edge does not measure the axis.
+  if (!(cos_lag > 0.1)) {
     return std::nullopt;
   }
   const double sine = std::sin(measured_rad);
@@ -178,6 +175,26 @@ HorizonAxes biased_horizon(Horizon horizon, const SensorBiases& biases) {
   return horizon_axes(horizon);
 }
 
+/// Scales the matrix to a unit diagonal, since dt^2 and a tilt differ by ten orders.
+Eigen::Matrix3d pseudo_inverse(const Eigen::Matrix3d& normal) {
+  Eigen::Vector3d unit = Eigen::Vector3d::Zero();
+  for (Eigen::Index i = 0; i < 3; ++i) {
+    unit[i] = normal(i, i) > 0.0 ? 1.0 / std::sqrt(normal(i, i)) : 0.0;
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> scaled{unit.asDiagonal() * normal *
+                                                              unit.asDiagonal()};
+  Eigen::Vector3d inverse = Eigen::Vector3d::Zero();
+  for (Eigen::Index i = 0; i < 3; ++i) {
+    // Relative eigenvalue below which phase, rate and drift are not separated, as with edges of one
+    // time.
+    if (scaled.eigenvalues()[i] > 1e-12) {
+      inverse[i] = 1.0 / scaled.eigenvalues()[i];
+    }
+  }
+  return unit.asDiagonal() * scaled.eigenvectors() * inverse.asDiagonal() *
+         scaled.eigenvectors().transpose() * unit.asDiagonal();
+}
+
 }  // namespace
 
 PlacedSensors::PlacedSensors(const SpinConfig& config, SensorBiases sensor_biases)
@@ -223,13 +240,37 @@ std::optional<PredictedEdge> linearise_by_depth(const SpinConfig& config, const 
   if (!limb) {
     return std::nullopt;
   }
+  // Half a chord counts as at least this many times the noise of its edges.
   const double slope = std::max(std::abs(limb->depth_per_rotation.z()),
-                                kNarrowestSigmas * sigma_rad * std::abs(limb->depth_bend));
+                                2.0 * sigma_rad * std::abs(limb->depth_bend));
   const double scale = crossing == Crossing::In ? slope : -slope;
   return PredictedEdge{.phase_rad = wrapped_rad(phase_rad - limb->depth / scale),
                        .phase_per_rotation = -limb->depth_per_rotation / scale,
                        .phase_per_error = PerError::Zero(),
                        .phase_per_bias = PerBias::Zero()};
+}
+
+void EdgeInformation::add(const PredictedEdge& edge, double dt_s, double sigma_rad, double weight) {
+  const Slope slope{edge.phase_per_rotation.x(), edge.phase_per_rotation.y(), -1.0, -dt_s,
+                    -0.5 * dt_s * dt_s};
+  normal_ += weight / (sigma_rad * sigma_rad) * slope * slope.transpose();
+}
+
+std::optional<Eigen::Matrix2d> EdgeInformation::axis_covariance_rad2() const {
+  const Eigen::Matrix<double, 2, 3> shared = normal_.topRightCorner<2, 3>();
+  const Eigen::Matrix2d information =
+      normal_.topLeftCorner<2, 2>() -
+      shared * pseudo_inverse(normal_.bottomRightCorner<3, 3>()) * shared.transpose();
+  Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> directions;
+  directions.computeDirect(information, Eigen::EigenvaluesOnly);
+  if (!(directions.eigenvalues().minCoeff() >
+        1.0 / (kLeastDetermined_rad * kLeastDetermined_rad))) {
+    return std::nullopt;
+  }
+  // A tilt about the first axis moves the spin axis against the second.
+  Eigen::Matrix2d axis_from_tilts;
+  axis_from_tilts << 0.0, 1.0, -1.0, 0.0;
+  return axis_from_tilts * information.inverse() * axis_from_tilts.transpose();
 }
 
 }  // namespace spindrift

@@ -1,5 +1,6 @@
 /// @file
-/// Predicts the phase of the body at an edge: the model that estimators fit to edge times.
+/// Predicts the phase of the body at an edge, the model that estimators fit to edge times, and the
+/// information of edges on the spin axis.
 ///
 /// The frame `spin` is inertial, with the third axis on the spin axis and the others anywhere
 /// across it. The body turns right-handed about the third axis; its phase is the azimuth of slit 1
@@ -77,5 +78,28 @@ std::optional<PredictedEdge> linearise_by_depth(const SpinConfig& config, const 
                                                 const Eigen::Matrix3d& R_spin_icrf,
                                                 const Pulse& edge, double phase_rad,
                                                 double sigma_rad);
+
+/// Sums Fisher's information of predicted edges, which gives the Cramer-Rao bound, which no
+/// unbiased estimator can beat. Each edge is one equation (as in spin_filter.h)
+///
+///     phase + rate dt + drift dt^2/2 - predicted phase = 0 +/- sigma
+///
+/// in the tilts of the axis about the first and second axis of the frame `spin`, and in phase, rate
+/// and drift, which have no prior.
+class EdgeInformation {
+ public:
+  /// @param edge Predicted edge; all edges need the same frame `spin`.
+  /// @param dt_s Time from an epoch common to all edges.
+  /// @param sigma_rad Standard deviation of the phase: spin rate times that of the edge time.
+  /// @param weight Number of such edges.
+  void add(const PredictedEdge& edge, double dt_s, double sigma_rad, double weight = 1.0);
+
+  /// Returns the covariance of the axis along the first and second axis of the frame. Empty if its
+  /// standard deviation exceeds half a radian in some direction, where slopes mean nothing.
+  std::optional<Eigen::Matrix2d> axis_covariance_rad2() const;
+
+ private:
+  Eigen::Matrix<double, 5, 5> normal_ = Eigen::Matrix<double, 5, 5>::Zero();
+};
 
 }  // namespace spindrift

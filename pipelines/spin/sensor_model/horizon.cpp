@@ -9,12 +9,6 @@
 namespace spindrift {
 namespace {
 
-// From the sphere's crossing, 0.2 deg away, three or four quadratic Newton steps suffice.
-constexpr int kMostSteps = 12;
-constexpr double kConverged_rad = 1e-12;
-// A chord that changes by more than this factor times the axis motion is about to vanish.
-constexpr double kSteepest = 30.0;
-
 /// Represents F as a quadratic form in the direction, with the equatorial semi-axis as unit length.
 class TangentForm {
  public:
@@ -103,22 +97,24 @@ std::optional<LimbCrossing> limb_crossing(const HorizonAxes& axes, const EarthVi
   const double sin_mount = std::sin(mount_angle_rad);
   const double cos_mount = std::cos(mount_angle_rad);
   double azimuth_rad = *guess_rad;
-  for (int step = 0; step < kMostSteps; ++step) {
+  // From the sphere's crossing, 0.2 deg away, three or four quadratic Newton steps suffice.
+  for (int step = 0; step < 12; ++step) {
     const Eigen::Vector3d beam{sin_mount * std::cos(azimuth_rad), sin_mount * std::sin(azimuth_rad),
                                cos_mount};
     const Eigen::Vector3d gradient = form.times(beam);
     const Eigen::Vector3d slope = beam.cross(gradient);
     const double correction_rad = -0.5 * beam.dot(gradient) / slope.z();
     azimuth_rad += correction_rad;
-    if (std::abs(correction_rad) < kConverged_rad) {
+    if (std::abs(correction_rad) < 1e-12) {
       const bool enters = slope.z() > 0.0;
       const Eigen::Vector3d per_rotation = -slope / slope.z();
       const Eigen::Vector3d outwards{cos_mount * std::cos(azimuth_rad),
                                      cos_mount * std::sin(azimuth_rad), -sin_mount};
       const double per_mount = -outwards.dot(gradient) / slope.z();
       const double per_height_km = -form.half_per_height(beam) / slope.z();
+      // A chord that changes by more than this factor times the axis motion is about to vanish.
       const bool crosses = form.points_down(beam) && enters == (crossing == Crossing::In) &&
-                           per_rotation.norm() < kSteepest;
+                           per_rotation.norm() < 30.0;
       return crosses ? std::optional{LimbCrossing{.azimuth_rad = wrapped_rad(azimuth_rad),
                                                   .azimuth_per_rotation = per_rotation,
                                                   .azimuth_per_limb = per_limb(earth, beam),

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
 #include "pipelines/spin/types/model_allowance.h"
 #include "pipelines/statistics/significance.h"
@@ -18,7 +19,30 @@ constexpr Weight kWhereEdgesDoubt{.fixes = 10, .sigmas = kContradictionSigmas};
 // Without doubt by the edges more is needed, as single fixes may all be off to one side.
 constexpr Weight kFixesAlone{.fixes = 30, .sigmas = 8.0};
 
+// Within this angle edges are linear.
+constexpr double kPoor_rad = kRadPerDeg;
+
 }  // namespace
+
+void StartConfirmation::begin(const StartingPoint& point) {
+  const bool poor = point.covariance_rad2.trace() > kPoor_rad * kPoor_rad;
+  fixes_ = poor ? std::optional{MeanAxis{}} : std::nullopt;
+}
+
+void StartConfirmation::note(const SpinFix& fix, const StartingPoint& followed) {
+  if (!fixes_ || !fix.accepted || fix.near_tangent) {
+    return;
+  }
+  fixes_->add(fix);
+  const double mean_rad2 = fixes_->covariance_rad2().trace() * fixes_->excess_scatter();
+  const double sigma_rad = std::hypot(kPoor_rad, std::sqrt(followed.covariance_rad2.trace()));
+  // Limit in sigmas of a mean known to a degree. A better mean is not tested more strictly, as
+  // fixes lie to one side when noise suppresses some of them.
+  if (mean_rad2 < kPoor_rad * kPoor_rad &&
+      angle_between_rad(fixes_->axis_icrf(), followed.axis_icrf) < 1.5 * sigma_rad) {
+    fixes_.reset();
+  }
+}
 
 void Contradiction::note(const Hypotheses& followed, const StartingPoints::Known& said) {
   const bool against =

@@ -5,19 +5,14 @@
 
 #include "pipelines/frames/celestial.h"
 #include "pipelines/spin/types/model_allowance.h"
-#include "pipelines/statistics/variance_factor.h"
+#include "pipelines/statistics/significance.h"
 
 namespace spindrift {
 namespace {
 
-// After a gap that makes the phase this uncertain, turns can no longer be counted and phase and
-// rate start anew.
-constexpr double kPhaseLost_rad = 0.3;
 constexpr double kBeyondDoubt = 20.0;
 // A true candidate falls behind another by e^5 in one pass of 150 at most (Ville's inequality).
 constexpr double kUnlikely = 5.0;
-// Stray edges may make a false fix, even twice.
-constexpr int kFewestFixes = 5;
 
 StartingPoint place_of(const Hypothesis& hypothesis) {
   return {.axis_icrf = hypothesis.filter.axis_icrf(),
@@ -54,8 +49,9 @@ bool Hypotheses::contradicted_by(const StartingPoint& point) const {
 }
 
 bool Hypotheses::closed() const {
+  // Stray edges may make a false fix, even twice.
   return !all_.empty() && !provisional_ && published().eliminated_another &&
-         published().fixes >= kFewestFixes &&
+         published().fixes >= 5 &&
          std::all_of(all_.begin() + 1, all_.end(),
                      [](const Hypothesis& other) { return other.late; });
 }
@@ -129,7 +125,9 @@ bool Hypotheses::work_in(const SpinConfig& config, const Revolution& revolution,
   for (Hypothesis& hypothesis : all_) {
     SpinFilter& filter = hypothesis.filter;
     filter.predict(revolution.t_start);
-    if (filter.phase_sigma_rad() > kPhaseLost_rad) {
+    // After a gap that makes the phase this uncertain, turns can no longer be counted and phase and
+    // rate start anew.
+    if (filter.phase_sigma_rad() > 0.3) {
       filter = SpinFilter::about(filter.axis_icrf(),
                                  filter.axis_covariance_rad2() +
                                      filter.offsets_rad2(offset_prior_s2(config.noise)),

@@ -24,12 +24,6 @@ constexpr double kNearlyAll = 0.8;
 // gated share of a fifth on, gated edges count as noise.
 constexpr RecordRules kEdgeRules{
     .recent = 60.0, .fewest_freedoms = 15.0, .most_freedoms = 300.0, .noise_from_share = 0.2};
-// Share of gated edges beyond which the axis is lost.
-constexpr double kMost = 0.5;
-// Share of gated edges beyond which some of the used ones are likely wrong, too.
-constexpr double kMany = 1.0 / 3.0;
-// This start noise is still significant for the fewest edges, but soon not if later ones are good.
-constexpr double kMostOfStart = 4.0;
 
 /// The rate is an average over the last seconds, for as long as its error takes to build up the
 /// phase error. On a time grid the grid error adds at both ends.
@@ -225,7 +219,9 @@ void SequentialEstimator::work_in(const Revolution& revolution, const Sky& sky) 
   // The first edges pull the filter away from its start, so their innovations do not count.
   const auto edges = static_cast<double>(said.size());
   if (published.edges - edges < kFewestEdgesToFit && published.edges >= kFewestEdgesToFit) {
-    ledger_.discard_transient(kMostOfStart);
+    // This start noise is still significant for the fewest edges, but soon not if later ones are
+    // good.
+    ledger_.discard_transient(4.0);
     evidence_ = {};
   }
 }
@@ -236,7 +232,8 @@ void SequentialEstimator::test_model_and_noise() {
 
 /// Returns whether most edges are gated, which shows that the axis is wrong.
 bool SequentialEstimator::most_left_out() const {
-  return ledger_.all().recent_share_left_out() > kMost;
+  // Share of gated edges beyond which the axis is lost.
+  return ledger_.all().recent_share_left_out() > 0.5;
 }
 
 Eigen::Matrix2d SequentialEstimator::covariance_rad2() const {
@@ -295,7 +292,8 @@ std::optional<Reason> SequentialEstimator::doubt() const {
   if (const auto channel = ledger_.mostly_left_out()) {
     return Reason{ChannelGated, {{"channel", std::string{name_of(channel_of(*channel))}}}};
   }
-  if (ledger_.all().share_left_out() > kMany) {
+  // Share of gated edges beyond which some of the used ones are likely wrong, too.
+  if (ledger_.all().share_left_out() > 1.0 / 3.0) {
     return Reason{ManyGated};
   }
   if (verdict_.excess_noise > 1.0) {

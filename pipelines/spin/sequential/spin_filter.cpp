@@ -8,7 +8,6 @@
 #include "pipelines/spin/measurement/edge_use.h"
 #include "pipelines/spin/sensor_model/edge_prediction.h"
 #include "pipelines/spin/types/spin_rate.h"
-#include "pipelines/statistics/iterated_update.h"
 #include "pipelines/statistics/linear_update.h"
 
 namespace spindrift {
@@ -16,19 +15,9 @@ namespace {
 
 enum Component : Eigen::Index { kTiltX, kTiltY, kPhase, kRate, kDrift };
 
-// Torques turn a satellite's axis by up to 0.1 deg a day. This random walk makes 0.02 deg a day and
-// 3e-6 deg a second, which no pulse can tell from rest.
-constexpr double kAxisWander_rad_sqrt_s = 1e-6;
-// Wander beside the uniform drift. A constant rate is known better than the filter's sigma says,
-// but the axis hardly depends on it.
-constexpr double kRateWander_rad_s_sqrt_s = 3e-6;
 constexpr double kFirstDrift_rad_s2 = kFirstDrift_rpm_h * (kTurn_rad / 60.0) / kHour_s;
-// In a day this makes 0.02 rpm/h.
-constexpr double kDriftWander_rad_s2_sqrt_s = 2e-9;
 // One edge in a thousand is spurious and anywhere on the circle.
 const double kLogSpurious = std::log(1e-3 / kTurn_rad);
-// The axis may rest on the edge that gives the first phase; this sigma leaves the phase free.
-constexpr double kFirstPhase_rad = 0.1;
 // The period gives the first rate; ten of its sigmas leave it a hundredth of its weight in the
 // filter. The share is added because the period's sigma ignores a drift.
 constexpr double kFirstRateSigmas = 10.0;
@@ -77,7 +66,8 @@ std::optional<SpinFilter> SpinFilter::about(const Eigen::Vector3d& axis_icrf,
     // The matrix consists of rotations and reflections, so its inverse is its transpose.
     const Eigen::Matrix2d turned = tangent_from_tilts(q_icrf_spin);
     filter.covariance_.topLeftCorner<2, 2>() = turned.transpose() * covariance_rad2 * turned;
-    filter.covariance_(kPhase, kPhase) = square(kFirstPhase_rad);
+    // The axis may rest on the edge that gives the first phase; this sigma leaves the phase free.
+    filter.covariance_(kPhase, kPhase) = square(0.1);
     filter.covariance_(kRate, kRate) = square(
         rate_rad_s * (kFirstRateSigmas * revolution.period.sigma_s / revolution.period.period_s +
                       kFirstRateShare));
@@ -103,9 +93,14 @@ void SpinFilter::predict(TaiTime t) {
   covariance_.row(kRate) += dt_s * covariance_.row(kDrift);
   covariance_.col(kRate) += dt_s * covariance_.col(kDrift);
 
-  const double axis_rad2 = square(kAxisWander_rad_sqrt_s) * dt_s;
-  const double rate_rad2_s2 = square(kRateWander_rad_s_sqrt_s) * dt_s;
-  const double drift_rad2_s4 = square(kDriftWander_rad_s2_sqrt_s) * dt_s;
+  // Torques turn a satellite's axis by up to 0.1 deg a day. This random walk makes 0.02 deg a day
+  // and 3e-6 deg a second, which no pulse can tell from rest.
+  const double axis_rad2 = square(1e-6) * dt_s;
+  // Wander beside the uniform drift. A constant rate is known better than the filter's sigma says,
+  // but the axis hardly depends on it.
+  const double rate_rad2_s2 = square(3e-6) * dt_s;
+  // In a day this makes 0.02 rpm/h.
+  const double drift_rad2_s4 = square(2e-9) * dt_s;
   covariance_(kTiltX, kTiltX) += axis_rad2;
   covariance_(kTiltY, kTiltY) += axis_rad2;
   // Process noise of rate and drift, integrated over the interval into rate and phase.

@@ -15,8 +15,6 @@ namespace {
 // A worse known axis is no place to linearise: the filter would take the difference between two
 // linearisations for knowledge that no edge gives.
 constexpr double kPoorest_rad = 3.0 * kRadPerDeg;
-// With this many branches the fixes agree on nothing.
-constexpr std::size_t kMostBranches = 16;
 
 StartingPoint middle_of(const MeanAxis& branch) {
   return {.axis_icrf = branch.axis_icrf(), .covariance_rad2 = branch.covariance_rad2()};
@@ -57,7 +55,8 @@ bool contradict(const StartingPoint& one, const StartingPoint& other) {
 
 std::optional<StartingPoints::Known> StartingPoints::add(
     std::span<const StartingPoint> candidates) {
-  if (branches_.size() > kMostBranches) {
+  // With this many branches the fixes agree on nothing.
+  if (branches_.size() > 16) {
     forget();
   }
   ++fixes_;

@@ -7,17 +7,15 @@
 namespace spindrift {
 namespace {
 
-constexpr std::chrono::nanoseconds kPulseHorizon{std::chrono::seconds{1}};
-constexpr double kFrameHorizon_turns = 2.5;
 constexpr double kSlowestTurn_s = 60.0 / kSlowestSpin_rpm;
 
 }  // namespace
 
-std::chrono::nanoseconds reorder_horizon(const Pulse& /*pulse*/) { return kPulseHorizon; }
+std::chrono::nanoseconds reorder_horizon(const Pulse& /*pulse*/) { return std::chrono::seconds{1}; }
 
 std::chrono::nanoseconds reorder_horizon(const CodedFrame& frame) {
   const double turn_s = std::clamp(frame.period_s.value_or(kSlowestTurn_s), 0.0, kSlowestTurn_s);
-  return std::chrono::nanoseconds{static_cast<std::int64_t>(kFrameHorizon_turns * turn_s * 1e9)};
+  return std::chrono::nanoseconds{static_cast<std::int64_t>(2.5 * turn_s * 1e9)};
 }
 
 template class BasicReorderWindow<Pulse>;

@@ -9,17 +9,9 @@
 #include "pipelines/time/time_span.h"
 
 namespace spindrift {
-namespace {
-
-constexpr int kRun = 20;
-// A single run may have a multiple of the grid by chance; one in 2^20 has its double, harmlessly.
-constexpr int kFewestRuns = 2;
-constexpr double kOfInterest = 1e-3;
-
-}  // namespace
 
 TimeGrid::TimeGrid(const PulseNoise& noise)
-    : least_ns_{std::max(kOfInterest * 1e9 * std::min(noise.sun_s, noise.infrared_s), 1.0)} {}
+    : least_ns_{std::max(1e-3 * 1e9 * std::min(noise.sun_s, noise.infrared_s), 1.0)} {}
 
 void TimeGrid::note(const Pulse& edge) {
   const std::optional<TaiTime>& sun1 = last_[index_of(PulseChannel::Sun1)];
@@ -36,7 +28,7 @@ void TimeGrid::note(const Pulse& edge) {
 void TimeGrid::add(std::int64_t difference_ns, Run& run) {
   run.divisor_ns = std::gcd(run.divisor_ns, difference_ns);
   run.smallest_ns = std::min(run.smallest_ns, std::abs(difference_ns));
-  if (++run.differences == kRun) {
+  if (++run.differences == 20) {
     end(std::exchange(run, {}));
   }
 }
@@ -48,7 +40,8 @@ void TimeGrid::end(const Run& run) {
   if (is_of_turns || static_cast<double>(run.divisor_ns) <= least_ns_) {
     return;
   }
-  if (++runs_[run.divisor_ns] >= kFewestRuns) {
+  // A single run may have a multiple of the grid by chance; one in 2^20 has its double, harmlessly.
+  if (++runs_[run.divisor_ns] >= 2) {
     width_s_ = std::max(width_s_, 1e-9 * static_cast<double>(run.divisor_ns));
   }
 }

@@ -1,16 +1,31 @@
 /// @file
-/// Allowed errors of the models of sensors and Earth. They are no noise: they do not average out,
-/// and stay the same in every revolution.
+/// Allowed errors of the models of sensors and Earth, and of the times of a channel. They are no
+/// noise: they do not average out, and stay the same in every revolution.
 
 #pragma once
 
 #include <Eigen/Core>
 
 #include "pipelines/frames/angle.h"
-#include "pipelines/spin/types/channel_offsets.h"
+#include "pipelines/spin/types/config.h"
+#include "pipelines/spin/types/pulse.h"
 #include "pipelines/statistics/considered.h"
 
 namespace spindrift {
+
+/// Offsets of a channel's times that are constant over a pass: consider parameters
+/// (statistics/considered.h), since no edge of the pass shows them.
+inline constexpr int kChannelOffsets = static_cast<int>(kPulseChannels);
+
+/// Covariance of the channels' offsets, s^2.
+using OffsetPrior = Eigen::Matrix<double, kChannelOffsets, kChannelOffsets>;
+
+/// Where the spin rate is commensurate with the grid of the times, each channel has an offset of
+/// its own. Elsewhere the grid's error averages out, and this prior is too large.
+inline OffsetPrior offset_prior_s2(const PulseNoise& noise) {
+  const double sigma_s = grid_sigma_s(noise);
+  return sigma_s * sigma_s * OffsetPrior::Identity();
+}
 
 /// Model errors: the place of the limb for the north and the south beam (mounting angle included),
 /// the sun angle, and the azimuths of the beams behind sun slit 1.

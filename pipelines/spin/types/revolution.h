@@ -9,7 +9,7 @@
 
 #include "pipelines/spin/types/products.h"
 #include "pipelines/spin/types/pulse.h"
-#include "pipelines/spin/types/spin_period.h"
+#include "pipelines/spin/types/spin_rate.h"
 #include "pipelines/time/tai_time.h"
 
 namespace spindrift {

@@ -7,20 +7,13 @@
 namespace spindrift {
 namespace {
 
-// Twice the accuracy of alignments (model_allowance.h), since only a suspected bias is asked for.
-constexpr double kAngle_rad = 0.3 * kRadPerDeg;
-constexpr double kMostAngle_rad = 3.0 * kRadPerDeg;
-// Seasons and latitude move the 14 to 16 um horizon by a few km (WGS-84 surface + 40 km nominal).
-constexpr double kHeight_km = 4.0;
-constexpr double kMostHeight_km = 30.0;
 // Balancing leaves some tenths of a degree between the sensors' axis and the principal axis.
-constexpr double kConing_rad = 0.5 * kRadPerDeg;
-constexpr double kMostConing_rad = 5.0 * kRadPerDeg;
 constexpr BiasPrior kConing{
-    .name = "coning", .is_angle = true, .sigma = kConing_rad, .bound = kMostConing_rad};
+    .name = "coning", .is_angle = true, .sigma = 0.5 * kRadPerDeg, .bound = 5.0 * kRadPerDeg};
 
+/// Twice the accuracy of alignments (model_allowance.h), since only a suspected bias is asked for.
 constexpr BiasPrior angle(std::string_view name) {
-  return {.name = name, .is_angle = true, .sigma = kAngle_rad, .bound = kMostAngle_rad};
+  return {.name = name, .is_angle = true, .sigma = 0.3 * kRadPerDeg, .bound = 3.0 * kRadPerDeg};
 }
 
 // Indexed by SensorBias.
@@ -32,10 +25,12 @@ constexpr std::array<BiasPrior, kSensorBiases> kPriors{
     angle("north_mount_angle"),
     angle("south_mount_angle"),
     angle("dihedral"),
-    BiasPrior{
-        .name = "co2_height", .is_angle = false, .sigma = kHeight_km, .bound = kMostHeight_km},
+    // Seasons and latitude move the 14 to 16 um horizon by a few km (WGS-84 surface + 40 km
+    // nominal).
+    BiasPrior{.name = "co2_height", .is_angle = false, .sigma = 4.0, .bound = 30.0},
     kConing,
-    kConing};
+    kConing,
+};
 
 }  // namespace
 

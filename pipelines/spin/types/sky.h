@@ -1,5 +1,5 @@
 /// @file
-/// Sun, Earth's pole and orbit state during one revolution.
+/// Sun, Earth's pole and orbit state during one revolution; the directions to Sun and Earth in it.
 
 #pragma once
 
@@ -27,5 +27,16 @@ inline Eigen::Vector3d spacecraft_icrf_km(const Sky& sky, TaiTime t) {
   const double fall_per_km = 0.5 * kEarthMu_km3_s2 * dt_s * dt_s / (range_km * range_km * range_km);
   return (1.0 - fall_per_km) * position_km + dt_s * sky.spacecraft.velocity_icrf_km_s;
 }
+
+/// Directions to Sun and Earth for one revolution.
+struct SunEarthDirections {
+  Eigen::Vector3d sun_icrf;         ///< Unit, apparent, at sun1.
+  Eigen::Vector3d earth_icrf;       ///< Unit, to the Earth's centre, at `t_earth`.
+  double disc_rad;                  ///< rho, half-angle of the Earth's disc.
+  Eigen::Vector3d earth_pole_icrf;  ///< Unit.
+  TaiTime t_earth = {};             ///< Time half way between the chords.
+  /// Apparent velocity of the Earth, in ranges per second.
+  Eigen::Vector3d earth_motion_icrf_s = Eigen::Vector3d::Zero();
+};
 
 }  // namespace spindrift

@@ -6,7 +6,7 @@
 #include <Eigen/Core>
 #include <variant>
 
-#include "pipelines/exclusions/channel_actions.h"
+#include "pipelines/exclusions/exclusions.h"
 #include "pipelines/spin/types/config.h"
 #include "pipelines/spin/types/pulse.h"
 

@@ -1,8 +1,13 @@
 /// @file
-/// Range of the spin rates of spin-stabilised satellites, and of their drift.
+/// Range of the spin rates of spin-stabilised satellites and of their drift; the spin period, and
+/// one measured interval as a candidate for it.
 
 #pragma once
 
+#include <optional>
+
+#include "pipelines/core/rational.h"
+#include "pipelines/observation/rejection.h"
 #include "pipelines/time/tai_time.h"
 
 namespace spindrift {
@@ -25,5 +30,21 @@ constexpr double drift_per_s2(double drift_rpm_h) { return drift_rpm_h / 60.0 / 
 inline constexpr double kFirstDrift_rpm_h = 2.0;
 /// Largest drift that is searched for in the edges.
 inline constexpr double kMostDrift_rpm_h = 3.0;
+
+/// One interval between two edges, divided by the number of revolutions between them.
+struct PeriodCandidate {
+  double period_s;
+  double sigma_s;  ///< One sigma from the stated pulse noise.
+  /// Rejection by its test, or with the edge that it ends at; empty: accepted.
+  std::optional<Rejection> rejected_by;
+  /// Expectation and limit of the test; empty: it was rejected with its edge.
+  std::optional<Rational> test = {};
+};
+
+struct SpinPeriod {
+  double period_s;
+  double sigma_s;
+  double drift_per_s2 = 0.0;  ///< Drift of the spin rate in turns a second.
+};
 
 }  // namespace spindrift

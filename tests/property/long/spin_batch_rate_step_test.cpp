@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "pipelines/spin/batch/rate_changepoint.h"
+#include "pipelines/spin/batch/changepoint.h"
 #include "services/base/assessment_words.h"
 #include "tests/support/wobbling_pass.h"
 

@@ -13,7 +13,7 @@
 #include "pipelines/ephemeris/kepler_orbit.h"
 #include "pipelines/ephemeris/sun.h"
 #include "pipelines/frames/angle.h"
-#include "pipelines/geomagnetism/field_at_spacecraft.h"
+#include "pipelines/geomagnetism/main_field.h"
 #include "pipelines/three_axis/three_axis_pass.h"
 #include "services/mission/igrf.h"
 #include "tests/support/turning_body.h"

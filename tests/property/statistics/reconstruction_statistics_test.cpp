@@ -2,7 +2,7 @@
 
 #include "pipelines/frames/angle.h"
 #include "pipelines/reconstruction/observations.h"
-#include "pipelines/reconstruction/reconstruct.h"
+#include "pipelines/reconstruction/separation.h"
 #include "pipelines/reconstruction/torque_free_arc.h"
 #include "tests/support/separation_flight.h"
 

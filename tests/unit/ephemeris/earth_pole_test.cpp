@@ -1,9 +1,8 @@
-#include "pipelines/ephemeris/earth_pole.h"
-
 #include <gtest/gtest.h>
 
 #include <numbers>
 
+#include "pipelines/ephemeris/earth_orientation.h"
 #include "pipelines/time/utc.h"
 
 namespace spindrift::earth_pole_test {

@@ -1,11 +1,10 @@
-#include "pipelines/ephemeris/launch_frame.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "pipelines/ephemeris/earth_orientation.h"
-#include "pipelines/ephemeris/orbit_frame.h"
+#include "pipelines/ephemeris/flight_frames.h"
 #include "pipelines/frames/angle.h"
 #include "pipelines/frames/euler312.h"
 #include "pipelines/frames/local_frame.h"

@@ -1,8 +1,11 @@
-#include "pipelines/ephemeris/orbit_frame.h"
 
 #include <Eigen/Geometry>
 
 #include "tests/support/matchers.h"
+#include <gtest/gtest.h>
+
+
+#include "pipelines/ephemeris/flight_frames.h"
 
 namespace spindrift::orbit_frame_test {
 

@@ -1,7 +1,6 @@
-#include "pipelines/ephemeris/shadow.h"
-
 #include <gtest/gtest.h>
 
+#include "pipelines/ephemeris/sun.h"
 #include "pipelines/frames/wgs84.h"
 
 namespace spindrift::shadow_test {

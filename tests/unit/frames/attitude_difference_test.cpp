@@ -1,10 +1,9 @@
-#include "pipelines/frames/attitude_difference.h"
-
 #include <gtest/gtest.h>
 
 #include "pipelines/frames/angle.h"
 #include "pipelines/frames/euler312.h"
 #include "pipelines/frames/rotation_vector.h"
+#include "pipelines/frames/uncertain_attitude.h"
 
 namespace spindrift::attitude_difference_test {
 

@@ -1,11 +1,10 @@
-#include "pipelines/frames/small_rotation.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 
 #include "pipelines/frames/angle.h"
+#include "pipelines/frames/rotation_vector.h"
 
 namespace spindrift::small_rotation_test {
 

@@ -1,5 +1,9 @@
-#include "pipelines/geomagnetism/field_at_spacecraft.h"
 
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "pipelines/frames/celestial.h"
+#include "pipelines/geomagnetism/main_field.h"
 #include "pipelines/time/utc.h"
 #include "services/mission/igrf.h"
 #include "tests/support/matchers.h"

@@ -1,8 +1,11 @@
-#include "pipelines/geomagnetism/main_field_model.h"
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
 
 #include <Eigen/Dense>
 #include <limits>
 
+#include "pipelines/geomagnetism/main_field.h"
+#include "pipelines/time/utc.h"
 #include "services/mission/igrf.h"
 #include "tests/support/matchers.h"
 

@@ -1,6 +1,8 @@
-#include "pipelines/ground_model/control/thrusters.h"
-#include "pipelines/ground_model/control/wheels.h"
 #include "tests/support/matchers.h"
+#include "pipelines/ground_model/control/actuators.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
 
 namespace spindrift::actuators_test {
 

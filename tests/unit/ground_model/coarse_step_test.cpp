@@ -1,6 +1,9 @@
-#include "pipelines/ground_model/dynamics/coarse_step.h"
 
 #include "tests/support/matchers.h"
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "pipelines/ground_model/dynamics/rigid_body.h"
 
 namespace spindrift::coarse_step_test {
 

@@ -1,8 +1,7 @@
-#include "pipelines/ground_model/control/gyro_propagation.h"
-
 #include <gtest/gtest.h>
 
 #include "pipelines/frames/rotation_vector.h"
+#include "pipelines/ground_model/flights/orientation_motion.h"
 
 namespace spindrift::gyro_propagation_test {
 

@@ -1,10 +1,12 @@
-#include "pipelines/ground_model/control/loop_margins.h"
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
 
 #include <array>
 
 #include "pipelines/frames/angle.h"
 #include "pipelines/ground_model/control/control_laws.h"
 #include "tests/support/matchers.h"
+#include "pipelines/ground_model/flights/channel_margins.h"
 
 namespace spindrift::loop_margins_test {
 

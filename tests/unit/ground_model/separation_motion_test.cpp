@@ -1,9 +1,11 @@
-#include "pipelines/ground_model/flights/separation_motion.h"
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
 
 #include "pipelines/ephemeris/sun.h"
 #include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
 #include "pipelines/frames/rotation_vector.h"
+#include "pipelines/ground_model/flights/three_axis_flights.h"
 #include "pipelines/reconstruction/torque_free_arc.h"
 #include "tests/support/low_orbit.h"
 #include "tests/support/matchers.h"

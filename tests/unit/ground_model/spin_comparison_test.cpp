@@ -5,7 +5,7 @@
 #include <memory>
 #include <string>
 
-#include "pipelines/ephemeris/earth_pole.h"
+#include "pipelines/ephemeris/earth_orientation.h"
 #include "pipelines/ephemeris/kepler_orbit.h"
 #include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"

@@ -7,7 +7,7 @@
 #include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
 #include "pipelines/frames/rotation_vector.h"
-#include "pipelines/geomagnetism/field_at_spacecraft.h"
+#include "pipelines/geomagnetism/main_field.h"
 #include "services/mission/igrf.h"
 #include "tests/support/low_orbit.h"
 #include "tests/support/matchers.h"

@@ -1,12 +1,14 @@
-#include "pipelines/reconstruction/launcher_check.h"
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
 
 #include <limits>
 
-#include "pipelines/ephemeris/orbit_frame.h"
+#include "pipelines/ephemeris/flight_frames.h"
 #include "pipelines/frames/angle.h"
 #include "pipelines/frames/rotation_vector.h"
 #include "tests/support/matchers.h"
 #include "tests/support/outcome.h"
+#include "pipelines/reconstruction/separation.h"
 
 namespace spindrift::launcher_check_test {
 

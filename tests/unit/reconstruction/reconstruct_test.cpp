@@ -1,5 +1,5 @@
-#include "pipelines/reconstruction/reconstruct.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -9,6 +9,7 @@
 #include "pipelines/frames/angle.h"
 #include "pipelines/frames/rotation_vector.h"
 #include "tests/support/outcome.h"
+#include "pipelines/reconstruction/separation.h"
 #include "tests/support/recorded_separation.h"
 #include "tests/support/separation_flight.h"
 

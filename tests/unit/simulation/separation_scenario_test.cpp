@@ -3,7 +3,8 @@
 
 #include "pipelines/frames/angle.h"
 #include "pipelines/frames/euler312.h"
-#include "pipelines/reconstruction/launcher_check.h"
+#include "pipelines/frames/rotation_vector.h"
+#include "pipelines/reconstruction/separation.h"
 #include "services/mission/mission.h"
 #include "services/simulation/pass_files.h"
 #include "services/simulation/scenario.h"

@@ -1,8 +1,8 @@
-#include "pipelines/statistics/variance_factor.h"
-
 #include <gtest/gtest.h>
 
 #include <limits>
+
+#include "pipelines/statistics/significance.h"
 
 namespace spindrift::variance_factor_test {
 

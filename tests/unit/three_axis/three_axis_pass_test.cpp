@@ -5,7 +5,7 @@
 
 #include "pipelines/ephemeris/kepler_orbit.h"
 #include "pipelines/frames/angle.h"
-#include "pipelines/geomagnetism/field_at_spacecraft.h"
+#include "pipelines/geomagnetism/main_field.h"
 #include "pipelines/observation/innovation_gate.h"
 #include "services/mission/igrf.h"
 #include "tests/support/assessed.h"

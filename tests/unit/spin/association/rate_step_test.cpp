@@ -1,7 +1,6 @@
-#include "pipelines/spin/association/rate_step.h"
-
 #include <gtest/gtest.h>
 
+#include "pipelines/spin/association/period_search.h"
 #include "pipelines/time/time_span.h"
 
 namespace spindrift::rate_step_test {

@@ -1,8 +1,8 @@
-#include "pipelines/spin/association/spin_period_window.h"
-
 #include <gtest/gtest.h>
 
 #include <numbers>
+
+#include "pipelines/spin/association/period_intervals.h"
 
 namespace spindrift::spin_period_window_test {
 

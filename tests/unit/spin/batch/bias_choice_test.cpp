@@ -1,12 +1,12 @@
 /// The bias chosen by the residuals, compared with closed forms of the quadratic likelihood.
 
-#include "pipelines/spin/batch/bias_choice.h"
-
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
 #include <cmath>
 #include <random>
+
+#include "pipelines/spin/batch/bias_selection.h"
 
 namespace spindrift::bias_choice_test {
 

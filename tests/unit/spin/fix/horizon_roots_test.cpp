@@ -1,5 +1,3 @@
-#include "pipelines/spin/fix/horizon_roots.h"
-
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
@@ -12,6 +10,7 @@
 
 #include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
+#include "pipelines/spin/fix/axis_candidates.h"
 #include "pipelines/spin/measurement/beam_view.h"
 #include "tests/support/axis_scene.h"
 

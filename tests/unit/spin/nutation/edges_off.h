@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "pipelines/frames/angle.h"
-#include "pipelines/spin/nutation/uniform_spin_residual.h"
+#include "pipelines/spin/nutation/tilt_signal.h"
 
 namespace spindrift::testing {
 

@@ -1,11 +1,10 @@
-#include "pipelines/spin/nutation/tilt_spectrum.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <complex>
 
 #include "pipelines/frames/angle.h"
+#include "pipelines/spin/nutation/tilt_signal.h"
 #include "tests/unit/spin/nutation/edges_off.h"
 
 namespace spindrift::tilt_spectrum_test {

@@ -1,5 +1,3 @@
-#include "pipelines/spin/planning/expected_revolution.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -8,6 +6,7 @@
 
 #include "pipelines/frames/celestial.h"
 #include "pipelines/spin/measurement/measurement.h"
+#include "pipelines/spin/planning/pass_geometry.h"
 #include "tests/support/observed_spin.h"
 
 namespace spindrift::expected_revolution_test {

@@ -1,5 +1,3 @@
-#include "pipelines/spin/sequential/start_confirmation.h"
-
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -7,6 +5,7 @@
 #include <random>
 
 #include "pipelines/frames/angle.h"
+#include "pipelines/spin/sequential/contradiction.h"
 #include "tests/support/observed_spin.h"
 
 namespace spindrift::start_confirmation_test {

@@ -1,11 +1,10 @@
-#include "pipelines/spin/sequential/model_evidence.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <utility>
 
 #include "pipelines/frames/angle.h"
+#include "pipelines/spin/mean/model_check.h"
 
 namespace spindrift::model_evidence_test {
 

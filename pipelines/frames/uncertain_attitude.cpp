@@ -1,4 +1,4 @@
-#include "pipelines/frames/attitude_difference.h"
+#include "pipelines/frames/uncertain_attitude.h"
 
 #include <Eigen/Cholesky>
 

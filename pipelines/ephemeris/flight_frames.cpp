@@ -1,6 +1,9 @@
-#include "pipelines/ephemeris/orbit_frame.h"
+#include "pipelines/ephemeris/flight_frames.h"
 
 #include <fmt/format.h>
+
+#include "pipelines/ephemeris/earth_orientation.h"
+#include "pipelines/frames/local_frame.h"
 
 namespace spindrift {
 
@@ -22,6 +25,12 @@ Expected<Eigen::Quaterniond> orbit_frame(const OrbitState& spacecraft) {
   R_icrf_orbit.col(1) = -normal.normalized();
   R_icrf_orbit.col(0) = R_icrf_orbit.col(1).cross(R_icrf_orbit.col(2));
   return Eigen::Quaterniond{R_icrf_orbit};
+}
+
+Eigen::Quaterniond launch_frame(const Launch& launch) {
+  return earth_orientation(launch.epoch) *
+         north_east_down(launch.site.latitude_rad, launch.site.longitude_rad) *
+         Eigen::AngleAxisd{launch.azimuth_rad, Eigen::Vector3d::UnitZ()};
 }
 
 }  // namespace spindrift

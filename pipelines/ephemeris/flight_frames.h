@@ -1,13 +1,20 @@
 /// @file
-/// The launch inertial frame.
+/// The frames that attitudes in flight are told in: the orbit frame and the launch inertial frame.
 
 #pragma once
 
 #include <Eigen/Geometry>
 
+#include "pipelines/core/expected.h"
+#include "pipelines/ephemeris/orbit_state.h"
 #include "pipelines/time/tai_time.h"
 
 namespace spindrift {
+
+/// Returns the orbit frame: z to the Earth's centre, y against the orbit normal, x = y x z, ahead.
+/// @return q_icrf_orbit: v_icrf = q v_orbit q*. A body's attitude in the frame is q* q_icrf_body.
+///         Unobservable where the velocity is vertical: there is no orbit normal.
+Expected<Eigen::Quaterniond> orbit_frame(const OrbitState& spacecraft);
 
 /// Launch site on the Earth's ellipsoid (WGS-84).
 struct LaunchSite {
