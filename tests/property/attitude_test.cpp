@@ -12,15 +12,9 @@
 #include "tests/support/recorded_separation.h"
 #include "tests/support/turning_body.h"
 
-namespace spindrift::attitude_test {
+namespace spindrift::testing::attitude_test {
 
 using Eigen::Vector3d;
-using testing::any_attitude;
-using testing::at_s;
-using testing::error_rad;
-using testing::Sensors;
-using testing::TurningBody;
-using testing::usual_three_axis;
 
 using Sample = std::variant<GyroSample, StarFix, SunDirection>;
 
@@ -170,7 +164,7 @@ struct Flight {
 
 TEST(Attitude, FollowsRatesThatWereFlownToTheFixAtTheirEnd) {
   for (const Flight& flight : {Flight{"juno", 0.01}, Flight{"dawn-2015", 0.05}}) {
-    const testing::RecordedSeparation flown = testing::recorded_separation(flight.name);
+    const RecordedSeparation flown = recorded_separation(flight.name);
     AttitudeEstimator estimator{flown.sensors};
     AttitudeEstimator::Products products;
     estimator.push(StarFix{flown.gyro.front().t, flown.truth.at("T1").q_icrf_body}, products);
@@ -188,4 +182,4 @@ TEST(Attitude, FollowsRatesThatWereFlownToTheFixAtTheirEnd) {
   }
 }
 
-}  // namespace spindrift::attitude_test
+}  // namespace spindrift::testing::attitude_test

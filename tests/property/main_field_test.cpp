@@ -11,7 +11,7 @@
 #include "services/mission/igrf.h"
 #include "tests/support/geographiclib_field.h"
 
-namespace spindrift::main_field_test {
+namespace spindrift::testing::main_field_test {
 
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
@@ -34,7 +34,7 @@ TEST(MainFieldProperty, IsGeographicLibs) {
     const double at_year = year(rng);
     const int to_degree = degree(rng);
     const Vector3d expected_nt =
-        testing::GeographicLibField{model.coefficients(at_year).value(), to_degree}.at(position_km);
+        GeographicLibField{model.coefficients(at_year).value(), to_degree}.at(position_km);
     const Vector3d field_nt = model.at(at_year, to_degree)->at(position_km).value();
     ASSERT_NEAR((field_nt - expected_nt).norm() / expected_nt.norm(), 0.0, 1e-12)
         << at_year << " degree " << to_degree << " at " << position_km.transpose();
@@ -97,4 +97,4 @@ TEST(MainFieldProperty, TurnsWithTheEarth) {
   }
 }
 
-}  // namespace spindrift::main_field_test
+}  // namespace spindrift::testing::main_field_test

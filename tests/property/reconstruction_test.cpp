@@ -8,13 +8,10 @@
 #include "tests/support/attitude_smoother.h"
 #include "tests/support/separation_flight.h"
 
-namespace spindrift::reconstruction_test {
+namespace spindrift::testing::reconstruction_test {
 
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
-using testing::FlightPlan;
-using testing::separation_flight;
-using testing::SeparationFlight;
 
 TEST(ReconstructionProperty, RotatesWithItsReference) {
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
@@ -212,10 +209,9 @@ TEST(ReconstructionProperty, EqualsTheSmootherWhereThingsAreLinear) {
     const Observations all = without_outliers(flight);
     const ChainSolution found = solution_of(flight.request(), all).value();
     const ChainCovariance known = covariance_of(found.solved.chain, found.solved.state);
-    const auto expected =
-        testing::smoothed(all, {.sun_rad = flight.sensors.sun_sensor->noise_rad,
-                                .star_rad = flight.sensors.star_tracker->noise_rad,
-                                .bias_rad_s = flight.sensors.gyro->bias_sigma_rad_s});
+    const auto expected = smoothed(all, {.sun_rad = flight.sensors.sun_sensor->noise_rad,
+                                         .star_rad = flight.sensors.star_tracker->noise_rad,
+                                         .bias_rad_s = flight.sensors.gyro->bias_sigma_rad_s});
     ASSERT_EQ(expected.size(), found.solved.chain.times_s.size());
     double most_sigmas = 0.0;
     for (std::size_t i = 0; i < expected.size(); ++i) {
@@ -231,4 +227,4 @@ TEST(ReconstructionProperty, EqualsTheSmootherWhereThingsAreLinear) {
   }
 }
 
-}  // namespace spindrift::reconstruction_test
+}  // namespace spindrift::testing::reconstruction_test

@@ -10,12 +10,7 @@
 #include "tests/support/product_text.h"
 #include "tests/support/recorded_pass.h"
 
-namespace spindrift::spin_order_test {
-
-using testing::recorded_pass;
-using testing::RecordedPass;
-using testing::run;
-using testing::texts_of;
+namespace spindrift::testing::spin_order_test {
 
 /// Returns the pulses in the order of arrival after random delays below the window.
 std::vector<Pulse> shuffled(const std::vector<Pulse>& pulses, std::mt19937_64& rng) {
@@ -106,4 +101,4 @@ TEST(SpinOrder, SilencesInAnOrderedStreamChangeNoProduct) {
   }
 }
 
-}  // namespace spindrift::spin_order_test
+}  // namespace spindrift::testing::spin_order_test

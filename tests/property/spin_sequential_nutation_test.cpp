@@ -3,9 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/LU>
 #include <string>
-#include <vector>
 
 #include "pipelines/frames/angle.h"
 #include "pipelines/spin/pass/spin_pass.h"
@@ -14,24 +12,15 @@
 #include "tests/support/product_text.h"
 #include "tests/support/wobbling_pass.h"
 
-namespace spindrift::spin_sequential_nutation_test {
-
-std::vector<Pulse> pulses_of(const std::vector<PassEdge>& edges) {
-  std::vector<Pulse> pulses;
-  for (const PassEdge& edge : edges) {
-    pulses.push_back(edge.pulse);
-  }
-  return pulses;
-}
+namespace spindrift::testing::spin_sequential_nutation_test {
 
 constexpr double kSigmas = 5.0;
 
 /// The first turns of a nutating body look like those of another axis, so they must be CONVERGING.
 void expect_no_wrong_row_is_ok(const SpinOutput& output, const SpinMotion& motion) {
-  for (const SpinEstimate& row : testing::all_of<SpinEstimate>(output)) {
-    if (row.estimator == SpinEstimator::Sequential && row.assessment.quality == Quality::Ok) {
-      EXPECT_LT(testing::error_rad(row.axis_icrf, motion.axis_icrf).norm(),
-                kSigmas * testing::sigma_rad(row))
+  for (const SpinEstimate& row : estimates_of(output, SpinEstimator::Sequential)) {
+    if (row.assessment.quality == Quality::Ok) {
+      EXPECT_LT(error_rad(row.axis_icrf, motion.axis_icrf).norm(), kSigmas * sigma_rad(row))
           << sentence_of(row.assessment);
     }
   }
@@ -39,17 +28,15 @@ void expect_no_wrong_row_is_ok(const SpinOutput& output, const SpinMotion& motio
 
 TEST(SpinSequentialNutation, DoesNotMoveTheAxis) {
   constexpr int kPasses = 40;
-  testing::WobblingPasses passes{2403, 300.0};
+  WobblingPasses passes{2403, 300.0};
   double squares = 0.0;
   for (int pass = 0; pass < kPasses; ++pass) {
     SpinTruth truth = passes.drawn();
     truth.motion.nutation = passes.random_nutation(pass % 2 == 0 ? 0.2 * kRadPerDeg : kRadPerDeg);
-    const auto pulses = pulses_of(passes.edges(truth));
-    const SpinOutput output = testing::run(SpinPass{passes.config(), passes.orbit()}, pulses);
-    const SpinEstimate last = testing::last_estimate(output, SpinEstimator::Sequential);
+    const SpinOutput output = run(SpinPass{passes.config(), passes.orbit()}, passes.pulses(truth));
+    const SpinEstimate last = last_estimate(output, SpinEstimator::Sequential);
     SCOPED_TRACE(std::to_string(pass) + ": " + sentence_of(last.assessment));
-    const Eigen::Vector2d error_rad = testing::error_rad(last.axis_icrf, truth.motion.axis_icrf);
-    const double square = error_rad.dot(last.covariance_rad2.inverse() * error_rad);
+    const double square = squared_error(last, truth.motion.axis_icrf);
     EXPECT_LT(square, kSigmas * kSigmas);
     squares += square;
     expect_no_wrong_row_is_ok(output, truth.motion);
@@ -60,4 +47,4 @@ TEST(SpinSequentialNutation, DoesNotMoveTheAxis) {
   EXPECT_LT(squares, 112.3);
 }
 
-}  // namespace spindrift::spin_sequential_nutation_test
+}  // namespace spindrift::testing::spin_sequential_nutation_test

@@ -2,9 +2,11 @@
 /// others, live or from files.
 
 #include <fmt/format.h>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cstddef>
 #include <random>
@@ -23,13 +25,9 @@
 #include "tests/support/temporary_folder.h"
 #include "tests/support/turning_body.h"
 
-namespace spindrift::stray_stamps_test {
+namespace spindrift::testing::stray_stamps_test {
 
 using namespace std::chrono_literals;
-using testing::RecordedPass;
-using testing::run;
-using testing::texts_of;
-using testing::TurningBody;
 
 /// Describes wrong times in a stream of samples.
 struct Strays {
@@ -144,33 +142,44 @@ std::vector<Value> from_file(const std::vector<Value>& values) {
   return read_back;
 }
 
-TEST(StrayStamps, OfPulsesMoveNothingHoweverManyThereAre) {
-  RecordedPass pass = testing::recorded_pass("nominal");
+/// Expects the products of the good samples, live and from a file.
+/// @return Number of edges that were left out for their time, of both runs.
+template <class Sample>
+std::array<std::size_t, 2> expect_unmoved(const RecordedPass& pass,
+                                          const std::vector<Sample>& samples,
+                                          const Strays& strays) {
+  const Stream<Sample> stream = with_strays(samples, strays);
+  const auto expected = texts_of(run(SpinPass{pass.config, pass.orbit}, stream.good));
+  std::array<std::size_t, 2> left_out{};
+  EXPECT_EQ(in_time(run(SpinPass{pass.config, pass.orbit}, stream.all), left_out[0]), expected);
+  EXPECT_EQ(in_time(run(SpinPass{pass.config, pass.orbit}, from_file(stream.all)), left_out[1]),
+            expected);
+  return left_out;
+}
+
+/// Returns the recorded pulses in order, no more than these.
+RecordedPass nominal(std::size_t pulses) {
+  RecordedPass pass = recorded_pass("nominal");
   std::sort(pass.pulses.begin(), pass.pulses.end());
-  pass.pulses.resize(1200);
+  pass.pulses.resize(pulses);
+  return pass;
+}
+
+TEST(StrayStamps, OfPulsesMoveNothingHoweverManyThereAre) {
+  const RecordedPass pass = nominal(1200);
   for (const Strays& strays : all_strays()) {
     SCOPED_TRACE(text_of(strays));
-    const Stream<Pulse> stream = with_strays(pass.pulses, strays);
-    const auto expected = texts_of(run(SpinPass{pass.config, pass.orbit}, stream.good));
-    for (const auto& arrivals : {stream.all, from_file(stream.all)}) {
-      std::size_t left_out = 0;
-      ASSERT_EQ(in_time(run(SpinPass{pass.config, pass.orbit}, arrivals), left_out), expected);
-      ASSERT_EQ(left_out, strays.count);
-    }
+    EXPECT_THAT(expect_unmoved(pass, pass.pulses, strays), ::testing::Each(strays.count));
   }
 }
 
 TEST(StrayStamps, OfCodedFramesMoveNothing) {
-  const RecordedPass pass = testing::recorded_pass("coded");
+  const RecordedPass pass = recorded_pass("coded");
   for (const Strays& strays : {Strays{20, false, 1800s}, Strays{9, true, 1800s}}) {
     SCOPED_TRACE(text_of(strays));
-    const Stream<CodedFrame> stream = with_strays(pass.frames, strays);
-    const auto expected = texts_of(run(SpinPass{pass.config, pass.orbit}, stream.good));
-    for (const auto& arrivals : {stream.all, from_file(stream.all)}) {
-      std::size_t left_out = 0;
-      ASSERT_EQ(in_time(run(SpinPass{pass.config, pass.orbit}, arrivals), left_out), expected);
-      ASSERT_GT(left_out, strays.count);  // A frame contains several edges.
-    }
+    // A frame contains several edges.
+    EXPECT_THAT(expect_unmoved(pass, pass.frames, strays),
+                ::testing::Each(::testing::Gt(strays.count)));
   }
 }
 
@@ -182,12 +191,12 @@ struct ThreeAxisSamples {
 /// Holds ten minutes of a gyro at 4 Hz, 2,400 samples.
 struct ThreeAxisScene {
   ThreeAxisSamples samples;
-  ThreeAxisConfig config = testing::usual_three_axis();
+  ThreeAxisConfig config = usual_three_axis();
 
   ThreeAxisScene() {
     std::mt19937_64 rng{44};
     const TurningBody body = TurningBody::smooth(rng, 600.0, 0.02);
-    testing::Sensors sensors{body, config, rng};
+    Sensors sensors{body, config, rng};
     for (int i = 0; i < 2400; ++i) {
       samples.gyro.push_back(sensors.gyro(0.25 * i));
       if (i % 4 == 0) {
@@ -207,10 +216,7 @@ class ThreeAxisTexts {
       keep(pass_.push(value));
     }
   }
-  std::vector<std::string> finish() {
-    keep(pass_.finish());
-    return texts;
-  }
+  void finish() { keep(pass_.finish()); }
 
   std::vector<std::string> texts;
   std::size_t left_out = 0;
@@ -251,9 +257,9 @@ std::vector<std::string> live(const ThreeAxisScene& scene, const std::vector<Gyr
   for (; star != scene.samples.star.end(); ++star) {
     texts.push(*star);
   }
-  auto all = texts.finish();
+  texts.finish();
   left_out = texts.left_out;
-  return all;
+  return texts.texts;
 }
 
 std::vector<TaiTime> times_of(const std::vector<GyroSample>& samples) {
@@ -262,6 +268,18 @@ std::vector<TaiTime> times_of(const std::vector<GyroSample>& samples) {
     times.push_back(sample.t);
   }
   return times;
+}
+
+/// Runs the samples from files.
+ThreeAxisTexts offline(const ThreeAxisConfig& config, const std::vector<GyroSample>& gyro,
+                       const std::vector<StarFix>& star) {
+  const TemporaryFolder folder;
+  write(folder, gyro);
+  write(folder, star);
+  ThreeAxisTexts texts{config};
+  read(folder, [&](const auto& sample) { texts.push(sample); });
+  texts.finish();
+  return texts;
 }
 
 TEST(StrayStamps, OfAGyroMoveNothingHoweverManyThereAre) {
@@ -275,13 +293,9 @@ TEST(StrayStamps, OfAGyroMoveNothingHoweverManyThereAre) {
     ASSERT_EQ(live(scene, stream.all, times_of(scene.samples.gyro), left_out), expected);
     ASSERT_EQ(left_out, strays.count);
 
-    const TemporaryFolder folder;
-    write(folder, stream.all);
-    write(folder, scene.samples.star);
-    ThreeAxisTexts offline{scene.config};
-    read(folder, [&](const auto& sample) { offline.push(sample); });
-    ASSERT_EQ(offline.finish(), expected);
-    ASSERT_EQ(offline.left_out, strays.count);
+    const ThreeAxisTexts filed = offline(scene.config, stream.all, scene.samples.star);
+    ASSERT_EQ(filed.texts, expected);
+    ASSERT_EQ(filed.left_out, strays.count);
   }
 }
 
@@ -295,15 +309,10 @@ TEST(StrayStamps, OfOneKindMoveNothingBehindTheOthersEither) {
       stray.t += 1800s + static_cast<std::int64_t>(i) * between;
       gyro.push_back(stray);
     }
-    const TemporaryFolder folder;
-    write(folder, gyro);
-    write(folder, scene.samples.star);
-    ThreeAxisTexts offline{scene.config};
-    read(folder, [&](const auto& sample) { offline.push(sample); });
+    const ThreeAxisTexts filed = offline(scene.config, gyro, scene.samples.star);
     std::size_t none = 0;
-    ASSERT_EQ(offline.finish(),
-              live(scene, scene.samples.gyro, times_of(scene.samples.gyro), none));
-    ASSERT_EQ(offline.left_out, 20U);
+    ASSERT_EQ(filed.texts, live(scene, scene.samples.gyro, times_of(scene.samples.gyro), none));
+    ASSERT_EQ(filed.left_out, 20U);
   }
 }
 
@@ -320,18 +329,11 @@ TEST(StrayStamps, AreNoneOfASecondContactOfAFewSamples) {
     two.samples.star.push_back(scene.samples.star[i]);
     two.samples.star.back().t += 1800s;
   }
-  const TemporaryFolder folder;
-  write(folder, two.samples.gyro);
-  write(folder, two.samples.star);
-  ThreeAxisTexts offline{scene.config};
-  read(folder, [&](const auto& sample) { offline.push(sample); });
-  const auto texts = offline.finish();
-  EXPECT_EQ(offline.left_out, 0U);
-  EXPECT_TRUE(texts.back().starts_with(std::to_string(tai_ns(two.samples.gyro.back().t))));
+  const ThreeAxisTexts filed = offline(scene.config, two.samples.gyro, two.samples.star);
+  EXPECT_EQ(filed.left_out, 0U);
+  EXPECT_TRUE(filed.texts.back().starts_with(std::to_string(tai_ns(two.samples.gyro.back().t))));
 
-  RecordedPass pass = testing::recorded_pass("nominal");
-  std::sort(pass.pulses.begin(), pass.pulses.end());
-  pass.pulses.resize(640);
+  RecordedPass pass = nominal(640);
   std::for_each(pass.pulses.begin() + 600, pass.pulses.end(),
                 [](Pulse& pulse) { pulse.t += 1800s; });
   std::size_t left_out = 0;
@@ -339,4 +341,4 @@ TEST(StrayStamps, AreNoneOfASecondContactOfAFewSamples) {
   EXPECT_EQ(left_out, 0U);
 }
 
-}  // namespace spindrift::stray_stamps_test
+}  // namespace spindrift::testing::stray_stamps_test

@@ -4,12 +4,14 @@
 
 #pragma once
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <cmath>
 #include <numbers>
 #include <random>
 #include <set>
 
+#include "pipelines/frames/angle.h"
+#include "pipelines/frames/celestial.h"
 #include "pipelines/spin/types/products.h"
 #include "pipelines/spin/types/sky.h"
 #include "tests/support/lone_fix.h"
@@ -24,6 +26,7 @@ struct AxisScene {
   Eigen::Vector3d earth_icrf = Eigen::Vector3d{0.3, 1.0, -0.02}.normalized();
   Eigen::Vector3d axis_icrf = Eigen::Vector3d{0.1, -0.05, 1.0}.normalized();
   double rate_rad_s = 2.0 * std::numbers::pi / 6.0;
+  double first_turn_rad = 0.1;
   SpinConfig config = usual_config();
   TaiTime start = tai_from_ns(1'795'143'637'000'000'000);
   /// True horizon of the Earth; `config` holds the one assumed.
@@ -39,15 +42,16 @@ struct AxisScene {
   }
   SunEarthEphemeris around() const {
     SunEarthEphemeris around = at_rest(sun_icrf, kRange_km * earth_icrf);
-    around.horizon_km =
-        earth == HorizonModel::Sphere ? spherical_horizon_km(40.0) : ellipsoidal_horizon_km(40.0);
+    around.horizon_km = usual_horizon_km(earth);
     return around;
   }
   Revolution seen() const { return seen_among(around()); }
   Revolution seen_among(const SunEarthEphemeris& around) const {
-    return revolution_seen(
-        {.axis_icrf = axis_icrf, .rate_rad_s = rate_rad_s, .first_turn_rad = 0.1, .config = config},
-        around, start);
+    return revolution_seen({.axis_icrf = axis_icrf,
+                            .rate_rad_s = rate_rad_s,
+                            .first_turn_rad = first_turn_rad,
+                            .config = config},
+                           around, start);
   }
   /// Returns the revolution as seen while the Earth moves across the line of sight from `start` on.
   Revolution seen_while_earth_moves(const Eigen::Vector3d& motion_icrf_s) const {
@@ -66,7 +70,29 @@ struct AxisScene {
   tl::expected<SpinFix, NoCandidates> fix(const std::set<SpinQuantity>& left_out = {}) const {
     return lone_fix(config, seen(), left_out, sun_earth());
   }
+  RevolutionMeasurements measured(const std::set<SpinQuantity>& left_out = {}) const {
+    return measured_without(config, seen(), left_out);
+  }
+  double off_rad(const Eigen::Vector3d& other_icrf) const {
+    return angle_between_rad(other_icrf, axis_icrf);
+  }
 };
+
+/// Returns a scene with the spin axis tilted against the Earth's, so that the flattening is
+/// oblique, and the Sun well aside.
+inline AxisScene tilted_scene(double tilt_deg, double earth_angle_deg, HorizonModel earth) {
+  AxisScene scene{.earth = earth};
+  scene.config.horizon.model = earth;
+  scene.axis_icrf =
+      Eigen::AngleAxisd{tilt_deg * kRadPerDeg, Eigen::Vector3d::UnitX()} * Eigen::Vector3d::UnitZ();
+  const Eigen::Vector3d side = Eigen::AngleAxisd{0.3, scene.axis_icrf} * Eigen::Vector3d::UnitX();
+  const auto from_axis = [&](double angle_rad) -> Eigen::Vector3d {
+    return Eigen::AngleAxisd{angle_rad, scene.axis_icrf.cross(side)} * scene.axis_icrf;
+  };
+  scene.earth_icrf = from_axis(earth_angle_deg * kRadPerDeg);
+  scene.sun_icrf = Eigen::AngleAxisd{1.2, scene.axis_icrf} * from_axis(1.8);
+  return scene;
+}
 
 // Tolerance for exact edges: 1 ns of an edge, amplified by the geometry (by 5.7 for the earth angle
 // of two beams 10 deg apart, by 33 for one beam with |Delta| = 0.03).

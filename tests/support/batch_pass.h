@@ -4,6 +4,8 @@
 
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <cmath>
 #include <cstdint>
 #include <numbers>
@@ -22,7 +24,7 @@ namespace spindrift::testing {
 /// mission's.
 inline std::vector<Edge> edges_of_turns(const SpinningBody& body, const SunEarthEphemeris& around,
                                         double turns) {
-  return edges_between(body, around, 0.0, turns * 2.0 * std::numbers::pi / body.rate_rad_s);
+  return edges_between(body, around, 0.0, body.seconds_of(turns));
 }
 
 inline std::vector<PassEdge> counted(const SpinningBody& body, const std::vector<Pulse>& pulses) {
@@ -37,7 +39,7 @@ inline std::vector<PassEdge> counted(const SpinningBody& body, const std::vector
 
 inline std::vector<PassEdge> noisy_pass(const SpinningBody& body, const std::vector<Edge>& edges,
                                         std::mt19937_64& rng) {
-  return counted(body, pulses_from(edges, kTransferStart, body.config.noise, rng));
+  return counted(body, noisy_pulses(body, edges, rng));
 }
 
 /// Returns the true spin state in the body frame of the model, at the middle of the pass.
@@ -50,11 +52,44 @@ inline SpinState true_state(const SpinningBody& body, const PassModel& model) {
           .drift_rad_s2 = 0.0};
 }
 
+/// Steps an unknown of the motion, a bias or, after these, an unknown of the nutation.
+inline SpinState stepped(const PassModel& model, SpinState state, int unknown, double step) {
+  if (unknown < 3) {
+    const Eigen::AngleAxisd turn{step, Eigen::Vector3d::Unit(unknown)};
+    state.q_icrf_spin = state.q_icrf_spin * turn;
+  } else if (unknown == 3) {
+    state.rate_rad_s += step / model.half_s();
+  } else if (unknown == 4) {
+    state.drift_rad_s2 += 2.0 * step / (model.half_s() * model.half_s());
+  } else if (unknown < kBatchUnknowns) {
+    state.biases[unknown - kMotionUnknowns] += step;
+  } else {
+    state.nutation.front().unknowns[unknown - kBatchUnknowns] += step;
+  }
+  return state;
+}
+
+/// Expects the slopes of an edge's residual to be those of small steps of the first `unknowns`.
+inline void expect_slopes(const PassModel& model, const SpinState& state, const Pulse& edge,
+                          int unknowns, double relative_tolerance) {
+  const auto here = model.at(state).residual(edge);
+  ASSERT_TRUE(here);
+  for (int i = 0; i < unknowns; ++i) {
+    const double step = i == kMotionUnknowns + Co2HeightBias ? 1e-3 : 1e-6;
+    const auto after = model.at(stepped(model, state, i, step)).residual(edge);
+    const auto before = model.at(stepped(model, state, i, -step)).residual(edge);
+    ASSERT_TRUE(after && before);
+    const double given =
+        i < kBatchUnknowns ? here->slopes[i] : here->nutation_slopes[i - kBatchUnknowns];
+    EXPECT_NEAR(given, (after->off - before->off) / (2.0 * step),
+                relative_tolerance * here->slopes.head<3>().norm())
+        << name_of(edge.channel) << ", unknown " << i;
+  }
+}
+
 /// Holds a random body that sees Sun and Earth from a transfer orbit.
-struct BatchScene {
+struct BatchScene : Surroundings {
   std::mt19937_64 rng;
-  Orbit orbit = transfer_orbit();
-  SunEarthEphemeris around = seen_from(orbit, spherical_horizon_km(40.0));
   SpinningBody body = random_body(around, 3.0 * std::numbers::pi / 180.0, rng);
 
   explicit BatchScene(std::uint64_t seed) : rng{seed} {}

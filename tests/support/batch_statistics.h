@@ -39,7 +39,7 @@ struct PassKind {
   double turns;
   BiasSet estimated;
   Orbit orbit = transfer_orbit();
-  SunEarthEphemeris around = seen_from(orbit, spherical_horizon_km(40.0));
+  SunEarthEphemeris around = seen_from(orbit);
 };
 
 /// Shifts edges as a wrong chord width and a wrong azimuth of the beams would.
@@ -74,8 +74,8 @@ inline void add_pass(const PassKind& kind, SpinningBody body, const SensorBiases
   SpinConfig told = body.config;
   told.batch.biases = kind.estimated;
   body.config.south->mount_angle_rad += biases[SouthMountAngleBias];
-  std::vector<Pulse> pulses = pulses_from(edges_of_turns(body, kind.around, kind.turns),
-                                          kTransferStart, body.config.noise, rng);
+  std::vector<Pulse> pulses =
+      noisy_pulses(body, edges_of_turns(body, kind.around, kind.turns), rng);
   apply(body, biases, pulses);
   const Eigen::Vector3d start = start_near(body, 0.017, rng);
   const auto solution = solve_batch(told, kind.orbit, counted(body, pulses), {{start}});

@@ -64,17 +64,26 @@ inline std::vector<Pulse> pulses_of(const std::vector<MadeEdge>& edges) {
   return pulses;
 }
 
-inline Association associate(const std::vector<Pulse>& pulses) {
-  Associator associator{testing::usual_config()};
-  Association all;
-  const auto collect = [&](const Association& some) {
-    all.closed.insert(all.closed.end(), some.closed.begin(), some.closed.end());
-    all.left_over.insert(all.left_over.end(), some.left_over.begin(), some.left_over.end());
+/// Adds what `some` says to `all`.
+inline void append(Association& all, const Association& some) {
+  const auto add = [](auto& to, const auto& more) {
+    to.insert(to.end(), more.begin(), more.end());
   };
+  add(all.closed, some.closed);
+  add(all.left_over, some.left_over);
+  add(all.copies, some.copies);
+  add(all.began_to_interfere, some.began_to_interfere);
+}
+
+inline Association associate(std::vector<Pulse> pulses,
+                             const SpinConfig& config = testing::usual_config()) {
+  std::sort(pulses.begin(), pulses.end());
+  Associator associator{config};
+  Association all;
   for (const Pulse& pulse : pulses) {
-    collect(associator.push(pulse));
+    append(all, associator.push(pulse));
   }
-  collect(associator.finish());
+  append(all, associator.finish());
   return all;
 }
 
@@ -82,17 +91,24 @@ inline Association associate(const std::vector<MadeEdge>& edges) {
   return associate(pulses_of(edges));
 }
 
-/// Returns the revolution number of every edge that was assigned to a revolution.
-inline std::map<Pulse, std::int64_t> places(const Association& association) {
+/// Returns the revolution number of every edge that was assigned to a revolution, or of those
+/// alone that are not rejected.
+inline std::map<Pulse, std::int64_t> places(const Association& association,
+                                            bool good_only = false) {
   std::map<Pulse, std::int64_t> found;
   for (const Revolution& revolution : association.closed) {
-    for (std::size_t channel = 0; channel < kPulseChannels; ++channel) {
-      if (const auto& edge = revolution.edges.at(channel)) {
-        found[{.t = *edge, .channel = static_cast<PulseChannel>(channel)}] = revolution.number;
+    for (std::size_t i = 0; i < kPulseChannels; ++i) {
+      const auto channel = static_cast<PulseChannel>(i);
+      if (const auto edge = good_only ? revolution.good_edge(channel) : revolution.edge(channel)) {
+        found[{.t = *edge, .channel = channel}] = revolution.number;
       }
     }
   }
   return found;
+}
+
+inline std::map<Pulse, std::int64_t> good_edges(const Association& association) {
+  return places(association, true);
 }
 
 /// Expects that every edge was assigned and that all revolution numbers differ from the true turns
@@ -111,7 +127,7 @@ inline void expect_every_edge_on_its_turn(const Association& association,
 
 template <class Condition>
 std::vector<MadeEdge> without(std::vector<MadeEdge> edges, const Condition& condition) {
-  edges.erase(std::remove_if(edges.begin(), edges.end(), condition), edges.end());
+  std::erase_if(edges, condition);
   return edges;
 }
 

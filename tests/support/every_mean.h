@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <numbers>
 #include <random>
 #include <string>
 #include <variant>
@@ -70,7 +69,7 @@ inline void check_passes_across_the_limb(std::uint64_t first_seed, int passes) {
     if (pass % 2 == 0) {
       drawn.dead.push_back(PulseChannel::Sun2);
     }
-    const double period_s = 2.0 * std::numbers::pi / drawn.body.rate_rad_s;
+    const double period_s = drawn.body.seconds_of(1.0);
     const DirtyPass received =
         dirty(drawn.pulses(kRevolutions, rng), period_s, {.lost = 0.03, .spoilt = 0.02}, rng);
     const SpinOutput output = run(SpinPass{drawn.body.config, drawn.orbit}, received.pulses);

@@ -2,7 +2,6 @@
 
 #include <Eigen/LU>
 #include <cmath>
-#include <vector>
 
 #include "pipelines/frames/celestial.h"
 

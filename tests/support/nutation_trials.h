@@ -25,6 +25,9 @@ class NutationTrials {
   /// Simulates the truth with this nutation and searches for it.
   NutationSearch searched(const Nutation& nutation);
 
+  /// Returns the nutation that is found, as it has to be.
+  FoundNutation found(const Nutation& nutation) { return searched(nutation).found.value(); }
+
   SpinTruth truth = steady_truth();
 
  private:

@@ -3,7 +3,6 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "pipelines/ephemeris/earth_orientation.h"
 #include "pipelines/ephemeris/sun.h"
@@ -48,6 +47,11 @@ Orbit transfer_orbit() {
                                   .argument_of_perigee_rad = 3.0,
                                   .mean_anomaly_rad = 0.35})
                    .value()};
+}
+
+std::vector<Pulse> noisy_pulses(const SpinningBody& body, const std::vector<Edge>& edges,
+                                std::mt19937_64& rng) {
+  return pulses_from(edges, kTransferStart, body.config.noise, rng);
 }
 
 SunEarthEphemeris seen_from(const Orbit& orbit, const Eigen::Vector3d& horizon_km) {
@@ -101,18 +105,23 @@ SpinningBody random_body(const SunEarthEphemeris& around, double tilt_rad, std::
   }
 }
 
-SpinFix drawn_fix(const Eigen::Vector3d& axis_icrf, double sigma_rad, std::mt19937_64& rng) {
-  std::normal_distribution<double> normal{0.0, sigma_rad};
-  const Eigen::Vector2d off{normal(rng), normal(rng)};
+SpinFix made_fix(const Eigen::Vector3d& axis_icrf, const Eigen::Matrix2d& covariance_rad2) {
   return {.revolution = 0,
           .t = {},
           .geometry_case = 1,
-          .axis_icrf = (axis_icrf + tangent_basis(axis_icrf) * off).normalized(),
-          .covariance_rad2 = sigma_rad * sigma_rad * Eigen::Matrix2d::Identity(),
+          .axis_icrf = axis_icrf,
+          .covariance_rad2 = covariance_rad2,
           .alternates = {},
           .resolution = Resolution::Geometry,
           .norm = 1.0,
           .accepted = true};
+}
+
+SpinFix drawn_fix(const Eigen::Vector3d& axis_icrf, double sigma_rad, std::mt19937_64& rng) {
+  std::normal_distribution<double> normal{0.0, sigma_rad};
+  const Eigen::Vector2d off{normal(rng), normal(rng)};
+  return made_fix((axis_icrf + tangent_basis(axis_icrf) * off).normalized(),
+                  sigma_rad * sigma_rad * Eigen::Matrix2d::Identity());
 }
 
 Eigen::Vector2d error_rad(const Eigen::Vector3d& estimated_icrf, const Eigen::Vector3d& true_icrf) {

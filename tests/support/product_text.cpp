@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "pipelines/frames/celestial.h"
 #include "pipelines/spin/types/products.h"
 #include "services/base/assessment_words.h"
 
@@ -136,19 +137,23 @@ SpinOutput run(const RecordedPass& pass) {
                              : run(std::move(spin), pass.frames);
 }
 
+std::vector<SpinEstimate> estimates_of(const SpinOutput& output, SpinEstimator estimator) {
+  std::vector<SpinEstimate> estimates = all_of<SpinEstimate>(output);
+  std::erase_if(estimates, [&](const SpinEstimate& one) { return one.estimator != estimator; });
+  return estimates;
+}
+
 SpinEstimate last_estimate(const SpinOutput& output, SpinEstimator estimator) {
-  std::optional<SpinEstimate> last;
-  for (const SpinProduct& product : output.products) {
-    const auto* const estimate = std::get_if<SpinEstimate>(&product);
-    if (estimate != nullptr && estimate->estimator == estimator) {
-      last = *estimate;
-    }
-  }
-  return last.value();
+  const std::vector<SpinEstimate> estimates = estimates_of(output, estimator);
+  return estimates.at(estimates.size() - 1);
 }
 
 double sigma_rad(const SpinEstimate& estimate) {
   return std::sqrt(estimate.covariance_rad2.trace());
+}
+
+double error_sigmas(const SpinEstimate& estimate, const Eigen::Vector3d& true_icrf) {
+  return angle_between_rad(estimate.axis_icrf, true_icrf) / sigma_rad(estimate);
 }
 
 std::vector<std::string> texts_of(const SpinOutput& output) {

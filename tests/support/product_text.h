@@ -35,11 +35,17 @@ std::vector<Product> all_of(const SpinOutput& output) {
   return found;
 }
 
+/// Returns the estimates of one estimator in the order of their creation.
+std::vector<SpinEstimate> estimates_of(const SpinOutput& output, SpinEstimator estimator);
+
 /// Returns the last estimate of an estimator; throws if there is none.
 SpinEstimate last_estimate(const SpinOutput& output, SpinEstimator estimator);
 
 /// Returns the sigma of the axis over both directions of its tangent plane, rad.
 double sigma_rad(const SpinEstimate& estimate);
+
+/// Returns how many of its sigmas the axis of an estimate is off.
+double error_sigmas(const SpinEstimate& estimate, const Eigen::Vector3d& true_icrf);
 
 /// Returns every product of the pass as text in the order of creation.
 std::vector<std::string> texts_of(const SpinOutput& output);

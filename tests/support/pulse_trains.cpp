@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <numbers>
-#include <optional>
 
 #include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
@@ -131,23 +130,21 @@ std::vector<PulseTrains> mixed_trains() {
 
 void expect_the_axis_of(const std::vector<PulseTrains>& all_trains, bool are_plain, int first_seed,
                         int seeds) {
-  const Orbit orbit = transfer_orbit();
-  const SunEarthEphemeris around = seen_from(orbit, spherical_horizon_km(40.0));
+  const Surroundings from;
   for (int seed = first_seed; seed < first_seed + seeds; ++seed) {
     for (const double rpm : {40.0, 60.0, 75.0, 100.0}) {
       std::mt19937_64 rng{static_cast<std::uint64_t>(1000 * seed) +
                           static_cast<std::uint64_t>(rpm)};
-      SpinningBody body = random_body(around, 4.0 * kRadPerDeg, rng);
+      SpinningBody body = random_body(from.around, 4.0 * kRadPerDeg, rng);
       body.rate_rad_s = rpm * std::numbers::pi / 30.0;
       const double period_s = 60.0 / rpm;
       const std::vector<Pulse> pulses =
-          pulses_from(edges_between(body, around, 0.0, kRevolutions * period_s), kTransferStart,
-                      body.config.noise, rng);
+          noisy_pulses(body, edges_between(body, from.around, 0.0, kRevolutions * period_s), rng);
       for (const PulseTrains& trains : all_trains) {
         SCOPED_TRACE(trains.name + ", seed " + std::to_string(seed) + ", rpm " +
                      std::to_string(rpm));
         const SpinOutput output =
-            run(SpinPass{body.config, orbit}, trains.of(pulses, period_s, rng));
+            run(SpinPass{body.config, from.orbit}, trains.of(pulses, period_s, rng));
         expect_no_ok_far_off(output, body);
         if (are_plain) {
           expect_an_axis(output, body);

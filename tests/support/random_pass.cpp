@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -172,7 +171,7 @@ std::vector<Pulse> RandomPass::pulses(double revolutions, std::mt19937_64& rng) 
   std::erase_if(edges, [&](const Edge& edge) {
     return std::find(dead.begin(), dead.end(), edge.channel) != dead.end();
   });
-  return pulses_from(edges, kTransferStart, body.config.noise, rng);
+  return noisy_pulses(body, edges, rng);
 }
 
 RandomPass random_pass(std::mt19937_64& rng) {

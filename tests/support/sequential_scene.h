@@ -17,7 +17,6 @@
 #include "pipelines/frames/celestial.h"
 #include "pipelines/spin/sequential/sequential.h"
 #include "services/base/assessment_words.h"
-#include "tests/support/normalised_square.h"
 #include "tests/support/observed_spin.h"
 #include "tests/support/spinning_body.h"
 
@@ -33,11 +32,6 @@ inline double error_deg(const SpinEstimate& estimate, const Eigen::Vector3d& tru
 
 inline double sigma_deg(const SpinEstimate& estimate) {
   return std::sqrt(estimate.covariance_rad2.trace()) / kRadPerDeg;
-}
-
-inline double squared_error(const SpinEstimate& estimate, const Eigen::Vector3d& true_icrf) {
-  const Eigen::Vector2d error_rad = testing::error_rad(estimate.axis_icrf, true_icrf);
-  return normalised_square(error_rad, estimate.covariance_rad2);
 }
 
 /// Returns the fixes that are complete before the revolution of that index is processed.
@@ -65,18 +59,28 @@ inline Fixes at_first(const SpinFix& fix) {
 }
 
 /// Holds a random body in the transfer orbit.
-struct Scene {
-  Orbit orbit = transfer_orbit();
-  SunEarthEphemeris around = seen_from(orbit, spherical_horizon_km(40.0));
+struct Scene : Surroundings {
   std::mt19937_64 rng{27};
   SpinningBody body = random_body(around, 4.0 * kRadPerDeg, rng);
 
   std::vector<ObservedRevolution> seen(double from_s, double to_s) {
-    return observed(body.config, orbit,
-                    pulses_from(edges_between(body, around, from_s, to_s), kTransferStart,
-                                body.config.noise, rng));
+    return observed(body.config, orbit, pulses(body, from_s, to_s, rng));
   }
   SpinFix fix() { return drawn_fix(body.axis_icrf, kFixSigma_rad, rng); }
+  /// Returns a fix whose axis is turned about the direction of the Earth.
+  SpinFix false_fix(double angle_deg) {
+    SpinFix wrong = fix();
+    wrong.axis_icrf = turned_about_earth(angle_deg);
+    return wrong;
+  }
+  /// Returns the revolutions of sensors whose noise is so many times the stated one.
+  std::vector<ObservedRevolution> seen_noisily(double times, double to_s) {
+    const PulseNoise stated = body.config.noise;
+    body.config.noise = {.sun_s = times * stated.sun_s, .infrared_s = times * stated.infrared_s};
+    auto noisy = seen(0.0, to_s);
+    body.config.noise = stated;
+    return noisy;
+  }
 
   Eigen::Vector3d turned_about(const Eigen::Vector3d& direction, double angle_deg) const {
     return Eigen::AngleAxisd{angle_deg * kRadPerDeg, direction.normalized()} * body.axis_icrf;

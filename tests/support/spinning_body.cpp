@@ -100,10 +100,24 @@ Eigen::Vector3d ellipsoidal_horizon_km(double h_km) {
   return {kEquatorialRadius_km + h_km, kEquatorialRadius_km + h_km, kPolarRadius_km + h_km};
 }
 
+Eigen::Vector3d usual_horizon_km(HorizonModel model) {
+  return model == HorizonModel::Sphere ? spherical_horizon_km(40.0) : ellipsoidal_horizon_km(40.0);
+}
+
+Eigen::Vector3d random_direction(std::normal_distribution<double>& normal, std::mt19937_64& rng) {
+  const double x = normal(rng);
+  const double y = normal(rng);
+  return Eigen::Vector3d{x, y, normal(rng)}.normalized();
+}
+
 SunEarthEphemeris at_rest(const Eigen::Vector3d& sun_icrf, const Eigen::Vector3d& earth_icrf_km) {
   return {.sun_icrf = [sun_icrf](double) { return sun_icrf; },
           .earth_icrf_km = [earth_icrf_km](double) { return earth_icrf_km; },
           .horizon_km = spherical_horizon_km(40.0)};
+}
+
+Eigen::Matrix3d spin_frame(const Eigen::Vector3d& axis_icrf) {
+  return frame_about(axis_icrf).conjugate().toRotationMatrix();
 }
 
 SpinConfig usual_config() {

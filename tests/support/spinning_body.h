@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 #include <functional>
+#include <numbers>
 #include <random>
 #include <vector>
 
@@ -21,6 +22,12 @@ namespace spindrift::testing {
 Eigen::Vector3d spherical_horizon_km(double h_km);
 /// Returns semi-axes of the WGS-84 ellipsoid raised by `h_km`, short axis along ICRF z.
 Eigen::Vector3d ellipsoidal_horizon_km(double h_km);
+
+/// Returns semi-axes of the horizon 40 km up by this model of it.
+Eigen::Vector3d usual_horizon_km(HorizonModel model);
+
+/// Draws a direction, every one as likely.
+Eigen::Vector3d random_direction(std::normal_distribution<double>& normal, std::mt19937_64& rng);
 
 /// Holds Sun and Earth as functions of the time since the start, s.
 struct SunEarthEphemeris {
@@ -40,7 +47,13 @@ struct SpinningBody {
   double rate_rad_s;          ///< Spin rate, positive.
   double first_turn_rad;      ///< Rotation angle at time 0.
   SpinConfig config;          ///< Mounting and noise of the sensors.
+
+  /// Returns how long this many turns take, s.
+  double seconds_of(double turns) const { return turns * 2.0 * std::numbers::pi / rate_rad_s; }
 };
+
+/// Returns the rotation from ICRF to the frame of the body about this axis before its first turn.
+Eigen::Matrix3d spin_frame(const Eigen::Vector3d& axis_icrf);
 
 /// Returns a configuration with cant 45 deg, slit separation 35 deg, beams at 85 and 95 deg from
 /// the axis and 90 and 92 deg behind slit 1, noise 0.1 ms (Sun) and 0.5 ms (infrared), and an

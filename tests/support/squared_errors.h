@@ -7,14 +7,13 @@
 
 #include <Eigen/Dense>
 #include <cmath>
-#include <numbers>
 #include <random>
+#include <string>
 
 #include "pipelines/frames/angle.h"
 #include "pipelines/spin/pass/spin_pass.h"
 #include "services/base/assessment_words.h"
 #include "tests/support/information_limit.h"
-#include "tests/support/normalised_square.h"
 #include "tests/support/observed_spin.h"
 #include "tests/support/product_text.h"
 #include "tests/support/spinning_body.h"
@@ -28,23 +27,25 @@ struct SquaredErrors {
   double sequential = 0.0;
   double rate = 0.0;  ///< NEES of the rate of `mean`.
   int model_off = 0;  ///< Means that report a wrong model although it is right.
+
+  void record() const {
+    using ::testing::Test;
+    Test::RecordProperty("mean", std::to_string(mean));
+    Test::RecordProperty("sequential", std::to_string(sequential));
+    Test::RecordProperty("rate", std::to_string(rate));
+    Test::RecordProperty("model_off", model_off);
+  }
 };
 
-inline double squared_error(const SpinEstimate& estimate, const Eigen::Vector3d& true_icrf) {
-  return normalised_square(error_rad(estimate.axis_icrf, true_icrf), estimate.covariance_rad2);
-}
-
 inline SquaredErrors squared_errors_of(int passes, std::uint64_t seed) {
-  const Orbit orbit = transfer_orbit();
-  const SunEarthEphemeris around = seen_from(orbit, spherical_horizon_km(40.0));
+  const Surroundings from;
   std::mt19937_64 rng{seed};
   SquaredErrors sums;
   for (int pass = 0; pass < passes; ++pass) {
-    const SpinningBody body = random_body(around, 8.0 * kRadPerDeg, rng);
-    const auto edges = edges_between(
-        body, around, 0.0, kStatisticsRevolutions * 2.0 * std::numbers::pi / body.rate_rad_s);
-    const SpinOutput output = run(SpinPass{body.config, orbit},
-                                  pulses_from(edges, kTransferStart, body.config.noise, rng));
+    const SpinningBody body = random_body(from.around, 8.0 * kRadPerDeg, rng);
+    const SpinOutput output =
+        run(SpinPass{body.config, from.orbit},
+            from.pulses(body, 0.0, body.seconds_of(kStatisticsRevolutions), rng));
     const SpinEstimate mean = last_estimate(output, SpinEstimator::Mean);
     const SpinEstimate sequential = last_estimate(output, SpinEstimator::Sequential);
     EXPECT_TRUE(is_unopposed(sequential.assessment.quality)) << sentence_of(sequential.assessment);

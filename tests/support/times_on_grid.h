@@ -6,9 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <numbers>
 #include <random>
-#include <span>
 #include <utility>
 #include <vector>
 
@@ -72,16 +70,14 @@ struct PassOnGrid {
 /// @param grid_ns Grid width; 1 for none.
 inline PassOnGrid pass_on_grid(double rpm, std::int64_t grid_ns, std::uint64_t seed,
                                double revolutions) {
-  const Orbit orbit = transfer_orbit();
-  const SunEarthEphemeris around = seen_from(orbit, spherical_horizon_km(40.0));
+  const Surroundings from;
   std::mt19937_64 rng{seed};
-  SpinningBody body = random_body(around, 8.0 * kRadPerDeg, rng);
+  SpinningBody body = random_body(from.around, 8.0 * kRadPerDeg, rng);
   body.rate_rad_s = rpm * kTurn_rad / 60.0;
-  const auto edges = edges_between(body, around, 0.0, revolutions * 60.0 / rpm);
-  const std::vector<Pulse> pulses =
-      cut(pulses_from(edges, kTransferStart, body.config.noise, rng), grid_ns);
+  const auto edges = edges_between(body, from.around, 0.0, revolutions * 60.0 / rpm);
+  const std::vector<Pulse> pulses = cut(noisy_pulses(body, edges, rng), grid_ns);
   PassOnGrid found;
-  SpinPass pass{body.config, orbit};
+  SpinPass pass{body.config, from.orbit};
   PassEdges so_far;
   const auto take = [&](const SpinOutput& output) {
     for (const SpinProduct& product : output.products) {
@@ -95,7 +91,8 @@ inline PassOnGrid pass_on_grid(double rpm, std::int64_t grid_ns, std::uint64_t s
   const auto solve = [&] {
     PassEdges these = so_far;
     const StartingAxes starts = these.starts(std::nullopt);
-    if (const auto solution = solve_batch(body.config, orbit, std::move(these).edges(), starts)) {
+    if (const auto solution =
+            solve_batch(body.config, from.orbit, std::move(these).edges(), starts)) {
       found.batch.note(solution->estimate, body);
       found.sigma_deg = degrees(std::sqrt(solution->estimate.covariance_rad2.trace()));
     }

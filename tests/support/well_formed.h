@@ -5,10 +5,8 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <regex>
 #include <string>
-#include <string_view>
 #include <vector>
 
 namespace spindrift::testing {

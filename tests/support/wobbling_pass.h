@@ -3,7 +3,8 @@
 
 #pragma once
 
-#include <Eigen/LU>
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -63,6 +64,13 @@ class WobblingPasses {
   std::vector<PassEdge> edges(const SpinTruth& truth) {
     return edges_of(truth, orbit_, duration_s_, body_.config.noise, rng_);
   }
+  std::vector<Pulse> pulses(const SpinTruth& truth) {
+    std::vector<Pulse> pulses;
+    for (const PassEdge& edge : edges(truth)) {
+      pulses.push_back(edge.pulse);
+    }
+    return pulses;
+  }
   Expected<BatchSolution> solved(const std::vector<PassEdge>& edges) {
     const double azimuth_rad = 2.0 * std::numbers::pi * uniform();
     const Eigen::Vector3d start =
@@ -70,6 +78,13 @@ class WobblingPasses {
         (Eigen::AngleAxisd{0.01, body_.axis_icrf.unitOrthogonal()} * body_.axis_icrf);
     return solve_batch(body_.config, orbit_, edges, {{start}});
   }
+  /// Returns the solution, which has to exist.
+  BatchSolution solution(const std::vector<PassEdge>& edges) {
+    const auto solution = solved(edges);
+    EXPECT_TRUE(solution) << solution.error().message;
+    return solution.value();
+  }
+  BatchSolution solution(const SpinTruth& truth) { return solution(edges(truth)); }
   SpinConfig& config() { return body_.config; }
   const Orbit& orbit() const { return orbit_; }
 
@@ -77,7 +92,7 @@ class WobblingPasses {
   double duration_s_;
   std::mt19937_64 rng_;
   Orbit orbit_ = transfer_orbit();
-  SunEarthEphemeris around_ = seen_from(orbit_, spherical_horizon_km(40.0));
+  SunEarthEphemeris around_ = seen_from(orbit_);
   SpinningBody body_ = body_across_the_earth();
 };
 
@@ -87,9 +102,21 @@ struct AxisError {
   double rad2;
 };
 inline AxisError axis_error(const BatchSolution& solution, const SpinTruth& truth) {
-  const Eigen::Vector2d error = error_rad(solution.estimate.axis_icrf, truth.motion.axis_icrf);
-  return {.squares = error.dot(solution.estimate.covariance_rad2.inverse() * error),
-          .rad2 = error.squaredNorm()};
+  const Eigen::Vector3d& true_icrf = truth.motion.axis_icrf;
+  return {.squares = squared_error(solution.estimate, true_icrf),
+          .rad2 = error_rad(solution.estimate.axis_icrf, true_icrf).squaredNorm()};
+}
+
+// The 99.9 % point of chi-square with two degrees of freedom.
+inline constexpr double kOneInAThousand = 13.8;
+
+/// Returns the edges of one motion before `at` and those of another from then on.
+inline std::vector<PassEdge> joined(std::vector<PassEdge> before, std::vector<PassEdge> after,
+                                    TaiTime at) {
+  std::erase_if(before, [&](const PassEdge& edge) { return edge.pulse.t >= at; });
+  std::erase_if(after, [&](const PassEdge& edge) { return edge.pulse.t < at; });
+  before.insert(before.end(), after.begin(), after.end());
+  return before;
 }
 
 }  // namespace spindrift::testing

@@ -5,12 +5,7 @@
 
 #include "tests/property/alerts/supervised_pass.h"
 
-namespace spindrift::false_alarms_test {
-
-using testing::flown;
-using testing::RaisedByKey;
-using testing::SupervisedPass;
-using testing::with;
+namespace spindrift::testing::false_alarms_test {
 
 constexpr int kPasses = 100;
 constexpr int kServed = 5;  // Every fifth pass is also computed as `serve` does it.
@@ -23,7 +18,7 @@ void expect_none(const RaisedByKey& raised, TaiTime start, int pass) {
 }
 
 /// Expects only the silence at the end of the telemetry to be reported.
-void expect_none_but_the_end(const testing::Flight& flight, int pass) {
+void expect_none_but_the_end(const Flight& flight, int pass) {
   SupervisedPass supervised{flight.mission, RunMode::Live};
   RaisedByKey raised = supervised.serve(flight.sent);
   EXPECT_GT(raised.at("link.silent").t, flight.sent.back().came);
@@ -66,8 +61,7 @@ TEST(FalseAlarms, NoneInPassesOfAThreeAxisSpacecraft) {
   std::mt19937_64 rng{2302};
   std::uniform_real_distribution<double> either{-1.0, 1.0};
   for (int pass = 0; pass < kPasses; ++pass) {
-    std::string text =
-        with(testing::three_axis_text(), "seed = 22", fmt::format("seed = {}", pass + 1));
+    std::string text = with(three_axis_text(), "seed = 22", fmt::format("seed = {}", pass + 1));
     text = with(text, "rate_deg_s = [0.62, -0.33, 0.066]",
                 fmt::format("rate_deg_s = [{}, {}, {}]", either(rng), either(rng), either(rng)));
     const auto flight = flown(text);
@@ -79,4 +73,4 @@ TEST(FalseAlarms, NoneInPassesOfAThreeAxisSpacecraft) {
   }
 }
 
-}  // namespace spindrift::false_alarms_test
+}  // namespace spindrift::testing::false_alarms_test

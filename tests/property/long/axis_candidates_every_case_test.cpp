@@ -5,7 +5,6 @@
 #include <cmath>
 #include <random>
 #include <set>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -15,9 +14,9 @@
 #include "tests/support/axis_scene.h"
 #include "tests/support/normalised_square.h"
 
-namespace spindrift::axis_candidates_every_case_test {
+namespace spindrift::testing::axis_candidates_every_case_test {
 
-using Scene = testing::AxisScene;
+using Scene = AxisScene;
 using enum SpinQuantity;
 
 /// Holds what is missing and the geometry case that remains.
@@ -57,11 +56,7 @@ Revolution without(Revolution revolution, const std::set<PulseChannel>& edges) {
 Scene random_scene(HorizonModel model, std::mt19937_64& rng) {
   std::normal_distribution<double> normal;
   std::uniform_real_distribution<double> uniform{-1.0, 1.0};
-  const auto direction = [&]() -> Eigen::Vector3d {
-    const double x = normal(rng);
-    const double y = normal(rng);
-    return Eigen::Vector3d{x, y, normal(rng)}.normalized();
-  };
+  const auto direction = [&] { return random_direction(normal, rng); };
   Scene scene{.earth = model};
   scene.config.horizon.model = model;
   scene.axis_icrf = direction();
@@ -87,8 +82,8 @@ TEST_P(EveryCase, HasTheTrueAxisAmongItsCandidates) {
     for (int trial = 0; trial < kScenes; ++trial) {
       SCOPED_TRACE(loss.geometry_case * 1000 + trial);
       const Scene scene = random_scene(GetParam(), rng);
-      const RevolutionMeasurements measured = testing::measured_without(
-          scene.config, without(scene.seen(), loss.edges), loss.quantities);
+      const RevolutionMeasurements measured =
+          measured_without(scene.config, without(scene.seen(), loss.edges), loss.quantities);
       ASSERT_EQ(geometry_case_of(measured), loss.geometry_case);
       const auto found = axis_candidates(scene.config, measured, scene.sun_earth());
       if (!found) {
@@ -100,10 +95,9 @@ TEST_P(EveryCase, HasTheTrueAxisAmongItsCandidates) {
       const auto nearest =
           std::min_element(found->candidates.begin(), found->candidates.end(),
                            [&](const AxisCandidate& a, const AxisCandidate& b) {
-                             return angle_between_rad(a.axis_icrf, scene.axis_icrf) <
-                                    angle_between_rad(b.axis_icrf, scene.axis_icrf);
+                             return scene.off_rad(a.axis_icrf) < scene.off_rad(b.axis_icrf);
                            });
-      const double off_rad = angle_between_rad(nearest->axis_icrf, scene.axis_icrf);
+      const double off_rad = scene.off_rad(nearest->axis_icrf);
       if (found->near_tangent) {
         // Only the redundant measurements of cases 2 and 3 tell such roots apart.
         ASSERT_TRUE(!found->told_apart || loss.quantities.empty());
@@ -137,13 +131,12 @@ TEST_P(EveryCase, WithTheSunNearTheAxisIsNotLeftWithTheFalseOneByNoise) {
       const double sun_deg = std::uniform_real_distribution<double>{174.0, 179.9}(rng);
       scene.sun_icrf = Eigen::AngleAxisd{sun_deg * kRadPerDeg, across} * scene.axis_icrf;
       scene.config.noise = {.sun_s = 1e-4, .infrared_s = 5e-4};
-      const Revolution seen = testing::noisy(scene, without(scene.seen(), loss.edges), rng);
+      const Revolution seen = noisy(scene, without(scene.seen(), loss.edges), rng);
       const auto found = axis_candidates(
-          scene.config, testing::measured_without(scene.config, seen, loss.quantities),
-          scene.sun_earth());
+          scene.config, measured_without(scene.config, seen, loss.quantities), scene.sun_earth());
       if (found && found->told_apart) {
         ++told_apart;
-        EXPECT_LT(angle_between_rad(found->candidates.front().axis_icrf, scene.axis_icrf),
+        EXPECT_LT(scene.off_rad(found->candidates.front().axis_icrf),
                   6.0 * std::sqrt(found->candidates.front().covariance_rad2.trace()))
             << "Sun at " << sun_deg << " deg";
       }
@@ -161,8 +154,7 @@ TEST_P(EveryCase, HasTheCovariancesOfCentralDifferences) {
       const Scene scene = random_scene(GetParam(), rng);
       const Revolution revolution = without(scene.seen(), loss.edges);
       const auto solve = [&](const Revolution& seen) {
-        return axis_candidates(scene.config,
-                               testing::measured_without(scene.config, seen, loss.quantities),
+        return axis_candidates(scene.config, measured_without(scene.config, seen, loss.quantities),
                                scene.sun_earth());
       };
       const auto found = solve(revolution);
@@ -226,15 +218,13 @@ TEST(AxisCandidates, ConesAreNamed) {
 double squared_errors(const Scene& scene, const std::set<SpinQuantity>& left_out, int draws,
                       std::mt19937_64& rng) {
   const Revolution exact = scene.seen();
-  const SpinFix stated =
-      testing::lone_fix(scene.config, exact, left_out, scene.sun_earth()).value();
+  const SpinFix stated = lone_fix(scene.config, exact, left_out, scene.sun_earth()).value();
   const Eigen::Matrix<double, 3, 2> basis = tangent_basis(stated.axis_icrf);
   double sum = 0.0;
   for (int draw = 0; draw < draws; ++draw) {
-    const auto fix = testing::lone_fix(scene.config, testing::noisy(scene, exact, rng), left_out,
-                                       scene.sun_earth());
+    const auto fix = lone_fix(scene.config, noisy(scene, exact, rng), left_out, scene.sun_earth());
     const Eigen::Vector2d error_rad = basis.transpose() * fix.value().axis_icrf;
-    sum += testing::normalised_square(error_rad, stated.covariance_rad2);
+    sum += normalised_square(error_rad, stated.covariance_rad2);
   }
   return sum;
 }
@@ -285,4 +275,4 @@ TEST(AxisCandidates, CovarianceGrowsWithTheSquareOfTheNoise) {
   EXPECT_LT((twice - 4.0 * once).norm(), 4e-4 * twice.norm());
 }
 
-}  // namespace spindrift::axis_candidates_every_case_test
+}  // namespace spindrift::testing::axis_candidates_every_case_test

@@ -6,46 +6,29 @@
 #include <Eigen/Dense>
 #include <cmath>
 #include <filesystem>
-#include <numbers>
 #include <string>
 #include <utility>
 
-#include "pipelines/ephemeris/kepler_orbit.h"
 #include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
 #include "tests/support/archive_rows.h"
 #include "tests/support/information_limit.h"
-#include "tests/support/normalised_square.h"
 #include "tests/support/observed_spin.h"
 #include "tests/support/program.h"
 #include "tests/support/test_paths.h"
 
-namespace spindrift::coded_accuracy_test {
+namespace spindrift::testing::coded_accuracy_test {
 
 constexpr double kDuration_s = 600.0;
 constexpr int kPasses = 40;
 const std::filesystem::path kScenario = scenarios() / "gto-nominal.toml";
 
-/// Returns the scenario's axis.
-Eigen::Vector3d true_axis_icrf() {
-  return direction_icrf({.ra_rad = 100.0 * kRadPerDeg, .dec_rad = -55.0 * kRadPerDeg});
-}
+// The scenario's axis, orbit and sensors.
+const SpinningBody kBody = body_across_the_earth();
 
-/// Returns the Cramer-Rao standard deviation of the axis for the scenario's orbit and sensors.
 double information_limit_rad() {
-  const auto orbit = KeplerOrbit::make({.epoch = testing::kTransferStart,
-                                        .semi_major_axis_km = 24400.0,
-                                        .eccentricity = 0.73,
-                                        .inclination_rad = 28.5 * kRadPerDeg,
-                                        .raan_rad = 300.0 * kRadPerDeg,
-                                        .argument_of_perigee_rad = 178.0 * kRadPerDeg,
-                                        .mean_anomaly_rad = 30.0 * kRadPerDeg});
-  const testing::SpinningBody body{.axis_icrf = true_axis_icrf(),
-                                   .rate_rad_s = 2.0 * std::numbers::pi,
-                                   .first_turn_rad = 0.0,
-                                   .config = testing::usual_config()};
-  const auto around = testing::seen_from(Orbit{orbit.value()}, testing::spherical_horizon_km(40.0));
-  return std::sqrt(testing::cramer_rao_rad2(body, around, kDuration_s).trace());
+  const auto around = seen_from(orbit_across_the_earth());
+  return std::sqrt(cramer_rao_rad2(kBody, around, kDuration_s).trace());
 }
 
 /// Processes a simulated pass of coded frames and returns its archive.
@@ -99,8 +82,7 @@ TEST(CodedAccuracy, SigmaIsWhatTheEdgesAllowAndErrorsAreWhatItPromises) {
     ASSERT_FALSE(HasFailure());
     for (const auto& [estimator, sums] : {std::pair{"mean", &mean}, {"sequential", &sequential}}) {
       const Answer answer = answer_of(db, estimator);
-      const Eigen::Vector2d error_rad = testing::error_rad(answer.axis_icrf, true_axis_icrf());
-      sums->squared_error += testing::normalised_square(error_rad, answer.covariance_rad2);
+      sums->squared_error += testing::squared_error(answer, kBody.axis_icrf);
       sums->variance_ratio += answer.covariance_rad2.trace() / (limit_rad * limit_rad) / kPasses;
     }
   }
@@ -115,4 +97,4 @@ TEST(CodedAccuracy, SigmaIsWhatTheEdgesAllowAndErrorsAreWhatItPromises) {
   EXPECT_LT(mean.variance_ratio, 1.25);
 }
 
-}  // namespace spindrift::coded_accuracy_test
+}  // namespace spindrift::testing::coded_accuracy_test

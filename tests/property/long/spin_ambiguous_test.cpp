@@ -20,7 +20,7 @@
 #include "tests/support/product_text.h"
 #include "tests/support/random_pass.h"
 
-namespace spindrift::spin_ambiguous_test {
+namespace spindrift::testing::spin_ambiguous_test {
 
 constexpr double kSigmas = 5.0;
 
@@ -46,8 +46,8 @@ bool names(const SpinEstimate& estimate, const Eigen::Vector3d& true_icrf) {
     return true;
   }
   const auto& reasons = estimate.assessment.reasons;
-  const double ra_deg = testing::number_of(reasons, ReasonCode::OtherAxis, "ra_deg");
-  const double dec_deg = testing::number_of(reasons, ReasonCode::OtherAxis, "dec_deg");
+  const double ra_deg = number_of(reasons, ReasonCode::OtherAxis, "ra_deg");
+  const double dec_deg = number_of(reasons, ReasonCode::OtherAxis, "dec_deg");
   return has(estimate.assessment, ReasonCode::OtherAxis) &&
          is_near(direction_icrf({.ra_rad = ra_deg * kRadPerDeg, .dec_rad = dec_deg * kRadPerDeg}),
                  sigma_rad, true_icrf);
@@ -60,35 +60,24 @@ bool claims_to_name_all(const SpinEstimate& estimate) {
          has(estimate.assessment, ReasonCode::Revolutions);
 }
 
-std::vector<SpinEstimate> of_sequential(const SpinOutput& output) {
-  std::vector<SpinEstimate> estimates = testing::all_of<SpinEstimate>(output);
-  std::erase_if(estimates, [](const SpinEstimate& estimate) {
-    return estimate.estimator != SpinEstimator::Sequential;
-  });
-  return estimates;
-}
-
 TEST(SpinAmbiguous, CandidatesThatNothingSettlesAreSaidToBeAmbiguousToTheEnd) {
   // Without sun slit 1, two axes fit all edges of this pass alike.
-  const Orbit orbit = testing::orbit_across_the_earth();
-  const testing::SpinningBody body = testing::body_across_the_earth();
-  auto edges = testing::edges_between(
-      body, testing::seen_from(orbit, testing::spherical_horizon_km(40.0)), 0.0, 300.0);
+  const Orbit orbit = orbit_across_the_earth();
+  const SpinningBody body = body_across_the_earth();
+  auto edges = edges_between(body, seen_from(orbit), 0.0, 300.0);
   std::erase_if(edges, [](const auto& edge) { return edge.channel == PulseChannel::Sun1; });
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
     SCOPED_TRACE(seed);
     std::mt19937_64 rng{seed};
-    const SpinOutput output =
-        testing::run(SpinPass{body.config, orbit},
-                     testing::pulses_from(edges, testing::kTransferStart, body.config.noise, rng));
-    const auto fixes = testing::all_of<SpinFix>(output);
+    const SpinOutput output = run(SpinPass{body.config, orbit}, noisy_pulses(body, edges, rng));
+    const auto fixes = all_of<SpinFix>(output);
     EXPECT_GT(fixes.size(), 250U);
     for (const SpinFix& fix : fixes) {
       EXPECT_EQ(fix.resolution, Resolution::Ambiguous) << fix.revolution;
       EXPECT_FALSE(fix.accepted) << fix.revolution;
       EXPECT_TRUE(lists(fix, body.axis_icrf)) << fix.revolution;
     }
-    const auto estimates = of_sequential(output);
+    const auto estimates = estimates_of(output, SpinEstimator::Sequential);
     EXPECT_GT(estimates.size(), 200U);
     for (const SpinEstimate& estimate : estimates) {
       EXPECT_TRUE(estimate.assessment.quality == Quality::Ambiguous)
@@ -108,15 +97,16 @@ TEST(SpinAmbiguous, WhatClaimsToNameAllCandidatesNamesTheTrueOne) {
   int without_truth = 0;
   for (int pass = 0; pass < kPasses; ++pass) {
     std::mt19937_64 rng{static_cast<std::uint64_t>(pass)};
-    const testing::RandomPass drawn = testing::random_pass(rng);
+    const RandomPass drawn = random_pass(rng);
     if (drawn.dead.empty()) {
       continue;
     }
     SCOPED_TRACE(std::to_string(pass) + ": " + drawn.name);
     int missed = 0;
     std::string last;
-    for (const SpinEstimate& estimate : of_sequential(testing::run(
-             SpinPass{drawn.body.config, drawn.orbit}, drawn.pulses(kRevolutions, rng)))) {
+    const SpinOutput output =
+        run(SpinPass{drawn.body.config, drawn.orbit}, drawn.pulses(kRevolutions, rng));
+    for (const SpinEstimate& estimate : estimates_of(output, SpinEstimator::Sequential)) {
       if (claims_to_name_all(estimate)) {
         ++claiming;
         missed += names(estimate, drawn.body.axis_icrf) ? 0 : 1;
@@ -131,4 +121,4 @@ TEST(SpinAmbiguous, WhatClaimsToNameAllCandidatesNamesTheTrueOne) {
   EXPECT_GT(claiming, 1000);
 }
 
-}  // namespace spindrift::spin_ambiguous_test
+}  // namespace spindrift::testing::spin_ambiguous_test

@@ -1,5 +1,4 @@
 #include <fmt/format.h>
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -7,23 +6,18 @@
 #include <cmath>
 #include <numbers>
 #include <random>
-#include <utility>
 
 #include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
 #include "pipelines/spin/batch/batch_estimator.h"
-#include "pipelines/spin/batch/pass_edges.h"
 #include "pipelines/spin/pass/spin_pass.h"
 #include "services/base/assessment_words.h"
 #include "tests/support/batch_pass.h"
 #include "tests/support/dirt.h"
 #include "tests/support/product_text.h"
+#include "tests/support/solved_pass.h"
 
-namespace spindrift::spin_batch_change_test {
-
-using ::testing::HasSubstr;
-using ::testing::Not;
-using ::testing::StartsWith;
+namespace spindrift::testing::spin_batch_change_test {
 
 constexpr double kPi = std::numbers::pi;
 constexpr double kRpm_rad_s = kPi / 30.0;
@@ -31,38 +25,31 @@ constexpr double kRpm_rad_s = kPi / 30.0;
 /// Solves the pass as `process` does at its end.
 Expected<BatchSolution> solved(const SpinConfig& config, const Orbit& orbit,
                                const std::vector<Pulse>& pulses) {
-  PassEdges edges;
-  for (const SpinProduct& product : testing::run(SpinPass{config, orbit}, pulses).products) {
-    edges.note(product);
-  }
-  const auto starts = edges.starts(config.prior);
-  return solve_batch(config, orbit, std::move(edges).edges(), starts);
+  return testing::solved(config, orbit, run(SpinPass{config, orbit}, pulses));
 }
 
-std::vector<Pulse> dirty_pulses(const testing::SpinningBody& body,
-                                const testing::SunEarthEphemeris& around, double from_s,
-                                double to_s, const testing::Dirt& dirt, std::mt19937_64& rng) {
-  const auto clean = testing::pulses_from(testing::edges_between(body, around, from_s, to_s),
-                                          testing::kTransferStart, body.config.noise, rng);
-  return testing::dirty(clean, 2.0 * kPi / body.rate_rad_s, dirt, rng).pulses;
+std::vector<Pulse> dirty_pulses(const SpinningBody& body, const SunEarthEphemeris& around,
+                                double from_s, double to_s, const Dirt& dirt,
+                                std::mt19937_64& rng) {
+  const auto clean = noisy_pulses(body, edges_between(body, around, from_s, to_s), rng);
+  return dirty(clean, body.seconds_of(1.0), dirt, rng).pulses;
 }
 
-constexpr testing::Dirt kDirt{.lost = 0.05, .spoilt = 0.05};
+constexpr Dirt kDirt{.lost = 0.05, .spoilt = 0.05};
 
 TEST(SpinBatchChange, IsNotMadeOfTheDirtOfASteadyPass) {
-  testing::BatchScene scene{3101};
+  BatchScene scene{3101};
   std::uniform_real_distribution<double> uniform;
   int solutions = 0;
   for (int pass = 0; pass < 200; ++pass) {
-    testing::SpinningBody body = testing::random_body(scene.around, 3.0 * kRadPerDeg, scene.rng);
+    SpinningBody body = random_body(scene.around, 3.0 * kRadPerDeg, scene.rng);
     body.rate_rad_s = 5.0 * std::pow(40.0, uniform(scene.rng)) * kRpm_rad_s;
     const double turns = 10.0 + 20.0 * uniform(scene.rng);
     SCOPED_TRACE(fmt::format("pass {}: {:.1f} turns at {:.1f} rpm", pass, turns,
                              body.rate_rad_s / kRpm_rad_s));
     const auto solution =
         solved(body.config, scene.orbit,
-               dirty_pulses(body, scene.around, 0.0, turns * 2.0 * kPi / body.rate_rad_s, kDirt,
-                            scene.rng));
+               dirty_pulses(body, scene.around, 0.0, body.seconds_of(turns), kDirt, scene.rng));
     if (solution) {
       ++solutions;
       EXPECT_FALSE(solution->changed) << sentence_of(solution->estimate.assessment);
@@ -74,14 +61,13 @@ TEST(SpinBatchChange, IsNotMadeOfTheDirtOfASteadyPass) {
 /// Holds a pass with the Sun 6 deg from the axis, so that sun2 and the north beam see nothing: four
 /// axes are possible, and the fixes chose a false one.
 struct HardPass {
-  Orbit orbit = testing::transfer_with_node(91.06809);
-  testing::SunEarthEphemeris around =
-      testing::seen_from(orbit, testing::ellipsoidal_horizon_km(40.0));
-  testing::SpinningBody body{.axis_icrf = direction_icrf({.ra_rad = 61.455876 * kRadPerDeg,
-                                                          .dec_rad = 19.945283 * kRadPerDeg}),
-                             .rate_rad_s = 150.0 * kRpm_rad_s,
-                             .first_turn_rad = 0.0,
-                             .config = testing::usual_config()};
+  Orbit orbit = transfer_with_node(91.06809);
+  SunEarthEphemeris around = seen_from(orbit, ellipsoidal_horizon_km(40.0));
+  SpinningBody body{.axis_icrf = direction_icrf(
+                        {.ra_rad = 61.455876 * kRadPerDeg, .dec_rad = 19.945283 * kRadPerDeg}),
+                    .rate_rad_s = 150.0 * kRpm_rad_s,
+                    .first_turn_rad = 0.0,
+                    .config = usual_config()};
 
   HardPass() {
     body.config.south->mount_angle_rad = 120.0 * kRadPerDeg;
@@ -103,16 +89,14 @@ TEST(SpinBatchChange, DoesNotExplainAFalseAxis) {
       continue;
     }
     const SpinEstimate& estimate = solution->estimate;
-    EXPECT_LT(angle_between_rad(estimate.axis_icrf, hard.body.axis_icrf),
-              5.0 * testing::sigma_rad(estimate))
-        << sentence_of(estimate.assessment);
+    EXPECT_LT(error_sigmas(estimate, hard.body.axis_icrf), 5.0) << sentence_of(estimate.assessment);
     EXPECT_FALSE(solution->changed) << sentence_of(estimate.assessment);
   }
 }
 
 /// Solves ten minutes of disturbed edges of a body whose axis moves by `by_rad` at `at_s`.
-Expected<BatchSolution> solved_moved(testing::BatchScene& scene, double at_s, double by_rad) {
-  testing::SpinningBody after = scene.body;
+Expected<BatchSolution> solved_moved(BatchScene& scene, double at_s, double by_rad) {
+  SpinningBody after = scene.body;
   after.axis_icrf =
       Eigen::AngleAxisd{by_rad, after.axis_icrf.unitOrthogonal()} * scene.body.axis_icrf;
   auto pulses = dirty_pulses(scene.body, scene.around, 0.0, at_s, kDirt, scene.rng);
@@ -125,24 +109,23 @@ Expected<BatchSolution> solved_moved(testing::BatchScene& scene, double at_s, do
 }
 
 TEST(SpinBatchChange, IsFoundInDirtAndDated) {
-  testing::BatchScene scene{3103};
+  BatchScene scene{3103};
   for (const double by_deg : {0.57, 2.0, 10.0}) {
     SCOPED_TRACE(by_deg);
-    scene.body = testing::random_body(scene.around, 3.0 * kRadPerDeg, scene.rng);
+    scene.body = random_body(scene.around, 3.0 * kRadPerDeg, scene.rng);
     const auto solution = solved_moved(scene, 240.0, by_deg * kRadPerDeg);
     ASSERT_TRUE(solution) << solution.error().message;
     SCOPED_TRACE(sentence_of(solution->estimate.assessment));
     ASSERT_TRUE(solution->changed);
     // The change is located to a 64th of the pass or the neighbouring one.
-    EXPECT_NEAR(seconds_between(testing::kTransferStart, *solution->changed), 240.0, 20.0);
+    EXPECT_NEAR(seconds_between(kTransferStart, *solution->changed), 240.0, 20.0);
     EXPECT_TRUE(is_unopposed(solution->estimate.assessment.quality));
-    EXPECT_LT(angle_between_rad(solution->estimate.axis_icrf, scene.body.axis_icrf),
-              4.0 * testing::sigma_rad(solution->estimate));
+    EXPECT_LT(error_sigmas(solution->estimate, scene.body.axis_icrf), 4.0);
   }
 }
 
 TEST(SpinBatchChange, IsDoubtedWhereItLeavesOutMostOfThePass) {
-  testing::BatchScene scene{3104};
+  BatchScene scene{3104};
   const auto solution = solved_moved(scene, 450.0, 2.0 * kRadPerDeg);
   ASSERT_TRUE(solution) << solution.error().message;
   EXPECT_EQ(solution->estimate.assessment.quality, Quality::Doubtful);
@@ -150,4 +133,4 @@ TEST(SpinBatchChange, IsDoubtedWhereItLeavesOutMostOfThePass) {
   EXPECT_FALSE(has(solution->estimate.assessment, ReasonCode::NoAxisBeforeChange));
 }
 
-}  // namespace spindrift::spin_batch_change_test
+}  // namespace spindrift::testing::spin_batch_change_test

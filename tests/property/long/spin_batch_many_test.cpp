@@ -4,11 +4,11 @@
 
 #include "tests/support/batch_statistics.h"
 
-namespace spindrift::spin_batch_many_test {
+namespace spindrift::testing::spin_batch_many_test {
 
 constexpr int kPasses = 2000;
 
-void expect_at_the_bound(const testing::BatchStatistics& sums) {
+void expect_at_the_bound(const BatchStatistics& sums) {
   EXPECT_EQ(sums.failures, 0);
   // The 95 % band of chi-square with 4000 degrees of freedom.
   EXPECT_GT(sums.squares, 3826.6);
@@ -20,19 +20,19 @@ void expect_at_the_bound(const testing::BatchStatistics& sums) {
   ::testing::Test::RecordProperty("rms over bound", std::to_string(sums.rms_over_bound()));
 }
 
+const BiasSet kThreeBiases =
+    BiasSet{}.set(NorthChordBias).set(SouthMountAngleBias).set(DihedralBias);
+
 TEST(SpinBatchMany, ReachTheBound) {
-  expect_at_the_bound(testing::many_passes(kPasses, {.turns = 100.0, .estimated = {}}, 2000));
+  expect_at_the_bound(many_passes(kPasses, {.turns = 100.0, .estimated = {}}, 2000));
 }
 
 TEST(SpinBatchMany, ReachTheBoundWithBiases) {
-  const BiasSet estimated =
-      BiasSet{}.set(NorthChordBias).set(SouthMountAngleBias).set(DihedralBias);
-  expect_at_the_bound(
-      testing::many_passes(kPasses, {.turns = 100.0, .estimated = estimated}, 2001));
+  expect_at_the_bound(many_passes(kPasses, {.turns = 100.0, .estimated = kThreeBiases}, 2001));
 }
 
 TEST(SpinBatchMany, ReachTheBoundWithAWideNorthChordThatIsRecovered) {
-  const testing::BatchStatistics sums = testing::many_passes_with_a_wide_north_chord(kPasses, 2002);
+  const BatchStatistics sums = many_passes_with_a_wide_north_chord(kPasses, 2002);
   expect_at_the_bound(sums);
   // 3-sigma errors occur once in 370; more than 14 in 2000 have a probability of 1/2000.
   EXPECT_LE(sums.biases_beyond_three_sigmas, 14);
@@ -40,10 +40,7 @@ TEST(SpinBatchMany, ReachTheBoundWithAWideNorthChordThatIsRecovered) {
 }
 
 TEST(SpinBatchMany, ErrorsOfTwoHundredAreThoseThatTheCovariancePromisesWithBiases) {
-  const BiasSet estimated =
-      BiasSet{}.set(NorthChordBias).set(SouthMountAngleBias).set(DihedralBias);
-  const testing::BatchStatistics sums =
-      testing::many_passes(200, {.turns = 60.0, .estimated = estimated}, 1801);
+  const BatchStatistics sums = many_passes(200, {.turns = 60.0, .estimated = kThreeBiases}, 1801);
   EXPECT_EQ(sums.failures, 0);
   EXPECT_GT(sums.squares, 346.5);
   EXPECT_LT(sums.squares, 457.3);
@@ -53,7 +50,7 @@ TEST(SpinBatchMany, ErrorsOfTwoHundredAreThoseThatTheCovariancePromisesWithBiase
 }
 
 TEST(SpinBatchMany, AWideNorthChordIsRecoveredInTwoHundredAndTheAxisIsAtTheBound) {
-  const testing::BatchStatistics sums = testing::many_passes_with_a_wide_north_chord(200, 1803);
+  const BatchStatistics sums = many_passes_with_a_wide_north_chord(200, 1803);
   EXPECT_EQ(sums.failures, 0);
   EXPECT_GT(sums.squares, 346.5);
   EXPECT_LT(sums.squares, 457.3);
@@ -65,4 +62,4 @@ TEST(SpinBatchMany, AWideNorthChordIsRecoveredInTwoHundredAndTheAxisIsAtTheBound
   EXPECT_LE(sums.biases_beyond_three_sigmas, 4);
 }
 
-}  // namespace spindrift::spin_batch_many_test
+}  // namespace spindrift::testing::spin_batch_many_test

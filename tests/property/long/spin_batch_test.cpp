@@ -10,13 +10,11 @@
 #include "tests/support/batch_pass.h"
 #include "tests/support/batch_statistics.h"
 #include "tests/support/information_limit.h"
-#include "tests/support/normalised_square.h"
 
-namespace spindrift::spin_batch_test {
+namespace spindrift::testing::spin_batch_test {
 
 TEST(SpinBatch, ErrorsAreThoseThatTheCovariancePromises) {
-  const testing::BatchStatistics sums =
-      testing::many_passes(200, {.turns = 60.0, .estimated = {}}, 1777);
+  const BatchStatistics sums = many_passes(200, {.turns = 60.0, .estimated = {}}, 1777);
   EXPECT_EQ(sums.failures, 0);
   // The 95 % band of chi-square with 400 degrees of freedom.
   EXPECT_GT(sums.squares, 346.5);
@@ -24,27 +22,25 @@ TEST(SpinBatch, ErrorsAreThoseThatTheCovariancePromises) {
 }
 
 TEST(SpinBatch, TheBoundIsThatOfTheInformationLimitAndThatOfThePlan) {
-  const Orbit orbit = testing::transfer_orbit();
-  const testing::SunEarthEphemeris around =
-      testing::seen_from(orbit, testing::spherical_horizon_km(40.0));
+  const Surroundings from;
   std::mt19937_64 rng{1922};
   for (int pass = 0; pass < 8; ++pass) {
-    const testing::SpinningBody body = testing::random_body(around, 4.0 * kRadPerDeg, rng);
+    const SpinningBody body = random_body(from.around, 4.0 * kRadPerDeg, rng);
     SpinConfig config = body.config;
     config.batch.biases = BiasSet{};
     const double turns = 60.0;
-    const double duration_s = turns * 2.0 * std::numbers::pi / body.rate_rad_s;
+    const double duration_s = body.seconds_of(turns);
     const auto solution = solve_batch(
-        config, orbit, testing::noisy_pass(body, testing::edges_of_turns(body, around, turns), rng),
-        {{testing::start_near(body, kRadPerDeg, rng)}});
+        config, from.orbit, noisy_pass(body, edges_of_turns(body, from.around, turns), rng),
+        {{start_near(body, kRadPerDeg, rng)}});
     ASSERT_TRUE(solution) << solution.error().message;
-    const double limit_rad = std::sqrt(testing::cramer_rao_rad2(body, around, duration_s).trace());
+    const double limit_rad = std::sqrt(cramer_rao_rad2(body, from.around, duration_s).trace());
     // The limit assumes a rate without drift, which hardly affects the axis.
     EXPECT_NEAR(solution->bound_rad / limit_rad, 1.0, 0.01) << "pass " << pass;
     // The prediction of `geometry` for the same pass.
-    const TaiTime end = later_by_s(testing::kTransferStart, duration_s);
-    const auto plan = plan_pass(config, orbit,
-                                {.from = testing::kTransferStart,
+    const TaiTime end = later_by_s(kTransferStart, duration_s);
+    const auto plan = plan_pass(config, from.orbit,
+                                {.from = kTransferStart,
                                  .to = end,
                                  .step_s = duration_s,
                                  .axis_icrf = body.axis_icrf,
@@ -67,20 +63,18 @@ TEST(SpinBatch, NoiseBeyondWhatIsStatedIsDoubtedAndCovered) {
     SCOPED_TRACE(times);
     double squares = 0.0;
     for (std::uint64_t seed = 1; seed <= kPasses; ++seed) {
-      testing::BatchScene scene{seed};
+      BatchScene scene{seed};
       const SpinConfig stated = scene.body.config;
       scene.body.config.noise.sun_s *= noise.sun_times;
       scene.body.config.noise.infrared_s *= noise.infrared_times;
       const auto edges = scene.pass(200.0);
       scene.body.config = stated;
-      const Eigen::Vector3d start = testing::start_near(scene.body, kRadPerDeg, scene.rng);
+      const Eigen::Vector3d start = start_near(scene.body, kRadPerDeg, scene.rng);
       const auto solution = solve_batch(stated, scene.orbit, edges, {{start}});
       ASSERT_TRUE(solution) << solution.error().message;
       EXPECT_EQ(solution->estimate.assessment.quality, Quality::Doubtful);
       EXPECT_NEAR(solution->noise, times, 0.15 * times);
-      const Eigen::Vector2d error_rad =
-          testing::error_rad(solution->estimate.axis_icrf, scene.body.axis_icrf);
-      squares += testing::normalised_square(error_rad, solution->estimate.covariance_rad2);
+      squares += squared_error(solution->estimate, scene.body.axis_icrf);
     }
     // The 99 % band of chi-square with 40 degrees of freedom.
     EXPECT_GT(squares, 20.7);
@@ -88,4 +82,4 @@ TEST(SpinBatch, NoiseBeyondWhatIsStatedIsDoubtedAndCovered) {
   }
 }
 
-}  // namespace spindrift::spin_batch_test
+}  // namespace spindrift::testing::spin_batch_test

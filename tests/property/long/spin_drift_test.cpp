@@ -4,7 +4,6 @@
 #include <cmath>
 #include <numbers>
 #include <random>
-#include <string>
 #include <vector>
 
 #include "pipelines/frames/angle.h"
@@ -16,15 +15,12 @@
 #include "tests/support/product_text.h"
 #include "tests/support/spinning_body.h"
 
-namespace spindrift::spin_drift_test {
-
-using testing::all_of;
-using testing::SpinningBody;
+namespace spindrift::testing::spin_drift_test {
 
 constexpr double kRpm_rad_s = std::numbers::pi / 30.0;
 
 struct DriftingPass {
-  Orbit orbit = testing::transfer_orbit();
+  Orbit orbit = transfer_orbit();
   double rate_rad_s;  ///< Spin rate at the start.
   double drift_rad_s2;
 
@@ -38,8 +34,8 @@ struct DriftingPass {
   }
 
   /// Returns Sun and Earth by the time that even_s() gives.
-  testing::SunEarthEphemeris around() const {
-    const auto seen = testing::seen_from(orbit, testing::spherical_horizon_km(40.0));
+  SunEarthEphemeris around() const {
+    const auto seen = seen_from(orbit);
     const DriftingPass pass = *this;
     return {.sun_icrf = [pass, seen](double t_s) { return seen.sun_icrf(pass.drifting_s(t_s)); },
             .earth_icrf_km = [pass, seen](double t_s) -> Eigen::Vector3d {
@@ -50,12 +46,11 @@ struct DriftingPass {
 
   std::vector<Pulse> pulses(const SpinningBody& body, double duration_s,
                             std::mt19937_64& rng) const {
-    std::vector<testing::Edge> edges =
-        testing::edges_between(body, around(), 0.0, even_s(duration_s));
-    for (testing::Edge& edge : edges) {
+    std::vector<Edge> edges = edges_between(body, around(), 0.0, even_s(duration_s));
+    for (Edge& edge : edges) {
       edge.t_s = drifting_s(edge.t_s);
     }
-    return testing::pulses_from(edges, testing::kTransferStart, body.config.noise, rng);
+    return noisy_pulses(body, edges, rng);
   }
 };
 
@@ -78,25 +73,23 @@ TEST(SpinDrift, RateAndAxisMeanWhatTheirSigmasSay) {
       SCOPED_TRACE(::testing::Message() << rpm << " rpm, " << drift_rpm_h << " rpm/h");
       const DriftingPass pass{.rate_rad_s = rpm * kRpm_rad_s,
                               .drift_rad_s2 = drift_rpm_h * kRpm_rad_s / 3600.0};
-      SpinningBody body = testing::random_body(pass.around(), 2.0 * kRadPerDeg, rng);
+      SpinningBody body = random_body(pass.around(), 2.0 * kRadPerDeg, rng);
       body.rate_rad_s = pass.rate_rad_s;
       // The timing noise is chosen to be the same angle at every rate.
       body.config.noise = {.sun_s = 6e-3 / rpm, .infrared_s = 3e-2 / rpm};
       const double duration_s = std::clamp(200.0 * 60.0 / rpm, 120.0, 1200.0);
       const SpinOutput output =
-          testing::run(SpinPass{body.config, pass.orbit}, pass.pulses(body, duration_s, rng));
+          run(SpinPass{body.config, pass.orbit}, pass.pulses(body, duration_s, rng));
       for (const SpinEstimate& estimate : all_of<SpinEstimate>(output)) {
-        const double rate_rad_s =
-            pass.rate_at(seconds_between(testing::kTransferStart, estimate.t));
+        const double rate_rad_s = pass.rate_at(seconds_between(kTransferStart, estimate.t));
         (estimate.estimator == SpinEstimator::Mean ? mean : sequential)
             .add((estimate.spin_rate_rad_s - rate_rad_s) / estimate.spin_rate_sigma_rad_s);
       }
       for (const SpinEstimator estimator : {SpinEstimator::Mean, SpinEstimator::Sequential}) {
-        const SpinEstimate last = testing::last_estimate(output, estimator);
-        EXPECT_GT(seconds_between(testing::kTransferStart, last.t), duration_s - 3.0 * 60.0 / rpm);
-        EXPECT_LT(angle_between_rad(last.axis_icrf, body.axis_icrf),
-                  4.0 * testing::sigma_rad(last));
-        EXPECT_FALSE(testing::restarted(last.assessment)) << sentence_of(last.assessment);
+        const SpinEstimate last = last_estimate(output, estimator);
+        EXPECT_GT(seconds_between(kTransferStart, last.t), duration_s - 3.0 * 60.0 / rpm);
+        EXPECT_LT(angle_between_rad(last.axis_icrf, body.axis_icrf), 4.0 * sigma_rad(last));
+        EXPECT_FALSE(restarted(last.assessment)) << sentence_of(last.assessment);
         // The limit is half an rpm an hour over a minute.
         EXPECT_LT(last.spin_rate_sigma_rad_s, 0.5 / 60.0 * kRpm_rad_s);
       }
@@ -108,4 +101,4 @@ TEST(SpinDrift, RateAndAxisMeanWhatTheirSigmasSay) {
   }
 }
 
-}  // namespace spindrift::spin_drift_test
+}  // namespace spindrift::testing::spin_drift_test

@@ -3,11 +3,10 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Geometry>
-#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <numbers>
 #include <optional>
 #include <random>
@@ -17,15 +16,11 @@
 #include "pipelines/frames/angle.h"
 #include "pipelines/spin/sequential/sequential.h"
 #include "tests/support/information_limit.h"
-#include "tests/support/normalised_square.h"
 #include "tests/support/observed_spin.h"
 #include "tests/support/spinning_body.h"
 
-namespace spindrift::spin_filter_statistics_test {
+namespace spindrift::testing::spin_filter_statistics_test {
 
-using testing::ObservedRevolution;
-using testing::SpinningBody;
-using testing::SunEarthEphemeris;
 using enum PulseChannel;
 
 constexpr int kPasses = 200;
@@ -63,13 +58,17 @@ std::vector<ObservedRevolution> only(const Subset& subset,
   return revolutions;
 }
 
-SpinEstimate last_estimate(const SpinConfig& config,
-                           const std::vector<ObservedRevolution>& revolutions, const SpinFix& fix) {
+/// Runs `sequential` on the revolutions after this fix; `see` receives each of its estimates.
+SpinEstimate last_estimate(
+    const SpinConfig& config, const std::vector<ObservedRevolution>& revolutions,
+    const SpinFix& fix,
+    const std::function<void(const SpinEstimate&)>& see = [](const SpinEstimate&) {}) {
   SequentialEstimator estimator{config};
   std::optional<SpinEstimate> last;
   std::span<const SpinFix> settled{&fix, 1};
   for (const auto& [revolution, sky] : revolutions) {
     last = estimator.update(revolution, sky, settled);
+    see(last.value());
     settled = {};
   }
   return last.value();
@@ -81,23 +80,19 @@ struct SquaredErrors {
 };
 
 TEST(SpinFilterStatistics, ErrorsAreThoseThatTheCovariancePromises) {
-  const Orbit orbit = testing::transfer_orbit();
-  const SunEarthEphemeris around = testing::seen_from(orbit, testing::spherical_horizon_km(40.0));
+  const Surroundings from;
   std::mt19937_64 rng{2011};
   std::array<SquaredErrors, kSubsets.size()> sums;
   for (int pass = 0; pass < kPasses; ++pass) {
-    const SpinningBody body = testing::random_body(around, 8.0 * kRadPerDeg, rng);
-    const auto edges = testing::edges_between(
-        body, around, 0.0, kRevolutions * 2.0 * std::numbers::pi / body.rate_rad_s);
-    const auto revolutions = testing::observed(
-        body.config, orbit,
-        testing::pulses_from(edges, testing::kTransferStart, body.config.noise, rng));
+    const SpinningBody body = random_body(from.around, 8.0 * kRadPerDeg, rng);
+    const auto edges = edges_between(body, from.around, 0.0, body.seconds_of(kRevolutions));
+    const auto revolutions =
+        testing::observed(body.config, from.orbit, noisy_pulses(body, edges, rng));
     for (std::size_t i = 0; i < kSubsets.size(); ++i) {
-      const SpinFix fix = testing::drawn_fix(body.axis_icrf, kFixSigma_rad, rng);
+      const SpinFix fix = drawn_fix(body.axis_icrf, kFixSigma_rad, rng);
       const SpinEstimate estimate =
           last_estimate(body.config, only(kSubsets.at(i), revolutions), fix);
-      const Eigen::Vector2d error_rad = testing::error_rad(estimate.axis_icrf, body.axis_icrf);
-      sums.at(i).axis += testing::normalised_square(error_rad, estimate.covariance_rad2);
+      sums.at(i).axis += squared_error(estimate, body.axis_icrf);
       sums.at(i).rate += std::pow(
           (estimate.spin_rate_rad_s - body.rate_rad_s) / estimate.spin_rate_sigma_rad_s, 2);
     }
@@ -119,19 +114,17 @@ TEST(SpinFilterStatistics, ErrorsAreThoseThatTheCovariancePromises) {
 }
 
 TEST(SpinFilterStatistics, SigmaIsThatOfTheInformationLimit) {
-  const Orbit orbit = testing::transfer_orbit();
-  const SunEarthEphemeris around = testing::seen_from(orbit, testing::spherical_horizon_km(40.0));
+  const Surroundings from;
   std::mt19937_64 rng{1946};
   for (int pass = 0; pass < 10; ++pass) {
-    const SpinningBody body = testing::random_body(around, 4.0 * kRadPerDeg, rng);
-    const double duration_s = kRevolutions * 2.0 * std::numbers::pi / body.rate_rad_s;
-    const auto edges = testing::edges_between(body, around, 0.0, duration_s);
-    const auto revolutions = testing::observed(
-        body.config, orbit,
-        testing::pulses_from(edges, testing::kTransferStart, body.config.noise, rng));
-    const SpinFix fix = testing::drawn_fix(body.axis_icrf, kFixSigma_rad, rng);
+    const SpinningBody body = random_body(from.around, 4.0 * kRadPerDeg, rng);
+    const double duration_s = body.seconds_of(kRevolutions);
+    const auto edges = edges_between(body, from.around, 0.0, duration_s);
+    const auto revolutions =
+        testing::observed(body.config, from.orbit, noisy_pulses(body, edges, rng));
+    const SpinFix fix = drawn_fix(body.axis_icrf, kFixSigma_rad, rng);
     const SpinEstimate estimate = last_estimate(body.config, revolutions, fix);
-    const double limit_rad = std::sqrt(testing::cramer_rao_rad2(body, around, duration_s).trace());
+    const double limit_rad = std::sqrt(cramer_rao_rad2(body, from.around, duration_s).trace());
     const double sigma_rad = std::sqrt(estimate.covariance_rad2.trace());
     // One of 40 revolutions is used up by the initial fix, whose own weight is about as large.
     EXPECT_NEAR(sigma_rad / limit_rad, 1.0, 0.05) << "pass " << pass;
@@ -140,8 +133,8 @@ TEST(SpinFilterStatistics, SigmaIsThatOfTheInformationLimit) {
 
 /// Returns the edges of a body with constant drift: time is stretched so that the oracle's body and
 /// its surroundings turn at a constant rate.
-std::vector<testing::Edge> drifting_edges(const SpinningBody& body, const SunEarthEphemeris& around,
-                                          double drift_rad_s2, double revolutions) {
+std::vector<Edge> drifting_edges(const SpinningBody& body, const SunEarthEphemeris& around,
+                                 double drift_rad_s2, double revolutions) {
   const double relative = drift_rad_s2 / body.rate_rad_s;
   const auto t_of = [relative](double even_s) {
     return 2.0 * even_s / (1.0 + std::sqrt(1.0 + 2.0 * relative * even_s));
@@ -150,9 +143,9 @@ std::vector<testing::Edge> drifting_edges(const SpinningBody& body, const SunEar
       .sun_icrf = [&](double even_s) { return around.sun_icrf(t_of(even_s)); },
       .earth_icrf_km = [&](double even_s) { return around.earth_icrf_km(t_of(even_s)); },
       .horizon_km = around.horizon_km};
-  auto edges = testing::edges_between(body, stretched, 0.0,
-                                      revolutions * 2.0 * std::numbers::pi / body.rate_rad_s);
-  for (testing::Edge& edge : edges) {
+  auto edges =
+      edges_between(body, stretched, 0.0, revolutions * 2.0 * std::numbers::pi / body.rate_rad_s);
+  for (Edge& edge : edges) {
     edge.t_s = t_of(edge.t_s);
   }
   return edges;
@@ -160,38 +153,30 @@ std::vector<testing::Edge> drifting_edges(const SpinningBody& body, const SunEar
 
 TEST(SpinFilterStatistics, AnEvenDriftOfTheRateIsFollowed) {
   constexpr double kRpm = 2.0 * std::numbers::pi / 60.0;
-  const Orbit orbit = testing::transfer_orbit();
-  const SunEarthEphemeris around = testing::seen_from(orbit, testing::spherical_horizon_km(40.0));
+  const Surroundings from;
   std::mt19937_64 rng{1958};
   double axis = 0.0;
   int passes = 0;
   for (const double rate_rpm : {5.0, 20.0, 60.0, 180.0}) {
     for (const double drift_rpm_h : {0.0, 0.1, 1.0, 2.0}) {
       SCOPED_TRACE(std::to_string(rate_rpm) + " rpm, " + std::to_string(drift_rpm_h) + " rpm/h");
-      SpinningBody body = testing::random_body(around, 8.0 * kRadPerDeg, rng);
+      SpinningBody body = random_body(from.around, 8.0 * kRadPerDeg, rng);
       body.rate_rad_s = rate_rpm * kRpm;
       const double drift_rad_s2 = drift_rpm_h * kRpm / 3600.0;
-      const auto seen =
-          testing::observed(body.config, orbit,
-                            testing::pulses_from(drifting_edges(body, around, drift_rad_s2, 60.0),
-                                                 testing::kTransferStart, body.config.noise, rng));
-      const SpinFix fix = testing::drawn_fix(body.axis_icrf, kFixSigma_rad, rng);
-      SequentialEstimator estimator{body.config};
-      std::optional<SpinEstimate> last;
+      const auto seen = testing::observed(
+          body.config, from.orbit,
+          noisy_pulses(body, drifting_edges(body, from.around, drift_rad_s2, 60.0), rng));
+      const SpinFix fix = drawn_fix(body.axis_icrf, kFixSigma_rad, rng);
       double worst = 0.0;
-      std::span<const SpinFix> settled{&fix, 1};
-      for (const auto& [revolution, sky] : seen) {
-        last = estimator.update(revolution, sky, settled);
-        settled = {};
+      const auto last = last_estimate(body.config, seen, fix, [&](const SpinEstimate& estimate) {
         const double true_rad_s =
-            body.rate_rad_s + drift_rad_s2 * seconds_between(testing::kTransferStart, last->t);
-        worst = std::max(
-            worst, std::abs(last->spin_rate_rad_s - true_rad_s) / last->spin_rate_sigma_rad_s);
-      }
+            body.rate_rad_s + drift_rad_s2 * seconds_between(kTransferStart, estimate.t);
+        worst = std::max(worst, std::abs(estimate.spin_rate_rad_s - true_rad_s) /
+                                    estimate.spin_rate_sigma_rad_s);
+      });
       EXPECT_LT(worst, 4.0);
-      EXPECT_TRUE(is_unopposed(last->assessment.quality));
-      const Eigen::Vector2d error_rad = testing::error_rad(last->axis_icrf, body.axis_icrf);
-      axis += testing::normalised_square(error_rad, last->covariance_rad2);
+      EXPECT_TRUE(is_unopposed(last.assessment.quality));
+      axis += squared_error(last, body.axis_icrf);
       ++passes;
     }
   }
@@ -200,4 +185,4 @@ TEST(SpinFilterStatistics, AnEvenDriftOfTheRateIsFollowed) {
   EXPECT_GT(axis, 12.7);
 }
 
-}  // namespace spindrift::spin_filter_statistics_test
+}  // namespace spindrift::testing::spin_filter_statistics_test

@@ -4,10 +4,14 @@
 
 #include "tests/support/every_mean.h"
 
-namespace spindrift::spin_mean_every_row_test {
+namespace spindrift::testing::spin_mean_every_row_test {
 
 TEST(SpinMeanEveryRow, IsRightWhereItIsOkAndAmongItsFixes) {
-  testing::check_passes_across_the_limb(3200U, 40);
+  check_passes_across_the_limb(3200U, 40);
 }
 
-}  // namespace spindrift::spin_mean_every_row_test
+TEST(SpinMeanEveryRowMany, IsRightWhereItIsOkAndAmongItsFixes) {
+  check_passes_across_the_limb(3400U, 400);
+}
+
+}  // namespace spindrift::testing::spin_mean_every_row_test

@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <functional>
-#include <numbers>
 #include <random>
 #include <string>
 #include <vector>
@@ -16,7 +15,7 @@
 #include "tests/support/product_text.h"
 #include "tests/support/spinning_body.h"
 
-namespace spindrift::spin_model_errors_test {
+namespace spindrift::testing::spin_model_errors_test {
 
 constexpr double kRevolutions = 300.0;
 
@@ -54,31 +53,27 @@ struct Outcome {
 /// Runs every mistake on every body; north chords are too long by `excess_rad`.
 std::vector<Outcome> outcomes_of(const std::vector<Mistake>& mistakes, double excess_rad,
                                  int bodies) {
-  const Orbit orbit = testing::transfer_orbit();
-  const testing::SunEarthEphemeris around =
-      testing::seen_from(orbit, testing::spherical_horizon_km(40.0));
+  const Surroundings from;
   std::mt19937_64 rng{77};
   std::vector<Outcome> outcomes;
   for (int i = 0; i < bodies; ++i) {
-    const testing::SpinningBody body = testing::random_body(around, 8.0 * kRadPerDeg, rng);
-    auto edges = testing::edges_between(body, around, 0.0,
-                                        kRevolutions * 2.0 * std::numbers::pi / body.rate_rad_s);
-    for (testing::Edge& edge : edges) {
+    const SpinningBody body = random_body(from.around, 8.0 * kRadPerDeg, rng);
+    auto edges = edges_between(body, from.around, 0.0, body.seconds_of(kRevolutions));
+    for (Edge& edge : edges) {
       const double late_s = 0.5 * excess_rad / body.rate_rad_s;
       edge.t_s += edge.channel == PulseChannel::NorthOut ? late_s : 0.0;
       edge.t_s -= edge.channel == PulseChannel::NorthIn ? late_s : 0.0;
     }
-    const auto pulses =
-        testing::pulses_from(edges, testing::kTransferStart, body.config.noise, rng);
+    const auto pulses = noisy_pulses(body, edges, rng);
     for (const Mistake& mistake : mistakes) {
       SpinConfig said = body.config;
       mistake.make(said);
       const SpinEstimate mean =
-          testing::last_estimate(testing::run(SpinPass{said, orbit}, pulses), SpinEstimator::Mean);
-      outcomes.push_back({.mistake = mistake.name,
-                          .sigmas = testing::error_rad(mean.axis_icrf, body.axis_icrf).norm() /
-                                    testing::sigma_rad(mean),
-                          .assessment = mean.assessment});
+          last_estimate(run(SpinPass{said, from.orbit}, pulses), SpinEstimator::Mean);
+      outcomes.push_back(
+          {.mistake = mistake.name,
+           .sigmas = error_rad(mean.axis_icrf, body.axis_icrf).norm() / sigma_rad(mean),
+           .assessment = mean.assessment});
     }
   }
   return outcomes;
@@ -138,4 +133,4 @@ TEST(SpinModelErrors, OfAChordAreCovered) {
   }
 }
 
-}  // namespace spindrift::spin_model_errors_test
+}  // namespace spindrift::testing::spin_model_errors_test

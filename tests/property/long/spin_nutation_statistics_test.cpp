@@ -8,20 +8,18 @@
 #include "pipelines/frames/angle.h"
 #include "tests/support/nutation_trials.h"
 
-namespace spindrift::spin_nutation_statistics_test {
+namespace spindrift::testing::spin_nutation_statistics_test {
 
 TEST(SpinNutationStatistics, PeriodHalfAngleAndLeanAreWithinTheirSigmas) {
   constexpr int kTrials = 200;
-  testing::NutationTrials trials{11};
+  NutationTrials trials{11};
   double half_angle = 0.0;
   double period = 0.0;
   double lean = 0.0;
   for (int i = 0; i < kTrials; ++i) {
     const Nutation nutation = trials.random_nutation(0.2);
-    SCOPED_TRACE(testing::text_of(nutation));
-    const auto search = trials.searched(nutation);
-    ASSERT_TRUE(search.found);
-    const testing::Deviations off = testing::deviations(*search.found, nutation);
+    SCOPED_TRACE(text_of(nutation));
+    const Deviations off = deviations(trials.found(nutation), nutation);
     EXPECT_LT(off.period_share, 0.01);
     half_angle += std::pow(off.half_angle_sigmas, 2);
     period += std::pow(off.period_sigmas, 2);
@@ -35,7 +33,7 @@ TEST(SpinNutationStatistics, PeriodHalfAngleAndLeanAreWithinTheirSigmas) {
 
 TEST(SpinNutationStatistics, NoiseAloneShowsNoneAndItsChancesAreAsStated) {
   constexpr int kTrials = 400;
-  testing::NutationTrials trials{12};
+  NutationTrials trials{12};
   int at_most_a_tenth = 0;
   for (int i = 0; i < kTrials; ++i) {
     const auto search = trials.searched({});
@@ -50,7 +48,7 @@ TEST(SpinNutationStatistics, NoiseAloneShowsNoneAndItsChancesAreAsStated) {
 
 TEST(SpinNutationStatistics, AtTheLimitOfDetection95Of100AreFound) {
   constexpr int kTrials = 200;
-  testing::NutationTrials trials{13};
+  NutationTrials trials{13};
   const double limit_deg = trials.searched({}).detectable_rad / kRadPerDeg;
   int found = 0;
   int found_at_half = 0;
@@ -63,4 +61,4 @@ TEST(SpinNutationStatistics, AtTheLimitOfDetection95Of100AreFound) {
   EXPECT_LT(found_at_half, 40);
 }
 
-}  // namespace spindrift::spin_nutation_statistics_test
+}  // namespace spindrift::testing::spin_nutation_statistics_test

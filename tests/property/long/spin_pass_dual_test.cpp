@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <iterator>
 #include <map>
 #include <numbers>
 #include <optional>
@@ -25,10 +24,9 @@
 #include "tests/support/product_text.h"
 #include "tests/support/spinning_body.h"
 
-namespace spindrift::spin_pass_dual_test {
+namespace spindrift::testing::spin_pass_dual_test {
 
 using enum PulseChannel;
-using testing::all_of;
 
 constexpr double kPi = std::numbers::pi;
 constexpr int kPasses = 40;
@@ -57,7 +55,7 @@ Orbit random_orbit(std::mt19937_64& rng) {
   const double argument_rad = 2.0 * kPi * uniform(rng);
   const double anomaly_rad = 0.2 + 0.5 * uniform(rng);
   return Orbit{
-      KeplerOrbit::make({.epoch = testing::kTransferStart,
+      KeplerOrbit::make({.epoch = kTransferStart,
                          .semi_major_axis_km = 24400.0,
                          .eccentricity = 0.73,
                          .inclination_rad = inclination_rad,
@@ -92,24 +90,18 @@ Outcome judged(const SpinOutput& output, const Eigen::Vector3d& true_icrf) {
           << "fix of revolution " << number << ", " << name_of(fix.resolution);
     }
   }
-  for (const SpinEstimate& estimate : all_of<SpinEstimate>(output)) {
-    if (estimate.estimator == SpinEstimator::Sequential) {
-      outcome.sure = is_unopposed(estimate.assessment.quality);
-      if (outcome.sure) {
-        EXPECT_LT(angle_between_rad(estimate.axis_icrf, true_icrf),
-                  kSigmas * testing::sigma_rad(estimate))
-            << sentence_of(estimate.assessment);
-      }
+  for (const SpinEstimate& estimate : estimates_of(output, SpinEstimator::Sequential)) {
+    outcome.sure = is_unopposed(estimate.assessment.quality);
+    if (outcome.sure) {
+      EXPECT_LT(error_sigmas(estimate, true_icrf), kSigmas) << sentence_of(estimate.assessment);
     }
   }
   return outcome;
 }
 
-std::vector<Pulse> without(const std::vector<Pulse>& pulses, const std::set<PulseChannel>& dead) {
-  std::vector<Pulse> left;
-  std::copy_if(pulses.begin(), pulses.end(), std::back_inserter(left),
-               [&](const Pulse& pulse) { return !dead.contains(pulse.channel); });
-  return left;
+std::vector<Pulse> without(std::vector<Pulse> pulses, const std::set<PulseChannel>& dead) {
+  std::erase_if(pulses, [&](const Pulse& pulse) { return dead.contains(pulse.channel); });
+  return pulses;
 }
 
 /// Adds one spurious edge of each dead channel at a random phase in `share` of the turns.
@@ -119,8 +111,8 @@ std::vector<Pulse> with_strays(std::vector<Pulse> pulses, const std::set<PulseCh
   for (const PulseChannel channel : dead) {
     for (double turn = 0.0; turn < kRevolutions; turn += 1.0) {
       if (uniform(rng) < share) {
-        pulses.push_back({.t = shifted(testing::kTransferStart, (turn + uniform(rng)) * period_s),
-                          .channel = channel});
+        pulses.push_back(
+            {.t = shifted(kTransferStart, (turn + uniform(rng)) * period_s), .channel = channel});
       }
     }
   }
@@ -137,20 +129,15 @@ TEST_P(DeadSensor, MakesNothingConfidentlyWrong) {
   std::map<std::string, int> sure;
   std::map<std::string, int> with_fix;
   for (int trial = 0; trial < kPasses; ++trial) {
-    const Orbit orbit = random_orbit(rng);
-    const auto around = testing::seen_from(orbit, testing::spherical_horizon_km(40.0));
-    const testing::SpinningBody body = testing::random_body(around, 8.0 * kRadPerDeg, rng);
-    const auto edges =
-        testing::edges_between(body, around, 0.0, kRevolutions * 2.0 * kPi / body.rate_rad_s);
-    const auto pulses =
-        testing::pulses_from(edges, testing::kTransferStart, body.config.noise, rng);
+    const Surroundings from{random_orbit(rng)};
+    const SpinningBody body = random_body(from.around, 8.0 * kRadPerDeg, rng);
+    const auto pulses = from.pulses(body, 0.0, body.seconds_of(kRevolutions), rng);
     for (const DeadSensors& dead : kDead) {
       SCOPED_TRACE(dead.name + ", pass " + std::to_string(trial));
-      const Outcome outcome =
-          judged(testing::run(SpinPass{body.config, orbit},
-                              with_strays(without(pulses, dead.channels), dead.channels, GetParam(),
-                                          2.0 * kPi / body.rate_rad_s, rng)),
-                 body.axis_icrf);
+      const Outcome outcome = judged(run(SpinPass{body.config, from.orbit},
+                                         with_strays(without(pulses, dead.channels), dead.channels,
+                                                     GetParam(), body.seconds_of(1.0), rng)),
+                                     body.axis_icrf);
       sure[dead.name] += outcome.sure ? 1 : 0;
       with_fix[dead.name] += outcome.fix_accepted ? 1 : 0;
     }
@@ -166,27 +153,23 @@ TEST(SpinPassDual, APriorChoosesTheAxisNearIt) {
   std::mt19937_64 rng{78};
   for (int trial = 0; trial < kPasses / 4; ++trial) {
     SCOPED_TRACE(trial);
-    const Orbit orbit = random_orbit(rng);
-    const auto around = testing::seen_from(orbit, testing::spherical_horizon_km(40.0));
-    testing::SpinningBody body = testing::random_body(around, 8.0 * kRadPerDeg, rng);
+    const Surroundings from{random_orbit(rng)};
+    SpinningBody body = random_body(from.around, 8.0 * kRadPerDeg, rng);
     body.config.prior = SpinPrior{.axis_icrf = body.axis_icrf, .sigma_rad = 3.0 * kRadPerDeg};
-    const auto edges =
-        testing::edges_between(body, around, 0.0, kRevolutions * 2.0 * kPi / body.rate_rad_s);
-    const auto pulses = without(
-        testing::pulses_from(edges, testing::kTransferStart, body.config.noise, rng), {Sun2});
-    const SpinOutput output = testing::run(SpinPass{body.config, orbit}, pulses);
+    const auto pulses = without(from.pulses(body, 0.0, body.seconds_of(kRevolutions), rng), {Sun2});
+    const SpinOutput output = run(SpinPass{body.config, from.orbit}, pulses);
     EXPECT_TRUE(judged(output, body.axis_icrf).fix_accepted);
   }
 }
 
 /// Returns the candidate of the pass's first revolutions that is farthest from the truth.
-std::optional<Eigen::Vector3d> false_axis(const testing::SpinningBody& body, const Orbit& orbit,
+std::optional<Eigen::Vector3d> false_axis(const SpinningBody& body, const Orbit& orbit,
                                           const std::vector<Pulse>& pulses) {
   constexpr std::ptrdiff_t kFirstPulses = 120;
   const auto all = static_cast<std::ptrdiff_t>(pulses.size());
-  const auto fixes = all_of<SpinFix>(testing::run(
-      SpinPass{body.config, orbit},
-      std::vector<Pulse>(pulses.begin(), pulses.begin() + std::min(all, kFirstPulses))));
+  const auto fixes = all_of<SpinFix>(
+      run(SpinPass{body.config, orbit},
+          std::vector<Pulse>(pulses.begin(), pulses.begin() + std::min(all, kFirstPulses))));
   if (fixes.empty()) {
     return std::nullopt;
   }
@@ -206,6 +189,11 @@ struct PriorOutcome {
   int passes = 0;
   int estimated = 0;
   int sure = 0;
+
+  std::string text() const {
+    return std::to_string(passes) + " passes, " + std::to_string(estimated) + " estimated, " +
+           std::to_string(sure) + " sure";
+  }
 };
 
 /// Runs passes in which the Earth direction turns by at least 10 deg, with a prior of sigma 3 deg
@@ -215,22 +203,19 @@ std::map<std::string, PriorOutcome> with_prior(bool at_the_truth) {
   std::normal_distribution<double> normal{0.0, 1.0 * kRadPerDeg};
   std::map<std::string, PriorOutcome> outcomes;
   for (int trial = 0; trial < kPasses; ++trial) {
-    const Orbit orbit = random_orbit(rng);
-    const auto around = testing::seen_from(orbit, testing::spherical_horizon_km(40.0));
-    testing::SpinningBody body = testing::random_body(around, 8.0 * kRadPerDeg, rng);
+    const Surroundings from{random_orbit(rng)};
+    SpinningBody body = random_body(from.around, 8.0 * kRadPerDeg, rng);
     double duration_s = 300.0;
     while (duration_s < 1500.0 &&
-           angle_between_rad(around.earth_icrf_km(0.0), around.earth_icrf_km(duration_s)) <
-               10.0 * kRadPerDeg) {
+           angle_between_rad(from.around.earth_icrf_km(0.0),
+                             from.around.earth_icrf_km(duration_s)) < 10.0 * kRadPerDeg) {
       duration_s += 50.0;
     }
-    const auto edges = testing::edges_between(body, around, 0.0, duration_s);
-    const auto pulses =
-        testing::pulses_from(edges, testing::kTransferStart, body.config.noise, rng);
+    const auto pulses = from.pulses(body, 0.0, duration_s, rng);
     for (const DeadSensors& dead : kDead) {
       SCOPED_TRACE(dead.name + ", pass " + std::to_string(trial));
       const auto left = without(pulses, dead.channels);
-      const auto elsewhere = false_axis(body, orbit, left);
+      const auto elsewhere = false_axis(body, from.orbit, left);
       if (!elsewhere) {
         continue;
       }
@@ -241,20 +226,17 @@ std::map<std::string, PriorOutcome> with_prior(bool at_the_truth) {
                                .sigma_rad = 3.0 * kRadPerDeg};
       PriorOutcome& outcome = outcomes[dead.name];
       ++outcome.passes;
-      std::optional<SpinEstimate> last;
-      for (const SpinEstimate& estimate :
-           all_of<SpinEstimate>(testing::run(SpinPass{config, orbit}, left))) {
-        if (estimate.estimator == SpinEstimator::Sequential) {
-          last = estimate;
-        }
+      const auto estimates =
+          estimates_of(run(SpinPass{config, from.orbit}, left), SpinEstimator::Sequential);
+      if (estimates.empty()) {
+        continue;
       }
+      const SpinEstimate& last = estimates.back();
       // No prior makes an axis certain whose fixes are all near tangent.
-      outcome.estimated += last && !has(last->assessment, ReasonCode::FixesNearTangent) ? 1 : 0;
-      if (last && is_unopposed(last->assessment.quality)) {
+      outcome.estimated += !has(last.assessment, ReasonCode::FixesNearTangent) ? 1 : 0;
+      if (is_unopposed(last.assessment.quality)) {
         ++outcome.sure;
-        EXPECT_LT(angle_between_rad(last->axis_icrf, body.axis_icrf),
-                  kSigmas * testing::sigma_rad(*last))
-            << sentence_of(last->assessment);
+        EXPECT_LT(error_sigmas(last, body.axis_icrf), kSigmas) << sentence_of(last.assessment);
       }
     }
   }
@@ -265,9 +247,7 @@ TEST(SpinPassDual, AFalsePriorDoesNotOutliveTheEdgesThatContradictIt) {
   for (const auto& [name, outcome] : with_prior(false)) {
     SCOPED_TRACE(name);
     EXPECT_GT(outcome.sure, outcome.passes / 4);
-    ::testing::Test::RecordProperty(name, std::to_string(outcome.passes) + " passes, " +
-                                              std::to_string(outcome.estimated) + " estimated, " +
-                                              std::to_string(outcome.sure) + " sure");
+    ::testing::Test::RecordProperty(name, outcome.text());
   }
 }
 
@@ -277,9 +257,7 @@ TEST(SpinPassDual, ATruePriorStands) {
   for (const auto& [name, outcome] : with_prior(true)) {
     estimated += outcome.estimated;
     sure += outcome.sure;
-    ::testing::Test::RecordProperty(name, std::to_string(outcome.passes) + " passes, " +
-                                              std::to_string(outcome.estimated) + " estimated, " +
-                                              std::to_string(outcome.sure) + " sure");
+    ::testing::Test::RecordProperty(name, outcome.text());
   }
   EXPECT_GE(sure, 0.95 * estimated);
 }
@@ -287,31 +265,23 @@ TEST(SpinPassDual, ATruePriorStands) {
 /// Runs a pass without pulses of the north beam although the beam crosses the Earth.
 SpinOutput without_north(bool said_to_be_healthy) {
   std::mt19937_64 rng{80};
-  const Orbit orbit = testing::transfer_orbit();
-  const auto around = testing::seen_from(orbit, testing::spherical_horizon_km(40.0));
-  testing::SpinningBody body = testing::random_body(around, 3.0 * kRadPerDeg, rng);
+  const Surroundings from;
+  SpinningBody body = random_body(from.around, 3.0 * kRadPerDeg, rng);
   body.config.north->healthy = said_to_be_healthy;
-  const auto edges = testing::edges_between(body, around, 0.0, 60.0);
-  return testing::run(
-      SpinPass{body.config, orbit},
-      without(testing::pulses_from(edges, testing::kTransferStart, body.config.noise, rng),
-              {NorthIn, NorthOut}));
+  return run(SpinPass{body.config, from.orbit},
+             without(from.pulses(body, 0.0, 60.0, rng), {NorthIn, NorthOut}));
 }
 
 SpinOutput without_sun1(const std::optional<SpinPrior>& prior) {
   std::mt19937_64 rng{82};
-  const Orbit orbit = testing::transfer_orbit();
-  const auto around = testing::seen_from(orbit, testing::spherical_horizon_km(40.0));
-  testing::SpinningBody body{.axis_icrf = kAxisWithoutSun1_icrf,
-                             .rate_rad_s = 2.0 * kPi,
-                             .first_turn_rad = 0.0,
-                             .config = testing::usual_config()};
+  const Surroundings from;
+  SpinningBody body{.axis_icrf = kAxisWithoutSun1_icrf,
+                    .rate_rad_s = 2.0 * kPi,
+                    .first_turn_rad = 0.0,
+                    .config = usual_config()};
   body.config.prior = prior;
-  const auto edges = testing::edges_between(body, around, 0.0, 200.0);
-  return testing::run(
-      SpinPass{body.config, orbit},
-      without(testing::pulses_from(edges, testing::kTransferStart, body.config.noise, rng),
-              {Sun1}));
+  return run(SpinPass{body.config, from.orbit},
+             without(from.pulses(body, 0.0, 200.0, rng), {Sun1}));
 }
 
 TEST(SpinPassDual, APriorSettlesAPassWithoutSun1) {
@@ -320,11 +290,10 @@ TEST(SpinPassDual, APriorSettlesAPassWithoutSun1) {
       .axis_icrf =
           (kAxisWithoutSun1_icrf + tangent_basis(kAxisWithoutSun1_icrf) * off_rad).normalized(),
       .sigma_rad = 5.0 * kRadPerDeg});
-  const SpinEstimate last = testing::last_estimate(output, SpinEstimator::Sequential);
+  const SpinEstimate last = last_estimate(output, SpinEstimator::Sequential);
   EXPECT_TRUE(is_unopposed(last.assessment.quality)) << sentence_of(last.assessment);
-  EXPECT_LT(angle_between_rad(last.axis_icrf, kAxisWithoutSun1_icrf),
-            kSigmas * testing::sigma_rad(last));
-  EXPECT_LT(testing::sigma_rad(last), 0.5 * kRadPerDeg);
+  EXPECT_LT(error_sigmas(last, kAxisWithoutSun1_icrf), kSigmas);
+  EXPECT_LT(sigma_rad(last), 0.5 * kRadPerDeg);
 }
 
 TEST(SpinPassDual, ASilentBeamThatIsSaidToBeHealthyIsToldAndItsFixesNotAccepted) {
@@ -346,4 +315,4 @@ TEST(SpinPassDual, ASilentBeamThatMayHaveFailedIsNoContradiction) {
             40);
 }
 
-}  // namespace spindrift::spin_pass_dual_test
+}  // namespace spindrift::testing::spin_pass_dual_test

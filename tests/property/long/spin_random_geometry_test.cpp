@@ -9,17 +9,14 @@
 #include <cstdint>
 #include <random>
 #include <string>
-#include <vector>
 
-#include "pipelines/frames/celestial.h"
 #include "pipelines/spin/pass/spin_pass.h"
 #include "services/base/assessment_words.h"
-#include "tests/support/normalised_square.h"
 #include "tests/support/observed_spin.h"
 #include "tests/support/product_text.h"
 #include "tests/support/random_pass.h"
 
-namespace spindrift::spin_random_geometry_test {
+namespace spindrift::testing::spin_random_geometry_test {
 
 constexpr double kRevolutions = 150.0;
 
@@ -31,20 +28,16 @@ TEST(SpinRandomGeometry, MeansLieWithinWhatTheyPromise) {
   int selected = 0;
   for (int pass = 0; pass < kPasses; ++pass) {
     std::mt19937_64 rng{static_cast<std::uint64_t>(pass)};
-    const testing::RandomPass drawn = testing::random_pass(rng);
+    const RandomPass drawn = random_pass(rng);
     SCOPED_TRACE(std::to_string(pass) + ": " + drawn.name);
     const SpinOutput output =
-        testing::run(SpinPass{drawn.body.config, drawn.orbit}, drawn.pulses(kRevolutions, rng));
-    std::vector<SpinEstimate> estimates = testing::all_of<SpinEstimate>(output);
-    std::erase_if(estimates, [](const SpinEstimate& estimate) {
-      return estimate.estimator != SpinEstimator::Mean;
-    });
+        run(SpinPass{drawn.body.config, drawn.orbit}, drawn.pulses(kRevolutions, rng));
+    const auto estimates = estimates_of(output, SpinEstimator::Mean);
     if (estimates.empty()) {
       continue;  // The ambiguity was not resolved in this pass.
     }
     const SpinEstimate& mean = estimates.back();
-    const Eigen::Vector2d error_rad = testing::error_rad(mean.axis_icrf, drawn.body.axis_icrf);
-    const double squared = testing::normalised_square(error_rad, mean.covariance_rad2);
+    const double squared = squared_error(mean, drawn.body.axis_icrf);
     // Each has a probability of e^-9 = 1 in 8000.
     EXPECT_LT(squared, 18.0) << sentence_of(mean.assessment);
     squares += squared;
@@ -67,4 +60,4 @@ TEST(SpinRandomGeometry, MeansLieWithinWhatTheyPromise) {
   EXPECT_GT(squares / (2.0 * means), 1.0 - 5.0 / std::sqrt(means));
 }
 
-}  // namespace spindrift::spin_random_geometry_test
+}  // namespace spindrift::testing::spin_random_geometry_test

@@ -3,21 +3,18 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cstdint>
 #include <functional>
 #include <random>
-#include <string>
 
 #include "pipelines/frames/angle.h"
-#include "pipelines/frames/celestial.h"
 #include "pipelines/spin/pass/spin_pass.h"
 #include "tests/support/assessed.h"
 #include "tests/support/observed_spin.h"
 #include "tests/support/product_text.h"
 #include "tests/support/spinning_body.h"
 
-namespace spindrift::spin_wrong_model_test {
+namespace spindrift::testing::spin_wrong_model_test {
 
 constexpr double kEnd_s = 400.0;
 
@@ -32,37 +29,29 @@ struct Tally {
 
 /// Runs passes of a body that differs from its mission file by `differ`.
 Tally tally_of(int passes, const std::function<void(SpinConfig&)>& differ) {
-  const Orbit orbit = testing::transfer_orbit();
-  const auto around = testing::seen_from(orbit, testing::spherical_horizon_km(40.0));
+  const Surroundings from;
   std::mt19937_64 rng{81};
   Tally tally;
   for (int pass = 0; pass < passes; ++pass) {
-    testing::SpinningBody body = testing::random_body(around, 6.0 * kRadPerDeg, rng);
+    SpinningBody body = random_body(from.around, 6.0 * kRadPerDeg, rng);
     const SpinConfig said = body.config;
     differ(body.config);
-    const auto edges = testing::edges_between(body, around, 0.0, kEnd_s);
-    const SpinOutput output =
-        testing::run(SpinPass{said, orbit},
-                     testing::pulses_from(edges, testing::kTransferStart, body.config.noise, rng));
+    const SpinOutput output = run(SpinPass{said, from.orbit}, from.pulses(body, 0.0, kEnd_s, rng));
     bool doubted = false;
-    for (const SpinEstimate& estimate : testing::all_of<SpinEstimate>(output)) {
-      if (estimate.estimator == SpinEstimator::Sequential) {
-        ++tally.estimates;
-        doubted = doubted || estimate.assessment.quality == Quality::Doubtful ||
-                  estimate.assessment.quality == Quality::Lost;
-        tally.sure_and_wrong += is_unopposed(estimate.assessment.quality) &&
-                                        angle_between_rad(estimate.axis_icrf, body.axis_icrf) >
-                                            3.0 * testing::sigma_rad(estimate)
-                                    ? 1
-                                    : 0;
-      }
+    for (const SpinEstimate& estimate : estimates_of(output, SpinEstimator::Sequential)) {
+      ++tally.estimates;
+      doubted = doubted || estimate.assessment.quality == Quality::Doubtful ||
+                estimate.assessment.quality == Quality::Lost;
+      tally.sure_and_wrong +=
+          is_unopposed(estimate.assessment.quality) && error_sigmas(estimate, body.axis_icrf) > 3.0
+              ? 1
+              : 0;
     }
-    const SpinEstimate last = testing::last_estimate(output, SpinEstimator::Sequential);
+    const SpinEstimate last = last_estimate(output, SpinEstimator::Sequential);
     ++tally.passes;
     tally.doubted_ever += doubted ? 1 : 0;
     tally.doubted += last.assessment.quality == Quality::Doubtful ? 1 : 0;
-    tally.covered +=
-        angle_between_rad(last.axis_icrf, body.axis_icrf) < 3.0 * testing::sigma_rad(last) ? 1 : 0;
+    tally.covered += error_sigmas(last, body.axis_icrf) < 3.0 ? 1 : 0;
   }
   for (const auto& [name, value] :
        {std::pair{"doubted", tally.doubted}, std::pair{"covered", tally.covered},
@@ -101,30 +90,27 @@ TEST(SpinWrongModel, NoiseBeyondWhatIsStatedIsDoubtedThroughoutAndCovered) {
 }
 
 /// Returns for how many of the seeds 1 to 10 the pass reports that model errors move its axis far.
-int told_of_poor_leverage(const Orbit& orbit, testing::SpinningBody body) {
-  const auto around = testing::seen_from(orbit, testing::spherical_horizon_km(40.0));
-  const auto edges = testing::edges_between(body, around, 0.0, kEnd_s);
+int told_of_poor_leverage(const Orbit& orbit, SpinningBody body) {
+  const auto around = seen_from(orbit);
+  const auto edges = edges_between(body, around, 0.0, kEnd_s);
   int told = 0;
   for (std::uint64_t seed = 1; seed <= 10; ++seed) {
     std::mt19937_64 rng{seed};
-    const SpinOutput output =
-        testing::run(SpinPass{body.config, orbit},
-                     testing::pulses_from(edges, testing::kTransferStart, body.config.noise, rng));
-    told += testing::has(output.notices, NoticeCode::LittleLeverage) ? 1 : 0;
+    const SpinOutput output = run(SpinPass{body.config, orbit}, noisy_pulses(body, edges, rng));
+    told += has(output.notices, NoticeCode::LittleLeverage) ? 1 : 0;
   }
   return told;
 }
 
 TEST(SpinWrongModel, PoorLeverageIsToldByTheGeometryWhateverTheNoise) {
-  testing::SpinningBody body = testing::body_across_the_earth();
+  SpinningBody body = body_across_the_earth();
   for (const double infrared_s : {5e-4, 2e-3}) {
     body.config.noise.infrared_s = infrared_s;
-    EXPECT_EQ(told_of_poor_leverage(testing::orbit_across_the_earth(), body), 10) << infrared_s;
+    EXPECT_EQ(told_of_poor_leverage(orbit_across_the_earth(), body), 10) << infrared_s;
   }
   std::mt19937_64 rng{81};
-  const Orbit orbit = testing::transfer_orbit();
-  const auto around = testing::seen_from(orbit, testing::spherical_horizon_km(40.0));
-  EXPECT_EQ(told_of_poor_leverage(orbit, testing::random_body(around, 6.0 * kRadPerDeg, rng)), 0);
+  const Surroundings from;
+  EXPECT_EQ(told_of_poor_leverage(from.orbit, random_body(from.around, 6.0 * kRadPerDeg, rng)), 0);
 }
 
-}  // namespace spindrift::spin_wrong_model_test
+}  // namespace spindrift::testing::spin_wrong_model_test

@@ -2,8 +2,8 @@
 
 #include "tests/support/star_fault.h"
 
-namespace spindrift::star_fault_many_test {
+namespace spindrift::testing::star_fault_many_test {
 
-TEST(StarFaultMany, MakesNoWrongAttitudeOk) { testing::expect_honest_rows(60); }
+TEST(StarFaultMany, MakesNoWrongAttitudeOk) { expect_honest_rows(60); }
 
-}  // namespace spindrift::star_fault_many_test
+}  // namespace spindrift::testing::star_fault_many_test

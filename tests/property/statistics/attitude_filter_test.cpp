@@ -7,21 +7,14 @@
 #include <cmath>
 #include <random>
 #include <string>
-#include <vector>
 
 #include "pipelines/frames/angle.h"
 #include "pipelines/three_axis/attitude_estimator.h"
 #include "tests/support/turning_body.h"
 
-namespace spindrift::attitude_filter_test {
+namespace spindrift::testing::attitude_filter_test {
 
 using Eigen::Vector3d;
-using testing::at_s;
-using testing::error_rad;
-using testing::normal_vector;
-using testing::Sensors;
-using testing::TurningBody;
-using testing::usual_three_axis;
 
 constexpr int kPasses = 200;
 constexpr double kGyro_hz = 4.0;
@@ -192,4 +185,4 @@ TEST(AttitudeFilterStatistics, FromThirtyDegreesOffNoisyStarFixesLeadBackAlways)
   EXPECT_EQ(converged, kTrials);
 }
 
-}  // namespace spindrift::attitude_filter_test
+}  // namespace spindrift::testing::attitude_filter_test

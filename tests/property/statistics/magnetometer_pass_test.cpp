@@ -5,7 +5,6 @@
 
 #include <Eigen/Dense>
 #include <cmath>
-#include <optional>
 #include <random>
 #include <string>
 #include <vector>
@@ -18,13 +17,9 @@
 #include "services/mission/igrf.h"
 #include "tests/support/turning_body.h"
 
-namespace spindrift::magnetometer_pass_test {
+namespace spindrift::testing::magnetometer_pass_test {
 
 using Eigen::Vector3d;
-using testing::at_s;
-using testing::normal_vector;
-using testing::Sensors;
-using testing::TurningBody;
 
 constexpr int kPasses = 200;
 constexpr int kSeconds = 300;
@@ -123,14 +118,14 @@ class MagnetometerPass : public ::testing::Test {
       if (t_s != kSeconds / 2.0 && t_s != kSeconds) {
         continue;
       }
-      const Vector3d off_rad = testing::error_rad(estimate->q_icrf_body, body.q_icrf_body(t_s));
+      const Vector3d off_rad = error_rad(estimate->q_icrf_body, body.q_icrf_body(t_s));
       const double nees = off_rad.dot(estimate->covariance_rad2.ldlt().solve(off_rad));
       (t_s == kSeconds ? tally.nees : tally.nees_midway) += nees;
       tally.squared_errors_rad2 += t_s == kSeconds ? off_rad.squaredNorm() : 0.0;
     }
   }
 
-  ThreeAxisConfig config_ = testing::usual_three_axis();
+  ThreeAxisConfig config_ = usual_three_axis();
   MainFieldModel model_ = igrf().value();
   TurningEarth earth_;
   ApparentSun sun_;
@@ -155,4 +150,4 @@ TEST_F(MagnetometerPass, HasTheSigmaThatItClaimsAndIsWorthALot) {
   EXPECT_LT(rms_deg[1], 0.05 * rms_deg[2]);
 }
 
-}  // namespace spindrift::magnetometer_pass_test
+}  // namespace spindrift::testing::magnetometer_pass_test

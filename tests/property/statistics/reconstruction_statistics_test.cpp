@@ -6,11 +6,9 @@
 #include "pipelines/reconstruction/torque_free_arc.h"
 #include "tests/support/separation_flight.h"
 
-namespace spindrift::reconstruction_statistics_test {
+namespace spindrift::testing::reconstruction_statistics_test {
 
 using Eigen::Vector3d;
-using testing::separation_flight;
-using testing::SeparationFlight;
 
 constexpr int kFlights = 400;
 // The 95 % band of chi-square with 1200 degrees of freedom.
@@ -78,4 +76,4 @@ TEST(ReconstructionStatistics, BatchIsBestAndKnowsItsErrorOver400Flights) {
             << " " << batch[3].normalised << ", sequential " << sequential.normalised << "\n";
 }
 
-}  // namespace spindrift::reconstruction_statistics_test
+}  // namespace spindrift::testing::reconstruction_statistics_test

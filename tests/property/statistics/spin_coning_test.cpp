@@ -10,9 +10,7 @@
 #include "tests/support/normalised_square.h"
 #include "tests/support/uniform_spin_residuals.h"
 
-namespace spindrift::spin_coning_test {
-
-using testing::FittedConing;
+namespace spindrift::testing::spin_coning_test {
 
 constexpr double kDuration_s = 300.0;
 constexpr double kAligned_rad = 1e-7;
@@ -22,8 +20,7 @@ constexpr int kTrials = 60;
 constexpr double kMeanOff = 0.85;
 
 FittedConing fitted(const SpinTruth& truth, double alignment_sigma_rad, std::mt19937_64& rng) {
-  return testing::fitted_coning(testing::turning(truth, kDuration_s), kNoise, alignment_sigma_rad,
-                                rng);
+  return fitted_coning(turning(truth, kDuration_s), kNoise, alignment_sigma_rad, rng);
 }
 
 /// Returns the rotation that tilts the axis by this coning.
@@ -34,7 +31,7 @@ Eigen::Vector2d rotation_of(const Coning& coning) {
 
 double chi_square(const FittedConing& fit, const Eigen::Vector2d& coning_rad) {
   const Eigen::Vector2d off = fit.coning_rad - coning_rad;
-  return testing::normalised_square(off, fit.covariance_rad2);
+  return normalised_square(off, fit.covariance_rad2);
 }
 
 ConingTest test_model_errors(const FittedConing& fit) {
@@ -45,7 +42,7 @@ TEST(SpinConing, OfAlignedSensorsIsFoundWhereItLeans) {
   std::mt19937_64 rng{1};
   double sum = 0.0;
   for (int i = 0; i < kTrials; ++i) {
-    SpinTruth truth = testing::steady_truth();
+    SpinTruth truth = steady_truth();
     const Coning coning = {.tilt_rad = 0.5 * kRadPerDeg, .azimuth_rad = 0.1 * i};
     truth.motion.coning = coning;
     const FittedConing fit = fitted(truth, kAligned_rad, rng);
@@ -64,7 +61,7 @@ TEST(SpinConing, IsNotFoundWhereSensorsAreMisplacedAsMuchAsTheyMayBe) {
   std::normal_distribution<double> misplaced{0.0, kMisplaced_rad};
   double sum = 0.0;
   for (int i = 0; i < kTrials; ++i) {
-    SpinTruth truth = testing::steady_truth();
+    SpinTruth truth = steady_truth();
     truth.north->mount_angle_rad += misplaced(rng);
     truth.south->mount_angle_rad += misplaced(rng);
     truth.north->azimuth_rad += misplaced(rng);
@@ -85,7 +82,7 @@ TEST(SpinConing, IsNotFoundWhereSensorsAreMisplacedAsMuchAsTheyMayBe) {
 
 TEST(SpinConing, BelowWhatCouldBeDetectedIsSaidToBe) {
   std::mt19937_64 rng{3};
-  SpinTruth truth = testing::steady_truth();
+  SpinTruth truth = steady_truth();
   truth.motion.coning = {.tilt_rad = 0.02 * kRadPerDeg, .azimuth_rad = 0.5};
   const ConingTest verdict = test_model_errors(fitted(truth, kAligned_rad, rng));
   EXPECT_FALSE(verdict.detected);
@@ -93,4 +90,4 @@ TEST(SpinConing, BelowWhatCouldBeDetectedIsSaidToBe) {
   EXPECT_LT(verdict.detectable_rad, 0.5 * kRadPerDeg);
 }
 
-}  // namespace spindrift::spin_coning_test
+}  // namespace spindrift::testing::spin_coning_test

@@ -4,46 +4,34 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
-#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <random>
 #include <string>
 #include <vector>
 
-#include "pipelines/frames/celestial.h"
 #include "pipelines/spin/pass/spin_pass.h"
 #include "services/base/assessment_words.h"
 #include "tests/support/dirt.h"
-#include "tests/support/normalised_square.h"
 #include "tests/support/observed_spin.h"
 #include "tests/support/product_text.h"
 #include "tests/support/spinning_body.h"
 
-namespace spindrift::spin_mean_selection_test {
+namespace spindrift::testing::spin_mean_selection_test {
 
 /// Holds sun angle and Earth of deploy/scenarios/gto-nominal.toml: without sun2 (case 4) the two
 /// roots of the sun angle meet within the noise, and one fix in a hundred escapes.
 struct Scene {
-  Orbit orbit = testing::orbit_across_the_earth();
-  testing::SpinningBody body = testing::body_across_the_earth();
-  std::vector<testing::Edge> edges;
+  Orbit orbit = orbit_across_the_earth();
+  SpinningBody body = body_across_the_earth();
+  std::vector<Edge> edges;
 
   explicit Scene(double duration_s)
-      : edges{testing::edges_between(body,
-                                     testing::seen_from(orbit, testing::spherical_horizon_km(40.0)),
-                                     0.0, duration_s)} {}
+      : edges{edges_between(body, seen_from(orbit), 0.0, duration_s)} {}
 
-  std::vector<Pulse> pulses(std::mt19937_64& rng) const {
-    return testing::pulses_from(edges, testing::kTransferStart, body.config.noise, rng);
-  }
+  std::vector<Pulse> pulses(std::mt19937_64& rng) const { return noisy_pulses(body, edges, rng); }
   std::vector<SpinEstimate> means(const std::vector<Pulse>& pulses) const {
-    auto estimates =
-        testing::all_of<SpinEstimate>(testing::run(SpinPass{body.config, orbit}, pulses));
-    std::erase_if(estimates, [](const SpinEstimate& estimate) {
-      return estimate.estimator != SpinEstimator::Mean;
-    });
-    return estimates;
+    return estimates_of(run(SpinPass{body.config, orbit}, pulses), SpinEstimator::Mean);
   }
 };
 
@@ -53,12 +41,11 @@ TEST(SpinMeanSelection, LostEdgesLeaveTheErrorsWhatTheirSigmasPromise) {
   double squares = 0.0;
   for (int pass = 0; pass < kPasses; ++pass) {
     std::mt19937_64 rng{1100U + static_cast<std::uint64_t>(pass)};
-    const auto received = testing::dirty(scene.pulses(rng), 1.0,
-                                         {.lost = 0.05, .spoilt = 0.03, .spurious = 0.02}, rng);
+    const auto received =
+        dirty(scene.pulses(rng), 1.0, {.lost = 0.05, .spoilt = 0.03, .spurious = 0.02}, rng);
     const SpinEstimate mean = scene.means(received.pulses).back();
     EXPECT_TRUE(is_unopposed(mean.assessment.quality)) << sentence_of(mean.assessment);
-    const Eigen::Vector2d error_rad = testing::error_rad(mean.axis_icrf, scene.body.axis_icrf);
-    squares += testing::normalised_square(error_rad, mean.covariance_rad2);
+    squares += squared_error(mean, scene.body.axis_icrf);
   }
   RecordProperty("mean_square", std::to_string(squares / (2.0 * kPasses)));
   // The 0.05 % and 99.95 % points of chi-square with 80 degrees of freedom.
@@ -69,8 +56,7 @@ TEST(SpinMeanSelection, LostEdgesLeaveTheErrorsWhatTheirSigmasPromise) {
 TEST(SpinMeanSelection, TheFewFixesThatDoNotGrazeMakeNoMeanThatIsOk) {
   constexpr int kPasses = 24;
   Scene scene{600.0};
-  std::erase_if(scene.edges,
-                [](const testing::Edge& edge) { return edge.channel == PulseChannel::Sun2; });
+  std::erase_if(scene.edges, [](const Edge& edge) { return edge.channel == PulseChannel::Sun2; });
   int passes_with_mean = 0;
   double squares_rad2 = 0.0;
   for (int pass = 0; pass < kPasses; ++pass) {
@@ -78,13 +64,11 @@ TEST(SpinMeanSelection, TheFewFixesThatDoNotGrazeMakeNoMeanThatIsOk) {
     std::mt19937_64 rng{1200U + static_cast<std::uint64_t>(pass)};
     const std::vector<SpinEstimate> means = scene.means(scene.pulses(rng));
     for (const SpinEstimate& mean : means) {
-      const double off_rad = angle_between_rad(mean.axis_icrf, scene.body.axis_icrf);
       EXPECT_TRUE(mean.assessment.quality == Quality::Doubtful) << sentence_of(mean.assessment);
-      EXPECT_LT(off_rad, 3.0 * testing::sigma_rad(mean)) << sentence_of(mean.assessment);
+      EXPECT_LT(error_sigmas(mean, scene.body.axis_icrf), 3.0) << sentence_of(mean.assessment);
     }
     if (!means.empty()) {
-      squares_rad2 += std::pow(angle_between_rad(means.back().axis_icrf, scene.body.axis_icrf), 2) /
-                      std::pow(testing::sigma_rad(means.back()), 2);
+      squares_rad2 += std::pow(error_sigmas(means.back(), scene.body.axis_icrf), 2);
       ++passes_with_mean;
     }
   }
@@ -96,4 +80,4 @@ TEST(SpinMeanSelection, TheFewFixesThatDoNotGrazeMakeNoMeanThatIsOk) {
   EXPECT_GT(squares_rad2, 0.2 * passes_with_mean);
 }
 
-}  // namespace spindrift::spin_mean_selection_test
+}  // namespace spindrift::testing::spin_mean_selection_test

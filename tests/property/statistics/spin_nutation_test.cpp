@@ -3,47 +3,43 @@
 #include "pipelines/frames/angle.h"
 #include "tests/support/nutation_trials.h"
 
-namespace spindrift::spin_nutation_test {
+namespace spindrift::testing::spin_nutation_test {
 
 TEST(SpinNutation, OfTwoTenthsOfADegreeIsFoundInThreeHundredTurns) {
-  testing::NutationTrials trials{1};
+  NutationTrials trials{1};
   for (int i = 0; i < 20; ++i) {
     const Nutation nutation = trials.random_nutation(0.2);
-    SCOPED_TRACE(testing::text_of(nutation));
-    const auto search = trials.searched(nutation);
-    ASSERT_TRUE(search.found);
-    const testing::Deviations off = testing::deviations(*search.found, nutation);
+    SCOPED_TRACE(text_of(nutation));
+    const FoundNutation found = trials.found(nutation);
+    const Deviations off = deviations(found, nutation);
     EXPECT_LT(off.period_share, 0.01);
     EXPECT_LT(off.half_angle_sigmas, 3.0);
-    EXPECT_TRUE(search.found->other_periods_s.empty());
+    EXPECT_TRUE(found.other_periods_s.empty());
   }
 }
 
 TEST(SpinNutation, OfSlenderAndFlatBodiesIsToldApart) {
-  testing::NutationTrials trials{2};
+  NutationTrials trials{2};
   for (const double inertia_ratio : {0.08, 0.2, 0.5, 0.9, 1.1, 1.5, 1.9}) {
     SCOPED_TRACE(inertia_ratio);
     const Nutation nutation = {.half_angle_rad = 0.2 * kRadPerDeg,
                                .inertia_ratio = inertia_ratio,
                                .first_azimuth_rad = 1.0};
-    const auto search = trials.searched(nutation);
-    ASSERT_TRUE(search.found);
-    EXPECT_LT(testing::deviations(*search.found, nutation).period_share, 1e-3);
+    EXPECT_LT(deviations(trials.found(nutation), nutation).period_share, 1e-3);
   }
 }
 
 TEST(SpinNutation, OfDegreesIsFoundButForItsSecondOrder) {
-  testing::NutationTrials trials{7};
+  NutationTrials trials{7};
   const Nutation nutation = trials.random_nutation(3.0);
-  SCOPED_TRACE(testing::text_of(nutation));
-  const auto search = trials.searched(nutation);
-  ASSERT_TRUE(search.found);
-  EXPECT_LT(testing::deviations(*search.found, nutation).period_share, 1e-3);
-  EXPECT_NEAR(search.found->half_angle_rad.value / nutation.half_angle_rad, 1.0, 0.03);
+  SCOPED_TRACE(text_of(nutation));
+  const FoundNutation found = trials.found(nutation);
+  EXPECT_LT(deviations(found, nutation).period_share, 1e-3);
+  EXPECT_NEAR(found.half_angle_rad.value / nutation.half_angle_rad, 1.0, 0.03);
 }
 
 TEST(SpinNutation, IsNotFoundWhereThereIsNone) {
-  testing::NutationTrials trials{3};
+  NutationTrials trials{3};
   for (int i = 0; i < 30; ++i) {
     EXPECT_FALSE(trials.searched({}).found);
   }
@@ -51,7 +47,7 @@ TEST(SpinNutation, IsNotFoundWhereThereIsNone) {
 
 TEST(SpinNutation, IsNotMadeUpOutOfMisplacedSensorsAndAnOblateEarth) {
   for (const double duration_s : {300.0, 3600.0}) {
-    testing::NutationTrials trials{4, duration_s};
+    NutationTrials trials{4, duration_s};
     trials.truth.horizon =
         infrared_horizon({.model = HorizonModel::Ellipsoid, .co2_altitude_km = 40.0},
                          trials.truth.horizon.pole_icrf);
@@ -64,7 +60,7 @@ TEST(SpinNutation, IsNotMadeUpOutOfMisplacedSensorsAndAnOblateEarth) {
 }
 
 TEST(SpinNutation, BelowWhatCouldBeDetectedIsSaidToBe) {
-  testing::NutationTrials trials{5};
+  NutationTrials trials{5};
   for (int i = 0; i < 10; ++i) {
     const Nutation nutation = trials.random_nutation(0.004);
     const auto search = trials.searched(nutation);
@@ -75,12 +71,10 @@ TEST(SpinNutation, BelowWhatCouldBeDetectedIsSaidToBe) {
 }
 
 TEST(SpinNutation, IsFoundWhereTheRateDrifts) {
-  testing::NutationTrials trials{6};
+  NutationTrials trials{6};
   trials.truth.motion.rate_drift_rad_s2 = -2e-4;  // 1 rpm in ten minutes.
   const Nutation nutation = trials.random_nutation(0.2);
-  const auto search = trials.searched(nutation);
-  ASSERT_TRUE(search.found);
-  EXPECT_NEAR(search.found->per_turn, nutation.per_turn(), 1e-3);
+  EXPECT_NEAR(trials.found(nutation).per_turn, nutation.per_turn(), 1e-3);
 }
 
-}  // namespace spindrift::spin_nutation_test
+}  // namespace spindrift::testing::spin_nutation_test

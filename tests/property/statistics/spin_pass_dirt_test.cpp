@@ -25,13 +25,9 @@
 #include "tests/support/product_text.h"
 #include "tests/support/spinning_body.h"
 
-namespace spindrift::spin_pass_dirt_test {
+namespace spindrift::testing::spin_pass_dirt_test {
 
 using enum PulseChannel;
-using testing::all_of;
-using testing::Dirt;
-using testing::DirtyPass;
-using testing::SpinningBody;
 
 constexpr double kPi = std::numbers::pi;
 
@@ -69,15 +65,14 @@ void expect_one_fate_each(const SpinOutput& output, const std::vector<Pulse>& pu
   ASSERT_EQ(told, std::vector<Pulse>(given.begin(), given.end()));
 }
 
-struct Scene {
-  Orbit orbit = testing::transfer_orbit();
-  testing::SunEarthEphemeris around =
-      testing::seen_from(orbit, testing::spherical_horizon_km(40.0));
-
-  std::vector<Pulse> seen(const SpinningBody& body, double from_s, double to_s,
-                          std::mt19937_64& rng) const {
-    return testing::pulses_from(testing::edges_between(body, around, from_s, to_s),
-                                testing::kTransferStart, body.config.noise, rng);
+struct Scene : Surroundings {
+  /// Returns pulses with a silence after `heard_s` and more for `then_s` after it.
+  std::vector<Pulse> around_silence(const SpinningBody& body, double heard_s, double silence_s,
+                                    double then_s, std::mt19937_64& rng) const {
+    std::vector<Pulse> all = pulses(body, 0.0, heard_s, rng);
+    const auto later = pulses(body, heard_s + silence_s, heard_s + silence_s + then_s, rng);
+    all.insert(all.end(), later.begin(), later.end());
+    return all;
   }
   SpinOutput run(const SpinningBody& body, const std::vector<Pulse>& pulses) const {
     SpinOutput output = testing::run(SpinPass{body.config, orbit}, pulses);
@@ -88,11 +83,10 @@ struct Scene {
 };
 
 void expect_found(const SpinOutput& output, const SpinningBody& body) {
-  const SpinEstimate sequential = testing::last_estimate(output, SpinEstimator::Sequential);
+  const SpinEstimate sequential = last_estimate(output, SpinEstimator::Sequential);
   EXPECT_TRUE(is_unopposed(sequential.assessment.quality)) << sentence_of(sequential.assessment);
-  const double off_rad = angle_between_rad(sequential.axis_icrf, body.axis_icrf);
-  EXPECT_LT(off_rad, 4.0 * testing::sigma_rad(sequential));
-  EXPECT_LT(testing::sigma_rad(sequential), 0.3 * kRadPerDeg);
+  EXPECT_LT(error_sigmas(sequential, body.axis_icrf), 4.0);
+  EXPECT_LT(sigma_rad(sequential), 0.3 * kRadPerDeg);
   EXPECT_NEAR(sequential.spin_rate_rad_s, body.rate_rad_s, 5.0 * sequential.spin_rate_sigma_rad_s);
 }
 
@@ -105,20 +99,23 @@ std::int64_t miscounted(const SpinOutput& output, const SpinningBody& body) {
   return revolutions.back().revolution - revolutions.front().revolution - std::llround(turns);
 }
 
+struct SpinPassDirtTest : ::testing::Test {
+  Scene scene;
+};
+
 /// The measurements after the first ten revolutions are screened like those before. A different
 /// rule rejected one in twenty good sun angles at 5 rpm, six in a row.
-TEST(SpinPassDirt, GoodMeasurementsAreKeptAtAnyRate) {
-  const Scene scene;
+TEST_F(SpinPassDirtTest, GoodMeasurementsAreKeptAtAnyRate) {
   for (const double rpm : {5.0, 20.0, 60.0}) {
     SCOPED_TRACE(rpm);
     std::mt19937_64 rng{702};
     int angles = 0;
     int refused = 0;
     for (int pass = 0; pass < 20; ++pass) {
-      SpinningBody body = testing::random_body(scene.around, 20.0 * kRadPerDeg, rng);
+      SpinningBody body = random_body(scene.around, 20.0 * kRadPerDeg, rng);
       body.rate_rad_s = rpm * kPi / 30.0;
       body.config.noise = {.sun_s = 1e-4, .infrared_s = 4e-3};
-      const SpinOutput output = scene.run(body, scene.seen(body, 0.0, 50.0 * 60.0 / rpm, rng));
+      const SpinOutput output = scene.run(body, scene.pulses(body, 0.0, 50.0 * 60.0 / rpm, rng));
       for (const SpinMeasurement& measurement : all_of<SpinMeasurement>(output)) {
         angles += measurement.quantity == SpinQuantity::SunAngle ? 1 : 0;
         refused +=
@@ -131,8 +128,7 @@ TEST(SpinPassDirt, GoodMeasurementsAreKeptAtAnyRate) {
   }
 }
 
-TEST(SpinPassDirt, AxisAndRateAreFoundHoweverDirtyThePass) {
-  const Scene scene;
+TEST_F(SpinPassDirtTest, AxisAndRateAreFoundHoweverDirtyThePass) {
   std::mt19937_64 rng{701};
   const std::array<Dirt, 4> kLevels = {{{.lost = 0.05, .spoilt = 0.05, .spurious = 0.04},
                                         {.lost = 0.2},
@@ -142,11 +138,11 @@ TEST(SpinPassDirt, AxisAndRateAreFoundHoweverDirtyThePass) {
     for (const double rpm : {5.0, 20.0, 60.0, 200.0}) {
       SCOPED_TRACE(::testing::Message() << rpm << " rpm, lost " << dirt.lost << " spoilt "
                                         << dirt.spoilt << " spurious " << dirt.spurious);
-      SpinningBody body = testing::random_body(scene.around, 4.0 * kRadPerDeg, rng);
+      SpinningBody body = random_body(scene.around, 4.0 * kRadPerDeg, rng);
       body.rate_rad_s = rpm * 2.0 * kPi / 60.0;
       const double period_s = 60.0 / rpm;
-      const DirtyPass pass = testing::dirty(
-          scene.seen(body, 0.0, std::min(200.0 * period_s, 900.0), rng), period_s, dirt, rng);
+      const DirtyPass pass = dirty(scene.pulses(body, 0.0, std::min(200.0 * period_s, 900.0), rng),
+                                   period_s, dirt, rng);
       const SpinOutput output = scene.run(body, pass.pulses);
       expect_found(output, body);
       double bad_used = 0.0;
@@ -162,34 +158,30 @@ TEST(SpinPassDirt, AxisAndRateAreFoundHoweverDirtyThePass) {
   }
 }
 
-TEST(SpinPassDirt, TurnsAreCountedThroughSilencesOfMinutes) {
-  const Scene scene;
+TEST_F(SpinPassDirtTest, TurnsAreCountedThroughSilencesOfMinutes) {
   std::mt19937_64 rng{702};
   for (const double silence_s : {60.0, 300.0, 900.0}) {
     SCOPED_TRACE(silence_s);
-    const SpinningBody body = testing::random_body(scene.around, 2.0 * kRadPerDeg, rng);
-    std::vector<Pulse> pulses = scene.seen(body, 0.0, 120.0, rng);
-    const auto later = scene.seen(body, 120.0 + silence_s, 240.0 + silence_s, rng);
-    pulses.insert(pulses.end(), later.begin(), later.end());
-    const SpinOutput output = scene.run(body, pulses);
+    const SpinningBody body = random_body(scene.around, 2.0 * kRadPerDeg, rng);
+    const SpinOutput output =
+        scene.run(body, scene.around_silence(body, 120.0, silence_s, 120.0, rng));
     EXPECT_EQ(miscounted(output, body), 0);
     expect_found(output, body);
   }
 }
 
-TEST(SpinPassDirt, CountAndRateAreRightAtAnyRateUnknownBeforehand) {
-  const Scene scene;
+TEST_F(SpinPassDirtTest, CountAndRateAreRightAtAnyRateUnknownBeforehand) {
   std::mt19937_64 rng{707};
   std::bernoulli_distribution doubled{0.05};
   std::uniform_real_distribution<double> behind_s{1e-4, 2e-3};
   for (const double rpm : {5.0, 20.0, 60.0, 100.0, 150.0, 200.0}) {
     for (int seed = 0; seed < 3; ++seed) {
       SCOPED_TRACE(::testing::Message() << rpm << " rpm, trial " << seed);
-      SpinningBody body = testing::random_body(scene.around, 3.0 * kRadPerDeg, rng);
+      SpinningBody body = random_body(scene.around, 3.0 * kRadPerDeg, rng);
       body.rate_rad_s = rpm * 2.0 * kPi / 60.0;
       const double period_s = 60.0 / rpm;
-      std::vector<Pulse> pulses = testing::dirty(scene.seen(body, 0.0, 120.0 * period_s, rng),
-                                                 period_s, {.lost = 0.1, .spurious = 0.05}, rng)
+      std::vector<Pulse> pulses = dirty(scene.pulses(body, 0.0, 120.0 * period_s, rng), period_s,
+                                        {.lost = 0.1, .spurious = 0.05}, rng)
                                       .pulses;
       for (std::size_t i = 0, sent = pulses.size(); i < sent; ++i) {
         if (doubled(rng)) {
@@ -200,29 +192,26 @@ TEST(SpinPassDirt, CountAndRateAreRightAtAnyRateUnknownBeforehand) {
       std::sort(pulses.begin(), pulses.end());
       const SpinOutput output = scene.run(body, pulses);
       EXPECT_EQ(miscounted(output, body), 0);
-      const SpinEstimate mean = testing::last_estimate(output, SpinEstimator::Mean);
+      const SpinEstimate mean = last_estimate(output, SpinEstimator::Mean);
       EXPECT_NEAR(mean.spin_rate_rad_s, body.rate_rad_s, 4.0 * mean.spin_rate_sigma_rad_s);
       EXPECT_LT(mean.spin_rate_sigma_rad_s, 1e-4 * body.rate_rad_s);
     }
   }
 }
 
-TEST(SpinPassDirt, AfterAnHourOfSilenceTheCountIsRightOrSaidToBeUncertain) {
-  const Scene scene;
+TEST_F(SpinPassDirtTest, AfterAnHourOfSilenceTheCountIsRightOrSaidToBeUncertain) {
   std::mt19937_64 rng{708};
   constexpr double kSilence_s = 62.0 * 60.0;
   for (const bool sun1_only : {false, true}) {
     for (const double heard_s : {8.0, 600.0}) {
       SCOPED_TRACE(::testing::Message() << heard_s << " s heard, sun1 only: " << sun1_only);
-      const SpinningBody body = testing::random_body(scene.around, 2.0 * kRadPerDeg, rng);
-      std::vector<Pulse> pulses = scene.seen(body, 0.0, heard_s, rng);
-      const auto later = scene.seen(body, heard_s + kSilence_s, heard_s + kSilence_s + 60.0, rng);
-      pulses.insert(pulses.end(), later.begin(), later.end());
+      const SpinningBody body = random_body(scene.around, 2.0 * kRadPerDeg, rng);
+      std::vector<Pulse> pulses = scene.around_silence(body, heard_s, kSilence_s, 60.0, rng);
       if (sun1_only) {
         std::erase_if(pulses, [](const Pulse& pulse) { return pulse.channel != Sun1; });
       }
       const SpinOutput output = scene.run(body, pulses);
-      const bool said = testing::has(output.notices, NoticeCode::CountUncertain);
+      const bool said = has(output.notices, NoticeCode::CountUncertain);
       // After eight turns the drift is still unknown, after ten minutes it is not.
       EXPECT_EQ(said, heard_s < 60.0);
       if (!said) {
@@ -233,11 +222,10 @@ TEST(SpinPassDirt, AfterAnHourOfSilenceTheCountIsRightOrSaidToBeUncertain) {
   }
 }
 
-TEST(SpinPassDirt, AnEdgeStampedAYearOffMovesNothing) {
-  const Scene scene;
+TEST_F(SpinPassDirtTest, AnEdgeStampedAYearOffMovesNothing) {
   std::mt19937_64 rng{709};
-  const SpinningBody body = testing::random_body(scene.around, 2.0 * kRadPerDeg, rng);
-  const std::vector<Pulse> pulses = scene.seen(body, 0.0, 120.0, rng);
+  const SpinningBody body = random_body(scene.around, 2.0 * kRadPerDeg, rng);
+  const std::vector<Pulse> pulses = scene.pulses(body, 0.0, 120.0, rng);
   const SpinOutput expected = scene.run(body, pulses);
   for (const double days : {-365.0, 365.0}) {
     SCOPED_TRACE(days);
@@ -251,38 +239,36 @@ TEST(SpinPassDirt, AnEdgeStampedAYearOffMovesNothing) {
       if (use != nullptr && use->pulse == stray) {
         EXPECT_EQ(use->rejected_by, days < 0.0 ? Rejection::Late : Rejection::OutOfTime);
       } else {
-        texts.push_back(testing::text_of(product));
+        texts.push_back(text_of(product));
       }
     }
-    EXPECT_EQ(texts, testing::texts_of(expected));
+    EXPECT_EQ(texts, texts_of(expected));
   }
 }
 
-TEST(SpinPassDirt, TheFilterRunsOnWhenSun1Dies) {
-  const Scene scene;
+TEST_F(SpinPassDirtTest, TheFilterRunsOnWhenSun1Dies) {
   std::mt19937_64 rng{703};
-  const SpinningBody body = testing::random_body(scene.around, 2.0 * kRadPerDeg, rng);
+  const SpinningBody body = random_body(scene.around, 2.0 * kRadPerDeg, rng);
   for (const std::set<PulseChannel>& dead :
        {std::set{Sun1}, std::set{Sun1, Sun2}, std::set{Sun1, Sun2, SouthIn, SouthOut}}) {
     SCOPED_TRACE(dead.size());
-    std::vector<Pulse> pulses = scene.seen(body, 0.0, 300.0, rng);
-    const TaiTime death = shifted(testing::kTransferStart, 150.0);
+    std::vector<Pulse> pulses = scene.pulses(body, 0.0, 300.0, rng);
+    const TaiTime death = shifted(kTransferStart, 150.0);
     std::erase_if(pulses, [&](const Pulse& pulse) {
       return pulse.t > death && dead.contains(pulse.channel);
     });
     const SpinOutput output = scene.run(body, pulses);
-    const SpinEstimate last = testing::last_estimate(output, SpinEstimator::Sequential);
+    const SpinEstimate last = last_estimate(output, SpinEstimator::Sequential);
     EXPECT_GT(seconds_between(death, last.t), 140.0);
     expect_found(output, body);
   }
 }
 
-TEST(SpinPassDirt, InterferenceSpoilsBothEdges) {
-  const Scene scene;
+TEST_F(SpinPassDirtTest, InterferenceSpoilsBothEdges) {
   std::mt19937_64 rng{704};
-  SpinningBody body = testing::random_body(scene.around, 2.0 * kRadPerDeg, rng);
+  SpinningBody body = random_body(scene.around, 2.0 * kRadPerDeg, rng);
   body.config.screening.interference_s = 0.002;
-  const auto pulses = scene.seen(body, 0.0, 150.0, rng);
+  const auto pulses = scene.pulses(body, 0.0, 150.0, rng);
   const auto uses = all_of<PulseUse>(scene.run(body, pulses));
   int met = 0;
   for (std::size_t i = 1; i < pulses.size(); ++i) {
@@ -299,49 +285,45 @@ TEST(SpinPassDirt, InterferenceSpoilsBothEdges) {
   EXPECT_GT(met, 10);
 }
 
-TEST(SpinPassDirt, SwappedBeamsGiveNoConfidentAxis) {
-  const Scene scene;
+TEST_F(SpinPassDirtTest, SwappedBeamsGiveNoConfidentAxis) {
   std::mt19937_64 rng{705};
   constexpr std::array<PulseChannel, kPulseChannels> kSwapped = {Sun1,     Sun2,    SouthIn,
                                                                  SouthOut, NorthIn, NorthOut};
   for (int trial = 0; trial < 10; ++trial) {
     SCOPED_TRACE(trial);
-    const SpinningBody body = testing::random_body(scene.around, 2.0 * kRadPerDeg, rng);
-    std::vector<Pulse> pulses = scene.seen(body, 0.0, 150.0, rng);
+    const SpinningBody body = random_body(scene.around, 2.0 * kRadPerDeg, rng);
+    std::vector<Pulse> pulses = scene.pulses(body, 0.0, 150.0, rng);
     for (Pulse& pulse : pulses) {
       pulse.channel = kSwapped.at(index_of(pulse.channel));
     }
     std::sort(pulses.begin(), pulses.end());
-    for (const SpinEstimate& estimate : all_of<SpinEstimate>(scene.run(body, pulses))) {
+    for (const SpinEstimate& estimate :
+         estimates_of(scene.run(body, pulses), SpinEstimator::Sequential)) {
       // The first estimate is the initial fix, before any edge was processed.
-      if (estimate.estimator == SpinEstimator::Sequential &&
-          is_unopposed(estimate.assessment.quality) &&
-          testing::number_of(estimate.assessment.reasons, ReasonCode::Revolutions, "count") !=
-              0.0) {
+      if (is_unopposed(estimate.assessment.quality) &&
+          number_of(estimate.assessment.reasons, ReasonCode::Revolutions, "count") != 0.0) {
         EXPECT_LT(angle_between_rad(estimate.axis_icrf, body.axis_icrf),
-                  5.0 * testing::sigma_rad(estimate) + kRadPerDeg)
+                  5.0 * sigma_rad(estimate) + kRadPerDeg)
             << sentence_of(estimate.assessment);
       }
     }
   }
 }
 
-TEST(SpinPassDirt, GarbageGivesNothingThatIsNoNumber) {
-  const Scene scene;
+TEST_F(SpinPassDirtTest, GarbageGivesNothingThatIsNoNumber) {
   std::mt19937_64 rng{706};
   std::uniform_int_distribution<int> channel{0, static_cast<int>(kPulseChannels) - 1};
   std::uniform_int_distribution<std::int64_t> anywhen{std::numeric_limits<std::int64_t>::min(),
                                                       std::numeric_limits<std::int64_t>::max()};
   for (int trial = 0; trial < 60; ++trial) {
     SCOPED_TRACE(trial);
-    const SpinningBody body = testing::random_body(scene.around, 8.0 * kRadPerDeg, rng);
+    const SpinningBody body = random_body(scene.around, 8.0 * kRadPerDeg, rng);
     std::vector<Pulse> pulses =
-        trial % 3 == 0 ? std::vector<Pulse>{} : scene.seen(body, 0.0, 60.0, rng);
+        trial % 3 == 0 ? std::vector<Pulse>{} : scene.pulses(body, 0.0, 60.0, rng);
     std::uniform_real_distribution<double> within_s{0.0, trial % 2 == 0 ? 60.0 : 4000.0};
     for (int i = 0; i < 600; ++i) {
-      pulses.push_back({.t = i % 20 == 0 && trial % 4 > 1
-                                 ? tai_from_ns(anywhen(rng))
-                                 : shifted(testing::kTransferStart, within_s(rng)),
+      pulses.push_back({.t = i % 20 == 0 && trial % 4 > 1 ? tai_from_ns(anywhen(rng))
+                                                          : shifted(kTransferStart, within_s(rng)),
                         .channel = static_cast<PulseChannel>(channel(rng))});
     }
     if (trial % 5 != 0) {
@@ -351,4 +333,4 @@ TEST(SpinPassDirt, GarbageGivesNothingThatIsNoNumber) {
   }
 }
 
-}  // namespace spindrift::spin_pass_dirt_test
+}  // namespace spindrift::testing::spin_pass_dirt_test

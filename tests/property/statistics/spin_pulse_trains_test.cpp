@@ -4,14 +4,12 @@
 
 #include "tests/support/pulse_trains.h"
 
-namespace spindrift::spin_pulse_trains_test {
+namespace spindrift::testing::spin_pulse_trains_test {
 
 TEST(SpinPulseTrains, DoubledAndHalvedOnesHaveTheirAxis) {
-  testing::expect_the_axis_of(testing::plain_trains(), true, 1, 1);
+  expect_the_axis_of(plain_trains(), true, 1, 1);
 }
 
-TEST(SpinPulseTrains, NoneIsOkFarOff) {
-  testing::expect_the_axis_of(testing::mixed_trains(), false, 1, 1);
-}
+TEST(SpinPulseTrains, NoneIsOkFarOff) { expect_the_axis_of(mixed_trains(), false, 1, 1); }
 
-}  // namespace spindrift::spin_pulse_trains_test
+}  // namespace spindrift::testing::spin_pulse_trains_test

@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-namespace spindrift::star_fault_test {
+namespace spindrift::testing::star_fault_test {
 
-TEST(StarFault, MakesNoWrongAttitudeOk) { testing::expect_honest_rows(2); }
+TEST(StarFault, MakesNoWrongAttitudeOk) { expect_honest_rows(2); }
 
-}  // namespace spindrift::star_fault_test
+}  // namespace spindrift::testing::star_fault_test

@@ -68,7 +68,6 @@ TEST(Association, AChordThatDriftsPastSun1StaysInOnePiece) {
             {.t = shifted(kStart, (turn + phase) * kSlowPeriod_s), .channel = channel});
       }
     }
-    std::sort(pulses.begin(), pulses.end());
     const Association all = associate(pulses);
     int whole = 0;
     for (const Revolution& revolution : all.closed) {
@@ -95,7 +94,7 @@ TEST(Association, AChordThatDriftsPastSun1StaysInOnePiece) {
 TEST(Association, AChordThatMovedDuringASilenceIsFoundAgain) {
   std::vector<MadeEdge> edges = made({.turns = 50});
   const auto sun = without(made({.turns = 350}), [](const MadeEdge& edge) {
-    return edge.turn < 50 || (edge.pulse.channel != Sun1 && edge.pulse.channel != Sun2);
+    return edge.turn < 50 || !sees_the_sun(edge.pulse.channel);
   });
   const auto later =
       without(made({.phases_turns = {0.0, 0.11, 0.70, 0.82, 0.71, 0.85}, .turns = 450}),
@@ -126,9 +125,7 @@ TEST(Association, AStepInTheSpinRateIsFollowed) {
     // Six of nine intervals must agree, so both edges of at least five turns are lost.
     EXPECT_LE(all.left_over.size(), 20U);
     EXPECT_NEAR(all.closed.back().period.period_s, kPeriod_s * (1.0 + step), 1e-6);
-    EXPECT_TRUE(std::is_sorted(
-        all.closed.begin(), all.closed.end(),
-        [](const Revolution& a, const Revolution& b) { return a.number < b.number; }));
+    EXPECT_TRUE(std::ranges::is_sorted(all.closed, {}, &Revolution::number));
   }
 }
 
@@ -144,7 +141,6 @@ TEST(Association, AStepBackInTimeIsNoStepInTheSpinRate) {
             {.t = shifted(kStart, (turn - stepped_turns + phase) * kPeriod_s), .channel = channel});
       }
     }
-    std::sort(pulses.begin(), pulses.end());
     const Association all = associate(pulses);
     for (const Revolution& revolution : all.closed) {
       EXPECT_NEAR(revolution.period.period_s, kPeriod_s, 0.1 * kPeriod_s) << revolution.number;
@@ -246,8 +242,7 @@ TEST(Association, AYearOfSilenceStartsTheClockAfresh) {
   }
   const Association all = associate(pulses);
   EXPECT_LT(all.left_over.size(), 6U);
-  EXPECT_TRUE(std::is_sorted(all.closed.begin(), all.closed.end(),
-                             [](const auto& a, const auto& b) { return a.number < b.number; }));
+  EXPECT_TRUE(std::ranges::is_sorted(all.closed, {}, &Revolution::number));
   const auto year_on = std::find_if(all.closed.begin(), all.closed.end(), [&](const auto& r) {
     return r.t_start > shifted(kStart, 1e6);
   });

@@ -4,15 +4,14 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <map>
 #include <random>
 #include <vector>
 
 #include "pipelines/spin/association/association.h"
 #include "pipelines/spin/telemetry_order/interference.h"
-#include "tests/support/spinning_body.h"
+#include "tests/support/edge_train.h"
 
-namespace spindrift::association_interference_test {
+namespace spindrift::testing::association_interference_test {
 
 using enum PulseChannel;
 
@@ -91,42 +90,32 @@ Association associate(const std::vector<Edge>& edges, const SpinConfig& config, 
   InterferenceWindow window{config.screening.interference_s};
   Associator associator{config};
   Association all;
-  const auto collect = [&](const Association& some) {
-    all.closed.insert(all.closed.end(), some.closed.begin(), some.closed.end());
-    outcome.began.insert(outcome.began.end(), some.began_to_interfere.begin(),
-                         some.began_to_interfere.end());
-  };
   const auto associate_all = [&](const std::vector<InterferenceWindow::Judged>& judged) {
     for (const auto& [pulse, spoilt] : judged) {
-      collect(spoilt ? associator.push_spoilt(pulse) : associator.push(pulse));
+      append(all, spoilt ? associator.push_spoilt(pulse) : associator.push(pulse));
     }
   };
   for (const Pulse& pulse : pulses) {
     associate_all(window.push(pulse));
   }
   associate_all(window.finish());
-  collect(associator.finish());
+  append(all, associator.finish());
+  outcome.began = all.began_to_interfere;
   outcome.interfering = associator.interfering();
   return all;
 }
 
 Outcome outcome_of(const Crossing& crossing, const std::vector<Edge>& edges) {
-  SpinConfig config = testing::usual_config();
+  SpinConfig config = usual_config();
   config.screening.interference_s = crossing.window_s;
   Outcome outcome;
   const Association all = associate(edges, config, outcome);
-  std::map<TaiTime, PulseChannel> good;
-  for (const Revolution& revolution : all.closed) {
-    for (std::size_t i = 0; i < kPulseChannels; ++i) {
-      if (const auto edge = revolution.good_edge(static_cast<PulseChannel>(i))) {
-        good.emplace(*edge, static_cast<PulseChannel>(i));
-      }
-    }
-  }
+  const auto good = good_edges(all);
   const double noise_s = config.noise.infrared_s;
   const double far_s = crossing.window_s + 4.0 * std::hypot(noise_s, noise_s);
   for (const Edge& edge : edges) {
-    const bool is_good = good.contains(shifted(tai_from_ns(0), edge.t_s));
+    const bool is_good =
+        good.contains({.t = shifted(tai_from_ns(0), edge.t_s), .channel = edge.channel});
     if (edge.channel != NorthOut && edge.channel != SouthOut) {
       outcome.others += is_good ? 1 : 0;
       continue;
@@ -145,7 +134,7 @@ Outcome outcome_of(const Crossing& crossing, const std::vector<Edge>& edges) {
 
 Outcome outcome_of(const Crossing& crossing, std::uint64_t seed) {
   std::mt19937_64 rng{seed};
-  std::vector<Edge> edges = edges_of(crossing, testing::usual_config().noise, rng);
+  std::vector<Edge> edges = edges_of(crossing, usual_config().noise, rng);
   interfere(crossing.window_s, edges, rng);
   return outcome_of(crossing, edges);
 }
@@ -182,7 +171,7 @@ TEST(AssociationInterference, AChannelLearntFromWrongEdgesIsPutRightBySpoiltOnes
   int met_and_good = 0;
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     std::mt19937_64 rng{940 + seed};
-    std::vector<Edge> edges = edges_of(crossing, testing::usual_config().noise, rng);
+    std::vector<Edge> edges = edges_of(crossing, usual_config().noise, rng);
     for (std::size_t i = 0; i < kWrong_s.size(); ++i) {
       edges.at((6 + i) * kPulseChannels + index_of(SouthOut)).t_s += kWrong_s.at(i);
     }
@@ -222,4 +211,4 @@ TEST(AssociationInterference, WithoutAWindowNobodyInterferes) {
   EXPECT_GE(outcome.good, 2 * kTurns * 98 / 100);
 }
 
-}  // namespace spindrift::association_interference_test
+}  // namespace spindrift::testing::association_interference_test

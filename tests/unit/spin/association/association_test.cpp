@@ -10,7 +10,7 @@
 
 #include "tests/support/edge_train.h"
 
-namespace spindrift::association_test {
+namespace spindrift::testing::association_test {
 
 using enum PulseChannel;
 
@@ -27,15 +27,10 @@ TEST(Association, GivesEveryEdgeItsRevolutionAtRatesUnknownBeforehand) {
   }
 }
 
-TEST(Association, RevolutionsCloseInOrderOfNumber) {
+TEST(Association, RevolutionsCloseInOrderAndTheIntervalThatEndsAtASun1IsItsPeriodCandidate) {
   const Association all = associate(made({}));
-  EXPECT_TRUE(std::is_sorted(all.closed.begin(), all.closed.end(),
-                             [](const auto& a, const auto& b) { return a.number < b.number; }));
+  EXPECT_TRUE(std::ranges::is_sorted(all.closed, {}, &Revolution::number));
   EXPECT_EQ(all.closed.front().number, 0);
-}
-
-TEST(Association, TheIntervalThatEndsAtASun1IsItsPeriodCandidate) {
-  const Association all = associate(made({}));
   EXPECT_FALSE(all.closed.front().period_candidate);
   for (std::size_t i = 1; i < all.closed.size(); ++i) {
     ASSERT_TRUE(all.closed[i].period_candidate);
@@ -79,7 +74,6 @@ TEST(Association, OfDoubledEdgesTheNearerToItsPlaceStays) {
       }
     }
     const std::size_t echoes = pulses.size() - genuine;
-    std::sort(pulses.begin(), pulses.end());
     const Association all = associate(pulses);
     expect_every_edge_on_its_turn(all, edges);
     EXPECT_EQ(all.left_over.size(), echoes);
@@ -98,7 +92,6 @@ TEST(Association, SpuriousEdgesAreLeftOver) {
       pulses.push_back(
           {.t = shifted(kStart, t_s(rng)), .channel = static_cast<PulseChannel>(channel(rng))});
     }
-    std::sort(pulses.begin(), pulses.end());
     const Association all = associate(pulses);
     const auto found = places(all);
     // The count begins at the first sun1 with an undisturbed successor.
@@ -121,13 +114,17 @@ TEST(Association, SpuriousEdgesAreLeftOver) {
   }
 }
 
-TEST(Association, ASpuriousEdgeDoesNotClaimAChannelThatBeginsLate) {
-  const auto edges = without(made({}), [](const MadeEdge& edge) {
-    return edge.turn < 50 && edge.pulse.channel != Sun1 && edge.pulse.channel != Sun2;
+/// Returns edges of which those of the Earth begin after this many turns.
+std::vector<MadeEdge> earth_after(int turns) {
+  return without(made({}), [turns](const MadeEdge& edge) {
+    return edge.turn < turns && !sees_the_sun(edge.pulse.channel);
   });
+}
+
+TEST(Association, ASpuriousEdgeDoesNotClaimAChannelThatBeginsLate) {
+  const auto edges = earth_after(50);
   std::vector<Pulse> pulses = pulses_of(edges);
   pulses.push_back({.t = shifted(kStart, 30.9 * kPeriod_s), .channel = NorthIn});
-  std::sort(pulses.begin(), pulses.end());
   const Association all = associate(pulses);
   int chords = 0;
   for (const Revolution& revolution : all.closed) {
@@ -176,15 +173,9 @@ TEST(Association, AStrayEdgeBeforeThePassIsNotItsFirst) {
 }
 
 TEST(Association, AChannelThatBeginsLateIsBelievedWithItsThirdEdge) {
-  const auto edges = without(made({}), [](const MadeEdge& edge) {
-    return edge.turn < 50 && edge.pulse.channel != Sun1 && edge.pulse.channel != Sun2;
-  });
-  const Association all = associate(edges);
+  const Association all = associate(earth_after(50));
   EXPECT_EQ(all.left_over.size(), 8U);
-  expect_every_edge_on_its_turn(all, without(edges, [](const MadeEdge& edge) {
-                                  return edge.turn < 52 && edge.pulse.channel != Sun1 &&
-                                         edge.pulse.channel != Sun2;
-                                }));
+  expect_every_edge_on_its_turn(all, earth_after(52));
 }
 
 /// Strays of a silent channel, including doubled ones, do not make a channel.
@@ -203,7 +194,6 @@ TEST(Association, StraysOfASilentChannelFindNoPlace) {
             {.t = shifted(kStart, (turn + phase) * kPeriod_s + 1e-4), .channel = silent});
       }
     }
-    std::sort(pulses.begin(), pulses.end());
     for (const Revolution& revolution : associate(pulses).closed) {
       EXPECT_FALSE(revolution.good_edge(silent)) << revolution.number;
     }
@@ -237,7 +227,7 @@ TEST(Association, WithoutAPeriodEveryEdgeIsLeftOver) {
 }
 
 TEST(Association, EdgesWithoutAPeriodDoNotAccumulate) {
-  Associator associator{testing::usual_config()};
+  Associator associator{usual_config()};
   std::mt19937_64 rng{54};
   std::exponential_distribution<double> gap_s{10.0};
   TaiTime t = kStart;
@@ -281,4 +271,4 @@ TEST(Association, EveryEdgeComesOutExactlyOnce) {
   }
 }
 
-}  // namespace spindrift::association_test
+}  // namespace spindrift::testing::association_test

@@ -9,7 +9,7 @@
 
 #include "tests/support/spinning_body.h"
 
-namespace spindrift::clock_start_test {
+namespace spindrift::testing::clock_start_test {
 
 constexpr TaiTime kStart = tai_from_ns(1'795'143'637'000'000'000);
 
@@ -25,7 +25,7 @@ std::vector<PeriodNote> notes_of(const std::vector<double>& periods_s) {
 }
 
 double period_s_of(const std::vector<double>& periods_s) {
-  const auto start = start_clock(testing::usual_config(), notes_of(periods_s), false);
+  const auto start = start_clock(usual_config(), notes_of(periods_s), false);
   return start ? start->clock.period_s() : 0.0;
 }
 
@@ -39,7 +39,7 @@ TEST(StartClock, ByEdgesIsNotMisledByStrayOnesNearAThirdOfATurn) {
   int started = 0;
   for (const double turn : turns) {
     pulses.push_back({.t = shifted(kStart, turn * kTurn_s), .channel = PulseChannel::Sun1});
-    if (const auto start = start_clock(testing::usual_config(), pulses, false)) {
+    if (const auto start = start_clock(usual_config(), pulses, false)) {
       ++started;
       EXPECT_NEAR(start->clock.period_s(), kTurn_s, 1e-3 * kTurn_s) << turn;
     }
@@ -72,7 +72,7 @@ TEST(StartClock, ByEdgesTakesThePeriodThatMostChannelsAgreeOn) {
     std::optional<ClockStart> start;
     for (const Pulse& pulse : among_others(sun1_every_s)) {
       pulses.push_back(pulse);
-      start = start_clock(testing::usual_config(), pulses, false);
+      start = start_clock(usual_config(), pulses, false);
       if (start) {
         break;
       }
@@ -98,4 +98,4 @@ TEST(StartClock, ByNotesIsNotMisledByPeriodsOfSeveralTurns) {
   EXPECT_DOUBLE_EQ(period_s_of({14.7, 14.7, 14.7, 9.0, 9.0}), 14.7);
 }
 
-}  // namespace spindrift::clock_start_test
+}  // namespace spindrift::testing::clock_start_test

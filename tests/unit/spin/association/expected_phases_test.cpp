@@ -10,7 +10,7 @@
 
 #include "tests/support/spinning_body.h"
 
-namespace spindrift::expected_phases_test {
+namespace spindrift::testing::expected_phases_test {
 
 using enum PulseChannel;
 
@@ -32,7 +32,9 @@ class ExpectedPhasesTest : public ::testing::Test {
     return counts;
   }
 
-  SpinConfig config_ = testing::usual_config();
+  void learn_north_in() { ASSERT_TRUE(phases_.learn(NorthIn, counts(20, 0.3), kFewest, 0.0)); }
+
+  SpinConfig config_ = usual_config();
   ExpectedPhases phases_{config_};
 };
 
@@ -150,7 +152,7 @@ TEST_F(ExpectedPhasesTest, OfTwoPlacesTheSunIsOnTheSideOfTheOtherSlit) {
 }
 
 TEST_F(ExpectedPhasesTest, OnlyEdgesWithinTheGateAreFollowed) {
-  ASSERT_TRUE(phases_.learn(NorthIn, counts(20, 0.3), kFewest, 0.0));
+  learn_north_in();
   for (int turn = 20; turn < 25; ++turn) {
     EXPECT_TRUE(phases_.follow(NorthIn, turn, 0.3, 0.0));
   }
@@ -161,7 +163,7 @@ TEST_F(ExpectedPhasesTest, OnlyEdgesWithinTheGateAreFollowed) {
 }
 
 TEST_F(ExpectedPhasesTest, StraysThatAgreeMoveAChannelAndOthersDoNot) {
-  ASSERT_TRUE(phases_.learn(NorthIn, counts(20, 0.3), kFewest, 0.0));
+  learn_north_in();
   bool moved = false;
   int strays = 0;
   while (!moved && strays < 9) {
@@ -179,7 +181,7 @@ TEST_F(ExpectedPhasesTest, StraysThatAgreeMoveAChannelAndOthersDoNot) {
 }
 
 TEST_F(ExpectedPhasesTest, ASilentChannelIsForgottenTheReferenceIsNot) {
-  ASSERT_TRUE(phases_.learn(NorthIn, counts(20, 0.3), kFewest, 0.0));
+  learn_north_in();
   for (int i = 0; i < 30; ++i) {
     phases_.end_revolution();
   }
@@ -190,7 +192,7 @@ TEST_F(ExpectedPhasesTest, ASilentChannelIsForgottenTheReferenceIsNot) {
 }
 
 TEST_F(ExpectedPhasesTest, AClockSetLaterMakesEveryPhaseEarlier) {
-  ASSERT_TRUE(phases_.learn(NorthIn, counts(20, 0.3), kFewest, 0.0));
+  learn_north_in();
   const double before = phases_.at(NorthIn, 30.0);
   const double drift = phases_.drift(NorthIn);
   phases_.shift(20, 0.05, 1e-3);
@@ -220,4 +222,4 @@ TEST_F(ExpectedPhasesTest, TheLatestIsThatOfAllChannels) {
   EXPECT_EQ(phases_.latest(5.0), 0.8);
 }
 
-}  // namespace spindrift::expected_phases_test
+}  // namespace spindrift::testing::expected_phases_test

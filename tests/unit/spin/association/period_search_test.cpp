@@ -25,6 +25,10 @@ std::vector<TaiTime> instants(std::vector<double> times_s) {
   return edges;
 }
 
+std::optional<PulseTrain> train_of(const std::vector<double>& times_s) {
+  return find_pulse_train(instants(times_s), kNoise_s, kFewest);
+}
+
 /// Returns the time after n turns at `rate_hz` that changes by `drift_per_s2`: the root of rate t +
 /// drift t^2 / 2 = n that grows from 0.
 double time_of_turn(int n, double rate_hz, double drift_per_s2) {
@@ -43,7 +47,7 @@ std::vector<double> even_edges(int count, double period_s) {
 TEST(PeriodSearch, EvenEdgesAreACombOfTheirSpacing) {
   for (const double period_s : {0.26, 0.6, 1.0, 4.75, 14.9}) {
     SCOPED_TRACE(period_s);
-    const auto comb = find_pulse_train(instants(even_edges(20, period_s)), kNoise_s, kFewest);
+    const auto comb = train_of(even_edges(20, period_s));
     ASSERT_TRUE(comb);
     // Times are rounded to nanoseconds.
     EXPECT_NEAR(comb->period_s, period_s, 1e-9);
@@ -55,17 +59,12 @@ TEST(PeriodSearch, EvenEdgesAreACombOfTheirSpacing) {
   }
 }
 
-TEST(PeriodSearch, SpacingsOutsideWhatIsSearchedAreNone) {
-  EXPECT_FALSE(find_pulse_train(instants(even_edges(20, 0.9 * 60.0 / kFastestSearched_rpm)),
-                                kNoise_s, kFewest));
-  EXPECT_FALSE(find_pulse_train(instants(even_edges(20, 1.1 * 60.0 / kSlowestSearched_rpm)),
-                                kNoise_s, kFewest));
-}
-
-TEST(PeriodSearch, FewerEdgesThanAskedForAreNoEvidence) {
-  EXPECT_FALSE(find_pulse_train(instants(even_edges(4, 1.0)), kNoise_s, kFewest));
-  EXPECT_TRUE(find_pulse_train(instants(even_edges(5, 1.0)), kNoise_s, kFewest));
-  EXPECT_FALSE(find_pulse_train({}, kNoise_s, kFewest));
+TEST(PeriodSearch, SpacingsOutsideWhatIsSearchedAndTooFewEdgesAreNone) {
+  EXPECT_FALSE(train_of(even_edges(20, 0.9 * 60.0 / kFastestSearched_rpm)));
+  EXPECT_FALSE(train_of(even_edges(20, 1.1 * 60.0 / kSlowestSearched_rpm)));
+  EXPECT_FALSE(train_of(even_edges(4, 1.0)));
+  EXPECT_TRUE(train_of(even_edges(5, 1.0)));
+  EXPECT_FALSE(train_of({}));
 }
 
 /// The slope of a line through n equidistant points has a standard deviation of sigma sqrt(12 /
@@ -82,7 +81,7 @@ TEST(PeriodSearch, NoiseMovesThePeriodAsTheSlopeOfALine) {
     for (double& t_s : times_s) {
       t_s += noise_s(rng);
     }
-    const auto comb = find_pulse_train(instants(times_s), kNoise_s, kFewest);
+    const auto comb = train_of(times_s);
     ASSERT_TRUE(comb) << trial;
     squares += std::pow(comb->period_s - period_s, 2);
   }
@@ -126,7 +125,7 @@ TEST(PeriodSearch, LostAndStrayEdgesChangeNeitherThePeriodNorItsCount) {
         times_s.push_back((n + share(rng)) * period_s);
       }
     }
-    if (const auto comb = find_pulse_train(instants(times_s), kNoise_s, kFewest)) {
+    if (const auto comb = train_of(times_s)) {
       EXPECT_NEAR(comb->period_s, period_s, 1e-3 * period_s) << trial;
       ++found;
     }
@@ -153,7 +152,7 @@ TEST(PeriodSearch, EdgesThatComeSeveralTimesHaveThePeriodOfTheFirst) {
             }
           }
         }
-        const auto comb = find_pulse_train(instants(times_s), kNoise_s, kFewest);
+        const auto comb = train_of(times_s);
         ASSERT_TRUE(comb);
         // The sigma of a slope through twenty points, with the noise of two, is 1/13 of the noise.
         EXPECT_NEAR(comb->period_s, period_s, kNoise_s);
@@ -169,7 +168,7 @@ TEST(PeriodSearch, EdgesAtRandomHaveSeldomAPeriod) {
   for (int trial = 0; trial < 300; ++trial) {
     std::vector<double> times_s(30);
     std::generate(times_s.begin(), times_s.end(), [&] { return t_s(rng); });
-    found += find_pulse_train(instants(times_s), kNoise_s, kFewest) ? 1 : 0;
+    found += train_of(times_s) ? 1 : 0;
   }
   EXPECT_LE(found, 3);
 }

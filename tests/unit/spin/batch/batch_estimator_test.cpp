@@ -6,7 +6,6 @@
 #include <array>
 #include <cmath>
 #include <numbers>
-#include <random>
 #include <set>
 
 #include "pipelines/frames/angle.h"
@@ -15,20 +14,24 @@
 #include "services/base/assessment_words.h"
 #include "tests/support/assessed.h"
 #include "tests/support/batch_pass.h"
-#include "tests/support/normalised_square.h"
 
-namespace spindrift::batch_estimator_test {
+namespace spindrift::testing::batch_estimator_test {
 
 using ::testing::HasSubstr;
-using testing::SpinningBody;
-using ::testing::StartsWith;
 
 struct Scene : testing::BatchScene {
   explicit Scene(std::uint64_t seed = 1809) : BatchScene{seed} {}
 
   Expected<BatchSolution> solved(const std::vector<PassEdge>& edges, double off_deg = 1.0) {
-    const Eigen::Vector3d start = testing::start_near(body, off_deg * kRadPerDeg, rng);
+    const Eigen::Vector3d start = start_near(body, off_deg * kRadPerDeg, rng);
     return solve_batch(body.config, orbit, edges, {{start}});
+  }
+  /// Returns the solution, whose axis has to be within three sigmas of the true one.
+  BatchSolution found(const std::vector<PassEdge>& edges, double off_deg = 1.0) {
+    const auto solution = solved(edges, off_deg);
+    EXPECT_TRUE(solution) << solution.error().message;
+    EXPECT_LT(error_sigmas(solution.value()), 3.0) << sentence_of(solution->estimate.assessment);
+    return *solution;
   }
   double error_sigmas(const BatchSolution& solution) const {
     return angle_between_rad(solution.estimate.axis_icrf, body.axis_icrf) /
@@ -41,78 +44,73 @@ const BiasEstimate& of(const BatchSolution& solution, SensorBias bias) {
                        [&](const BiasEstimate& estimate) { return estimate.bias == bias; });
 }
 
-void widen_chord(const SpinningBody& body, PulseChannel in, PulseChannel out, double wider_rad,
-                 std::vector<PassEdge>& edges) {
+void expect_refused(const Expected<BatchSolution>& solution, const std::string& why) {
+  ASSERT_FALSE(solution) << sentence_of(solution->estimate.assessment);
+  EXPECT_EQ(solution.error().code, ErrorCode::Unobservable);
+  EXPECT_THAT(solution.error().message, HasSubstr(why));
+}
+
+void widen_north_chord(const SpinningBody& body, double wider_rad, std::vector<PassEdge>& edges) {
   const auto half = std::chrono::nanoseconds{std::llround(0.5e9 * wider_rad / body.rate_rad_s)};
   for (PassEdge& edge : edges) {
-    edge.pulse.t += edge.pulse.channel == out ? half : -half * (edge.pulse.channel == in ? 1 : 0);
+    edge.pulse.t += edge.pulse.channel == PulseChannel::NorthOut
+                        ? half
+                        : -half * (edge.pulse.channel == PulseChannel::NorthIn ? 1 : 0);
   }
 }
 
-TEST(BatchEstimator, FindsTheAxisFromAFixThatIsDegreesOff) {
+struct BatchEstimatorTest : ::testing::Test {
   Scene scene;
+};
+
+TEST_F(BatchEstimatorTest, FindsTheAxisFromAFixThatIsDegreesOff) {
   const auto edges = scene.pass(200.0);
   for (const double off_deg : {0.1, 1.0, 5.0, 15.0}) {
     SCOPED_TRACE(off_deg);
-    const auto solution = scene.solved(edges, off_deg);
-    ASSERT_TRUE(solution) << solution.error().message;
-    EXPECT_LT(scene.error_sigmas(*solution), 3.0);
-    EXPECT_TRUE(is_unopposed(solution->estimate.assessment.quality));
-    EXPECT_GE(solution->edges, 1000);
-    EXPECT_LE(solution->outliers, 1);
+    const BatchSolution solution = scene.found(edges, off_deg);
+    EXPECT_TRUE(is_unopposed(solution.estimate.assessment.quality));
+    EXPECT_GE(solution.edges, 1000);
+    EXPECT_LE(solution.outliers, 1);
   }
 }
 
-TEST(BatchEstimator, ANorthChordThatIsThreeTenthsOfADegreeWideIsFoundAndNamed) {
-  Scene scene;
+TEST_F(BatchEstimatorTest, ANorthChordThatIsThreeTenthsOfADegreeWideIsFoundAndNamed) {
   auto edges = scene.pass(600.0);
-  widen_chord(scene.body, PulseChannel::NorthIn, PulseChannel::NorthOut, 0.3 * kRadPerDeg, edges);
-  const auto solution = scene.solved(edges);
-  ASSERT_TRUE(solution) << solution.error().message;
-  EXPECT_LT(scene.error_sigmas(*solution), 3.0) << sentence_of(solution->estimate.assessment);
-  const BiasEstimate& bias = of(*solution, NorthChordBias);
+  widen_north_chord(scene.body, 0.3 * kRadPerDeg, edges);
+  const BatchSolution solution = scene.found(edges);
+  const BiasEstimate& bias = of(solution, NorthChordBias);
   EXPECT_TRUE(bias.estimated);
-  EXPECT_FALSE(of(*solution, DihedralBias).estimated);
-  EXPECT_TRUE(bias.observable) << sentence_of(solution->estimate.assessment);
+  EXPECT_FALSE(of(solution, DihedralBias).estimated);
+  EXPECT_TRUE(bias.observable) << sentence_of(solution.estimate.assessment);
   EXPECT_NEAR(bias.value, 0.3 * kRadPerDeg, 3.0 * bias.sigma);
   EXPECT_GT(bias.value, 5.0 * bias.sigma);
-  EXPECT_EQ(solution->estimate.assessment.reasons.back().code, ReasonCode::Bias);
-  EXPECT_EQ(solution->estimate.assessment.reasons.back().values.front(),
+  EXPECT_EQ(solution.estimate.assessment.reasons.back().code, ReasonCode::Bias);
+  EXPECT_EQ(solution.estimate.assessment.reasons.back().values.front(),
             (NamedValue{"bias", "north_chord"}));
 }
 
-TEST(BatchEstimator, AManoeuvreIsNamedAndTheAxisIsThatAfterIt) {
-  Scene scene;
+TEST_F(BatchEstimatorTest, AManoeuvreIsNamedAndTheAxisIsThatAfterIt) {
   const auto before = scene.pass(300.0);
   SpinningBody after = scene.body;
   after.axis_icrf =
       (Eigen::AngleAxisd{1.0 * kRadPerDeg, after.axis_icrf.unitOrthogonal()} * after.axis_icrf);
-  std::vector<PassEdge> edges;
-  const auto moved = scene.pass_of(after, 600.0);
-  for (const PassEdge& edge : moved) {
-    if (edge.revolution >= 300) {
-      edges.push_back(edge);
-    }
-  }
+  std::vector<PassEdge> edges = scene.pass_of(after, 600.0);
+  std::erase_if(edges, [](const PassEdge& edge) { return edge.revolution < 300; });
   const TaiTime moved_at = edges.front().pulse.t;
   edges.insert(edges.begin(), before.begin(), before.end());
   scene.body = after;
-  const auto solution = scene.solved(edges);
-  ASSERT_TRUE(solution) << solution.error().message;
-  ASSERT_TRUE(solution->changed) << sentence_of(solution->estimate.assessment);
+  const BatchSolution solution = scene.found(edges);
+  ASSERT_TRUE(solution.changed) << sentence_of(solution.estimate.assessment);
   // 1/64 of the pass is 9.4 turns.
-  EXPECT_NEAR(seconds_between(moved_at, *solution->changed) * after.rate_rad_s, 0.0,
+  EXPECT_NEAR(seconds_between(moved_at, *solution.changed) * after.rate_rad_s, 0.0,
               10.0 * 2.0 * std::numbers::pi);
-  EXPECT_LT(scene.error_sigmas(*solution), 3.0) << sentence_of(solution->estimate.assessment);
-  EXPECT_TRUE(has(solution->estimate.assessment, ReasonCode::Changed));
+  EXPECT_TRUE(has(solution.estimate.assessment, ReasonCode::Changed));
 }
 
-TEST(BatchEstimator, BeginsAtThePriorWhereThePassHasNoFix) {
-  Scene scene;
+TEST_F(BatchEstimatorTest, BeginsAtThePriorWhereThePassHasNoFix) {
   PassEdges pass;
   for (const PassEdge& edge : scene.pass(1200.0)) {
-    if (edge.pulse.channel == PulseChannel::Sun1 || edge.pulse.channel == PulseChannel::Sun2 ||
-        edge.pulse.channel == PulseChannel::NorthIn) {
+    if (sees_the_sun(edge.pulse.channel) || edge.pulse.channel == PulseChannel::NorthIn) {
       pass.note(SpinProduct{
           PulseUse{.pulse = edge.pulse, .revolution = edge.revolution, .rejected_by = {}}});
     }
@@ -122,11 +120,9 @@ TEST(BatchEstimator, BeginsAtThePriorWhereThePassHasNoFix) {
     config.prior = prior;
     return solve_batch(config, scene.orbit, PassEdges{pass}.edges(), pass.starts(prior));
   };
-  const auto without = solved(std::nullopt);
-  ASSERT_FALSE(without);
-  EXPECT_THAT(without.error().message, HasSubstr("[spin.prior]"));
+  expect_refused(solved(std::nullopt), "[spin.prior]");
   const auto solution =
-      solved(SpinPrior{.axis_icrf = testing::start_near(scene.body, 2.0 * kRadPerDeg, scene.rng),
+      solved(SpinPrior{.axis_icrf = start_near(scene.body, 2.0 * kRadPerDeg, scene.rng),
                        .sigma_rad = 2.0 * kRadPerDeg});
   ASSERT_TRUE(solution) << solution.error().message;
   EXPECT_TRUE(is_unopposed(solution->estimate.assessment.quality));
@@ -140,8 +136,7 @@ constexpr std::array<std::array<bool, kPulseChannels>, 3> kCasesWithoutFix = {
      {true, true, false, false, false, false},
      {false, false, true, true, false, false}}};
 
-TEST(BatchEstimator, TurnsOfCases8To10DetermineTheAxisTogetherAndEveryEdgeCounts) {
-  Scene scene;
+TEST_F(BatchEstimatorTest, TurnsOfCases8To10DetermineTheAxisTogetherAndEveryEdgeCounts) {
   auto edges = scene.pass(600.0);
   const auto case_of = [](const PassEdge& edge) {
     return static_cast<std::size_t>(edge.revolution) % kCasesWithoutFix.size();
@@ -149,38 +144,24 @@ TEST(BatchEstimator, TurnsOfCases8To10DetermineTheAxisTogetherAndEveryEdgeCounts
   std::erase_if(edges, [&](const PassEdge& edge) {
     return !kCasesWithoutFix.at(case_of(edge)).at(index_of(edge.pulse.channel));
   });
-  const auto all = scene.solved(edges);
-  ASSERT_TRUE(all) << all.error().message;
-  EXPECT_TRUE(is_unopposed(all->estimate.assessment.quality));
-  EXPECT_LT(scene.error_sigmas(*all), 3.0);
-  EXPECT_EQ(all->edges + all->outliers, static_cast<std::int64_t>(edges.size()));
+  const BatchSolution all = scene.found(edges);
+  EXPECT_TRUE(is_unopposed(all.estimate.assessment.quality));
+  EXPECT_EQ(all.edges + all.outliers, static_cast<std::int64_t>(edges.size()));
   for (std::size_t without = 0; without < kCasesWithoutFix.size(); ++without) {
+    SCOPED_TRACE(8 + without);
     auto fewer = edges;
     std::erase_if(fewer, [&](const PassEdge& edge) { return case_of(edge) == without; });
-    const auto solution = scene.solved(fewer);
     // Ten minutes of chords alone suffice, because the cone about the Earth moves with the Earth.
-    ASSERT_TRUE(solution) << "without case " << 8 + without << solution.error().message;
-    EXPECT_LT(scene.error_sigmas(*solution), 3.0) << "without case " << 8 + without;
-    EXPECT_LT(all->bound_rad, 0.98 * solution->bound_rad) << "without case " << 8 + without;
+    EXPECT_LT(all.bound_rad, 0.98 * scene.found(fewer).bound_rad);
   }
 }
 
-TEST(BatchEstimator, FewerEdgesThanUnknownsAreTooFew) {
-  Scene scene;
+TEST_F(BatchEstimatorTest, FewEdgesOrTurnsAreTooFew) {
   auto edges = scene.pass(200.0);
   edges.resize(10);
-  const auto solution = scene.solved(edges);
-  ASSERT_FALSE(solution);
-  EXPECT_EQ(solution.error().code, ErrorCode::Unobservable);
-  EXPECT_THAT(solution.error().message, HasSubstr("10 edges of 2 turns"));
-}
-
-TEST(BatchEstimator, OneTurnAndNoEdgeAreTooFew) {
-  Scene scene;
+  expect_refused(scene.solved(edges), "10 edges of 2 turns");
   for (const double turns : {1.0, 0.0}) {
-    const auto solution = scene.solved(scene.pass(turns));
-    ASSERT_FALSE(solution);
-    EXPECT_THAT(solution.error().message, HasSubstr("need more than 15 edges of at least 3 turns"));
+    expect_refused(scene.solved(scene.pass(turns)), "need more than 15 edges of at least 3 turns");
   }
 }
 
@@ -193,9 +174,7 @@ TEST(BatchEstimator, EdgesOfOneSensorAloneLeaveTheAxisOpen) {
     auto edges = scene.pass(60.0);
     std::erase_if(edges,
                   [&](const PassEdge& edge) { return !sensor.contains(edge.pulse.channel); });
-    const auto solution = scene.solved(edges);
-    ASSERT_FALSE(solution) << sentence_of(solution->estimate.assessment);
-    EXPECT_THAT(solution.error().message, HasSubstr("a cone about Sun or Earth"));
+    expect_refused(scene.solved(edges), "a cone about Sun or Earth");
   }
 }
 
@@ -211,43 +190,30 @@ TEST(BatchEstimator, EdgesOfOneSlitNearTheSunLeaveTheAxisOpen) {
     std::erase_if(edges,
                   [](const PassEdge& edge) { return edge.pulse.channel != PulseChannel::Sun1; });
     ASSERT_GT(edges.size(), 100U);
-    const auto solution = scene.solved(edges);
-    ASSERT_FALSE(solution) << sentence_of(solution->estimate.assessment);
-    EXPECT_THAT(solution.error().message, HasSubstr("a cone about Sun or Earth"));
+    expect_refused(scene.solved(edges), "a cone about Sun or Earth");
   }
 }
 
-TEST(BatchEstimator, WithoutAStartThereIsNone) {
-  Scene scene;
-  const auto solution = solve_batch(scene.body.config, scene.orbit, scene.pass(60.0), {});
-  ASSERT_FALSE(solution);
-  EXPECT_THAT(solution.error().message, HasSubstr("no fix"));
+TEST_F(BatchEstimatorTest, WithoutAStartThereIsNone) {
+  expect_refused(solve_batch(scene.body.config, scene.orbit, scene.pass(60.0), {}), "no fix");
 }
 
 /// Two thirds of 31 such scenes end like this.
-TEST(BatchEstimator, AStartOnTheOtherSideOfTheSkyDivergesAndIsNoSolution) {
-  Scene scene;
-  const auto solution = scene.solved(scene.pass(100.0), 180.0);
-  ASSERT_FALSE(solution) << sentence_of(solution->estimate.assessment);
-  EXPECT_EQ(solution.error().code, ErrorCode::Unobservable);
-  EXPECT_THAT(solution.error().message, HasSubstr("of 600 edges are not where it has them"));
+TEST_F(BatchEstimatorTest, AStartOnTheOtherSideOfTheSkyDivergesAndIsNoSolution) {
+  expect_refused(scene.solved(scene.pass(100.0), 180.0), "of 600 edges are not where it has them");
 }
 
 /// One third of 31 such scenes ends like this.
 TEST(BatchEstimator, AStartOnTheOtherSideOfTheSkyMayFindItsWay) {
   Scene scene{1813};
-  const auto solution = scene.solved(scene.pass(100.0), 180.0);
-  ASSERT_TRUE(solution) << solution.error().message;
-  EXPECT_EQ(solution->estimate.assessment,
+  EXPECT_EQ(scene.found(scene.pass(100.0), 180.0).estimate.assessment,
             (Assessment{Quality::Ok, {{ReasonCode::Edges, {{"count", std::int64_t{600}}}}}}));
-  EXPECT_LT(scene.error_sigmas(*solution), 3.0);
 }
 
-TEST(BatchEstimator, AStartAnywhereIsNoReasonToSayOkOfAnotherAxis) {
-  Scene scene;
+TEST_F(BatchEstimatorTest, AStartAnywhereIsNoReasonToSayOkOfAnotherAxis) {
   for (int pass = 0; pass < 20; ++pass) {
     SCOPED_TRACE(pass);
-    scene.body = testing::random_body(scene.around, 3.0 * kRadPerDeg, scene.rng);
+    scene.body = random_body(scene.around, 3.0 * kRadPerDeg, scene.rng);
     const auto edges = scene.pass(60.0);
     for (const double off_deg : {60.0, 90.0, 120.0}) {
       const auto solution = scene.solved(edges, off_deg);
@@ -259,8 +225,7 @@ TEST(BatchEstimator, AStartAnywhereIsNoReasonToSayOkOfAnotherAxis) {
   }
 }
 
-TEST(BatchEstimator, AChannelThatIsNowhereIsDoubted) {
-  Scene scene;
+TEST_F(BatchEstimatorTest, AChannelThatIsNowhereIsDoubted) {
   auto edges = scene.pass(200.0);
   scene.body.config.batch.biases = BiasSet{};
   for (PassEdge& edge : edges) {
@@ -271,15 +236,14 @@ TEST(BatchEstimator, AChannelThatIsNowhereIsDoubted) {
   ASSERT_TRUE(solution) << solution.error().message;
   const Assessment& assessment = solution->estimate.assessment;
   EXPECT_EQ(assessment.quality, Quality::Doubtful);
-  EXPECT_EQ(testing::number_of(assessment.reasons, ReasonCode::Edges, "count"), 1000.0);
-  EXPECT_EQ(testing::number_of(assessment.reasons, ReasonCode::Outliers, "count"), 200.0);
+  EXPECT_EQ(number_of(assessment.reasons, ReasonCode::Edges, "count"), 1000.0);
+  EXPECT_EQ(number_of(assessment.reasons, ReasonCode::Outliers, "count"), 200.0);
 }
 
-TEST(BatchEstimator, ABiasBeyondWhatASensorMayHaveRunsToItsBound) {
-  Scene scene;
+TEST_F(BatchEstimatorTest, ABiasBeyondWhatASensorMayHaveRunsToItsBound) {
   auto edges = scene.pass(300.0);
   scene.body.config.batch.biases = BiasSet{}.set(NorthChordBias);
-  widen_chord(scene.body, PulseChannel::NorthIn, PulseChannel::NorthOut, 5.0 * kRadPerDeg, edges);
+  widen_north_chord(scene.body, 5.0 * kRadPerDeg, edges);
   const auto solution = scene.solved(edges);
   ASSERT_TRUE(solution) << solution.error().message;
   EXPECT_EQ(solution->estimate.assessment.quality, Quality::Doubtful);
@@ -287,4 +251,4 @@ TEST(BatchEstimator, ABiasBeyondWhatASensorMayHaveRunsToItsBound) {
               ::testing::Contains(Reason{ReasonCode::BiasAtBound, {{"bias", "north_chord"}}}));
 }
 
-}  // namespace spindrift::batch_estimator_test
+}  // namespace spindrift::testing::batch_estimator_test

@@ -9,16 +9,16 @@
 #include <numbers>
 
 #include "pipelines/frames/angle.h"
-#include "pipelines/time/time_span.h"
+#include "tests/support/batch_pass.h"
 #include "tests/support/wobbling_pass.h"
 
-namespace spindrift::nutation_stretch_test {
+namespace spindrift::testing::nutation_stretch_test {
 
 constexpr double kDuration_s = 60.0;
 
 /// Holds a body with a growing nutation of 2 deg and a coning of 1 deg.
 struct Scene {
-  testing::WobblingPasses passes{31, kDuration_s};
+  WobblingPasses passes{31, kDuration_s};
   SpinTruth truth = passes.drawn();
   std::vector<PassEdge> edges;
 
@@ -33,9 +33,7 @@ struct Scene {
     passes.config().noise = {.sun_s = 1e-4, .infrared_s = 5e-4};
   }
 
-  PassModel model() {
-    return PassModel::make(passes.config(), testing::transfer_orbit(), edges).value();
-  }
+  PassModel model() { return PassModel::make(passes.config(), transfer_orbit(), edges).value(); }
 
   SpinState state(const PassModel& model) const {
     const SpinMotion& motion = truth.motion;
@@ -80,23 +78,6 @@ TEST(NutationStretch, TheTrueMotionLeavesNothingOver) {
   }
 }
 
-/// Steps an unknown of the motion or, after these, of the nutation.
-SpinState stepped(const PassModel& model, SpinState state, int unknown, double step) {
-  if (unknown < 3) {
-    const Eigen::AngleAxisd turn{step, Eigen::Vector3d::Unit(unknown)};
-    state.q_icrf_spin = state.q_icrf_spin * turn;
-  } else if (unknown == 3) {
-    state.rate_rad_s += step / model.half_s();
-  } else if (unknown == 4) {
-    state.drift_rad_s2 += 2.0 * step / (model.half_s() * model.half_s());
-  } else if (unknown < kBatchUnknowns) {
-    state.biases[unknown - kMotionUnknowns] += step;
-  } else {
-    state.nutation.front().unknowns[unknown - kBatchUnknowns] += step;
-  }
-  return state;
-}
-
 TEST(NutationStretch, SlopesAreThoseOfTheResidual) {
   Scene scene;
   const PassModel model = scene.model();
@@ -105,21 +86,9 @@ TEST(NutationStretch, SlopesAreThoseOfTheResidual) {
     state = stepped(model, state, i, i == kMotionUnknowns + Co2HeightBias ? 3.0 : 0.003);
   }
   for (const PassEdge& edge : scene.edges) {
-    const auto here = model.at(state).residual(edge.pulse);
-    ASSERT_TRUE(here);
-    for (int i = 0; i < kBatchUnknowns + kNutationUnknowns; ++i) {
-      const double step = i == kMotionUnknowns + Co2HeightBias ? 1e-3 : 1e-6;
-      const auto after = model.at(stepped(model, state, i, step)).residual(edge.pulse);
-      const auto before = model.at(stepped(model, state, i, -step)).residual(edge.pulse);
-      ASSERT_TRUE(after && before);
-      const double slope = (after->off - before->off) / (2.0 * step);
-      const double given =
-          i < kBatchUnknowns ? here->slopes[i] : here->nutation_slopes[i - kBatchUnknowns];
-      // rotation_per_vector neglects the third power of 2 deg.
-      EXPECT_NEAR(given, slope, 1e-5 * here->slopes.head<3>().norm())
-          << name_of(edge.pulse.channel) << ", unknown " << i;
-    }
+    // rotation_per_vector neglects the third power of 2 deg.
+    expect_slopes(model, state, edge.pulse, kBatchUnknowns + kNutationUnknowns, 1e-5);
   }
 }
 
-}  // namespace spindrift::nutation_stretch_test
+}  // namespace spindrift::testing::nutation_stretch_test

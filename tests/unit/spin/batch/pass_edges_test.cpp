@@ -5,9 +5,9 @@
 #include <cmath>
 #include <utility>
 
-#include "pipelines/frames/celestial.h"
+#include "tests/support/observed_spin.h"
 
-namespace spindrift::pass_edges_test {
+namespace spindrift::testing::pass_edges_test {
 
 PulseUse use(std::int64_t t_ns, PulseChannel channel, std::optional<std::int64_t> revolution,
              std::optional<Rejection> rejected_by = std::nullopt) {
@@ -26,16 +26,12 @@ SpinEstimate estimate(SpinEstimator estimator, const Eigen::Vector3d& axis_icrf,
           .assessment = {quality}};
 }
 
-SpinFix fix(const Eigen::Vector3d& axis_icrf, const Eigen::Vector3d& alternate_icrf) {
-  return {.revolution = 1,
-          .t = {},
-          .geometry_case = 2,
-          .axis_icrf = axis_icrf,
-          .covariance_rad2 = Eigen::Matrix2d::Identity(),
-          .alternates = {{.axis_icrf = alternate_icrf}},
-          .resolution = Resolution::Ambiguous,
-          .norm = 1.0,
-          .accepted = false};
+SpinFix ambiguous(const Eigen::Vector3d& axis_icrf, const Eigen::Vector3d& alternate_icrf) {
+  SpinFix fix = made_fix(axis_icrf, Eigen::Matrix2d::Identity());
+  fix.alternates = {{.axis_icrf = alternate_icrf}};
+  fix.resolution = Resolution::Ambiguous;
+  fix.accepted = false;
+  return fix;
 }
 
 TEST(PassEdges, AreThoseThatARevolutionHasAPlaceForInOrderAndOnce) {
@@ -100,7 +96,7 @@ TEST(PassEdges, BeginAtTheEstimatesAndWhereTheseAreAmbiguousAtAllCandidates) {
   PassEdges pass;
   EXPECT_TRUE(pass.starts({}).axes_icrf.empty());
   EXPECT_EQ(pass.starts(prior).axes_icrf, std::vector<Eigen::Vector3d>{-z});
-  pass.note(fix(x, y));
+  pass.note(ambiguous(x, y));
   EXPECT_EQ(pass.starts(prior).axes_icrf.size(), 2U);
   pass.note(estimate(SpinEstimator::Sequential, x, Quality::Ambiguous));
   EXPECT_EQ(pass.starts(prior).axes_icrf.size(), 2U);
@@ -124,4 +120,4 @@ TEST(PassEdges, BeginAtEstimatesThatDifferByADegree) {
   EXPECT_EQ(pass.starts({}).axes_icrf.size(), 1U);
 }
 
-}  // namespace spindrift::pass_edges_test
+}  // namespace spindrift::testing::pass_edges_test

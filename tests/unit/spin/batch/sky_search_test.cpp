@@ -13,7 +13,7 @@
 #include "pipelines/spin/batch/pass_information.h"
 #include "tests/support/batch_pass.h"
 
-namespace spindrift::sky_search_test {
+namespace spindrift::testing::sky_search_test {
 
 using Eigen::Vector3d;
 
@@ -34,22 +34,22 @@ struct Searched {
   }
 };
 
-Searched usual_pass(testing::BatchScene& scene) {
+Searched usual_pass(BatchScene& scene) {
   auto edges = scene.pass(20.0);
   PassModel model = scene.model(edges);
   return {.edges = std::move(edges), .model = std::move(model)};
 }
 
 TEST(SkySearch, APassOfAllSensorsHasNoOtherAxis) {
-  testing::BatchScene scene{71};
+  BatchScene scene{71};
   const Searched pass = usual_pass(scene);
   EXPECT_TRUE(pass.others(pass.fitted(scene.body.axis_icrf)).empty());
 }
 
 TEST(SkySearch, FromAFalseAxisTheTrueOneIsTheFirst) {
-  testing::BatchScene scene{73};
+  BatchScene scene{73};
   const Searched pass = usual_pass(scene);
-  SpinState wrong = testing::true_state(scene.body, pass.model);
+  SpinState wrong = true_state(scene.body, pass.model);
   wrong.q_icrf_spin = frame_about(scene.body.axis_icrf.unitOrthogonal());
   const auto others = pass.others(wrong);
   ASSERT_FALSE(others.empty());
@@ -58,16 +58,16 @@ TEST(SkySearch, FromAFalseAxisTheTrueOneIsTheFirst) {
 
 /// Holds a pass with sun slit 1 and the south beam only, where two axes fit all edges alike.
 struct TwoRoots {
-  testing::BatchScene scene{2};
+  BatchScene scene{2};
   Searched pass = searched();
 
   Searched searched() {
-    auto edges = testing::edges_of_turns(scene.body, scene.around, 30.0);
-    std::erase_if(edges, [](const testing::Edge& edge) {
+    auto edges = edges_of_turns(scene.body, scene.around, 30.0);
+    std::erase_if(edges, [](const Edge& edge) {
       return edge.channel == PulseChannel::Sun2 || edge.channel == PulseChannel::NorthIn ||
              edge.channel == PulseChannel::NorthOut;
     });
-    auto counted = testing::noisy_pass(scene.body, edges, scene.rng);
+    auto counted = noisy_pass(scene.body, edges, scene.rng);
     PassModel model = scene.model(counted);
     return {.edges = std::move(counted), .model = std::move(model)};
   }
@@ -112,4 +112,4 @@ TEST(SkySearch, NamesFewAndDistinctAxesBestFirstThatExplainTheEdgesAboutAsWell) 
   }
 }
 
-}  // namespace spindrift::sky_search_test
+}  // namespace spindrift::testing::sky_search_test

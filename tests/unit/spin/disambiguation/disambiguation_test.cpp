@@ -3,59 +3,32 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
-#include <cmath>
-#include <numbers>
-#include <random>
 #include <set>
 
 #include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
-#include "tests/support/lone_fix.h"
-#include "tests/support/spinning_body.h"
+#include "tests/support/axis_scene.h"
 
-namespace spindrift::disambiguation_test {
+namespace spindrift::testing::disambiguation_test {
 
 using enum SpinQuantity;
 
-const TaiTime kStart = tai_from_ns(1'795'143'637'000'000'000);
-constexpr double kRange_km = 16000.0;
+using Scene = AxisScene;
+
 const std::set<SpinQuantity> kDihedrals = {NorthDihedral, SouthDihedral};
 
-/// Holds a body with one turn in six seconds and the Sun at rest; the Earth has moved by
-/// `turn_rad`.
-struct Scene {
-  SpinConfig config = testing::usual_config();
-  Eigen::Vector3d sun_icrf = Eigen::Vector3d{1.0, 0.2, 0.1}.normalized();
-  Eigen::Vector3d axis_icrf = Eigen::Vector3d{0.1, -0.05, 1.0}.normalized();
-
-  Eigen::Vector3d earth_icrf(double turn_rad) const {
-    return Eigen::AngleAxisd{turn_rad, Eigen::Vector3d::UnitX()} *
-           Eigen::Vector3d{0.3, 1.0, -0.02}.normalized();
-  }
-  SunEarthDirections sun_earth(double turn_rad = 0.0) const {
-    return {.sun_icrf = sun_icrf,
-            .earth_icrf = earth_icrf(turn_rad),
-            .disc_rad = std::asin(6418.137 / kRange_km),
-            .earth_pole_icrf = Eigen::Vector3d::UnitZ()};
-  }
-  Revolution seen(double turn_rad = 0.0) const {
-    return testing::revolution_seen({.axis_icrf = axis_icrf,
-                                     .rate_rad_s = 2.0 * std::numbers::pi / 6.0,
-                                     .first_turn_rad = 0.1,
-                                     .config = config},
-                                    testing::at_rest(sun_icrf, kRange_km * earth_icrf(turn_rad)),
-                                    kStart);
-  }
-};
+/// Returns the scene with the Earth moved by this angle.
+Scene moved(Scene scene, double turn_rad) {
+  scene.earth_icrf = Eigen::AngleAxisd{turn_rad, Eigen::Vector3d::UnitX()} * scene.earth_icrf;
+  return scene;
+}
 
 std::vector<SpinFix> settle(Disambiguator& disambiguator, const Scene& scene,
                             const Revolution& revolution, const std::set<SpinQuantity>& left_out,
-                            const std::optional<KnownAxis>& established = {},
-                            double turn_rad = 0.0) {
-  const auto measured = testing::measured_without(scene.config, revolution, left_out);
-  const SunEarthDirections sun_earth = scene.sun_earth(turn_rad);
-  return disambiguator.settle(revolution.number, kStart, measured, sun_earth,
-                              axis_candidates(scene.config, measured, sun_earth).value(),
+                            const std::optional<KnownAxis>& established = {}) {
+  const auto measured = measured_without(scene.config, revolution, left_out);
+  return disambiguator.settle(revolution.number, scene.start, measured, scene.sun_earth(),
+                              axis_candidates(scene.config, measured, scene.sun_earth()).value(),
                               established);
 }
 
@@ -66,63 +39,61 @@ SpinFix settled(const Scene& scene, const Revolution& revolution,
   return settle(disambiguator, scene, revolution, left_out, established).back();
 }
 
-TEST(Disambiguation, MeasurementsThatTellThemApartAreGeometry) {
-  const Scene scene;
-  const SpinFix fix = settled(scene, scene.seen(), {});
-  EXPECT_EQ(fix.resolution, Resolution::Geometry);
-  EXPECT_TRUE(fix.accepted);
-}
-
-TEST(Disambiguation, WithNothingToGoByItIsAmbiguousWithAllCandidates) {
-  const Scene scene;
-  const SpinFix fix = settled(scene, scene.seen(), kDihedrals);
-  EXPECT_EQ(fix.resolution, Resolution::Ambiguous);
-  EXPECT_FALSE(fix.accepted);
-  EXPECT_EQ(fix.alternates.size(), 1U);
-}
-
-TEST(Disambiguation, ThePriorOfTheMissionChoosesTheNearest) {
+struct DisambiguationTest : ::testing::Test {
   Scene scene;
+};
+
+TEST_F(DisambiguationTest, MeasurementsThatTellThemApartAreGeometryAndWithoutThemItIsAmbiguous) {
+  const SpinFix told_apart = settled(scene, scene.seen(), {});
+  EXPECT_EQ(told_apart.resolution, Resolution::Geometry);
+  EXPECT_TRUE(told_apart.accepted);
+  const SpinFix open = settled(scene, scene.seen(), kDihedrals);
+  EXPECT_EQ(open.resolution, Resolution::Ambiguous);
+  EXPECT_FALSE(open.accepted);
+  EXPECT_EQ(open.alternates.size(), 1U);
+}
+
+/// Returns a prior whose axis is turned about ICRF y.
+SpinPrior prior(const Scene& scene, double off_deg, double sigma_deg) {
+  return {.axis_icrf =
+              Eigen::AngleAxisd{off_deg * kRadPerDeg, Eigen::Vector3d::UnitY()} * scene.axis_icrf,
+          .sigma_rad = sigma_deg * kRadPerDeg};
+}
+
+TEST_F(DisambiguationTest, ThePriorOfTheMissionChoosesTheNearest) {
   const Eigen::Vector3d off = (scene.axis_icrf + Eigen::Vector3d{0.03, 0.0, 0.0}).normalized();
   scene.config.prior = SpinPrior{.axis_icrf = off, .sigma_rad = 2.0 * kRadPerDeg};
   const SpinFix fix = settled(scene, scene.seen(), kDihedrals);
   EXPECT_EQ(fix.resolution, Resolution::Prior);
   EXPECT_TRUE(fix.accepted);
-  EXPECT_LT(angle_between_rad(fix.axis_icrf, scene.axis_icrf), 1e-6);
+  EXPECT_LT(scene.off_rad(fix.axis_icrf), 1e-6);
 }
 
-TEST(Disambiguation, APriorFarFromAllOrTooVagueChoosesNothing) {
-  Scene scene;
-  const Eigen::Vector3d far =
-      Eigen::AngleAxisd{20.0 * kRadPerDeg, Eigen::Vector3d::UnitY()} * scene.axis_icrf;
-  scene.config.prior = SpinPrior{.axis_icrf = far, .sigma_rad = 2.0 * kRadPerDeg};
+TEST_F(DisambiguationTest, APriorFarFromAllOrTooVagueChoosesNothing) {
+  scene.config.prior = prior(scene, 20.0, 2.0);
   EXPECT_EQ(settled(scene, scene.seen(), kDihedrals).resolution, Resolution::Ambiguous);
-  scene.config.prior = SpinPrior{.axis_icrf = scene.axis_icrf, .sigma_rad = 180.0 * kRadPerDeg};
+  scene.config.prior = prior(scene, 0.0, 180.0);
   EXPECT_EQ(settled(scene, scene.seen(), kDihedrals).resolution, Resolution::Ambiguous);
 }
 
-TEST(Disambiguation, WhatThePriorSaysOfTheCandidatesIsTold) {
-  Scene scene;
+TEST_F(DisambiguationTest, WhatThePriorSaysOfTheCandidatesIsTold) {
   const auto verdict = [&](const std::optional<KnownAxis>& established = {}) {
     Disambiguator disambiguator{scene.config};
     settle(disambiguator, scene, scene.seen(), kDihedrals, established);
     return disambiguator.prior_verdict();
   };
   EXPECT_EQ(verdict(), std::nullopt);
-  scene.config.prior = SpinPrior{.axis_icrf = scene.axis_icrf, .sigma_rad = 2.0 * kRadPerDeg};
+  scene.config.prior = prior(scene, 0.0, 2.0);
   EXPECT_EQ(verdict(), PriorVerdict::Chooses);
   EXPECT_EQ(verdict(KnownAxis{.axis_icrf = scene.axis_icrf, .sigma_rad = 0.1 * kRadPerDeg}),
             std::nullopt);
   scene.config.prior->sigma_rad = 180.0 * kRadPerDeg;
   EXPECT_EQ(verdict(), PriorVerdict::NearSeveral);
-  scene.config.prior = SpinPrior{
-      .axis_icrf = Eigen::AngleAxisd{20.0 * kRadPerDeg, Eigen::Vector3d::UnitY()} * scene.axis_icrf,
-      .sigma_rad = 2.0 * kRadPerDeg};
+  scene.config.prior = prior(scene, 20.0, 2.0);
   EXPECT_EQ(verdict(), PriorVerdict::FarFromAll);
 }
 
-TEST(Disambiguation, WhatThePassHasEstablishedTakesThePlaceOfThePrior) {
-  Scene scene;
+TEST_F(DisambiguationTest, WhatThePassHasEstablishedTakesThePlaceOfThePrior) {
   scene.config.prior = SpinPrior{.axis_icrf = -scene.axis_icrf, .sigma_rad = 1.0 * kRadPerDeg};
   const KnownAxis known{.axis_icrf = scene.axis_icrf,
                         .sigma_rad = 0.1 * kRadPerDeg,
@@ -130,13 +101,13 @@ TEST(Disambiguation, WhatThePassHasEstablishedTakesThePlaceOfThePrior) {
   const SpinFix fix = settled(scene, scene.seen(), kDihedrals, known);
   EXPECT_EQ(fix.resolution, Resolution::Prior);
   EXPECT_EQ(said_resolution(fix), Resolution::Geometry);
-  EXPECT_LT(angle_between_rad(fix.axis_icrf, scene.axis_icrf), 1e-6);
+  EXPECT_LT(scene.off_rad(fix.axis_icrf), 1e-6);
 }
 
 TEST(Disambiguation, AnAxisKnownBadlyChoosesNoneOfThoseThatGrazeBesideIt) {
   // Noise may hide the true candidate; with a sigma of 7 deg a false one soon matches.
   const Scene scene;
-  const auto measured = testing::measured_without(scene.config, scene.seen(), kDihedrals);
+  const auto measured = scene.measured(kDihedrals);
   AxisCandidates found = axis_candidates(scene.config, measured, scene.sun_earth()).value();
   found.candidates.resize(1);
   const auto resolution = [&](bool near_tangent, double off_deg, double sigma_deg) {
@@ -147,7 +118,7 @@ TEST(Disambiguation, AnAxisKnownBadlyChoosesNoneOfThoseThatGrazeBesideIt) {
             Eigen::AngleAxisd{off_deg * kRadPerDeg, axis_icrf.unitOrthogonal()} * axis_icrf,
         .sigma_rad = sigma_deg * kRadPerDeg};
     return Disambiguator{scene.config}
-        .settle(0, kStart, measured, scene.sun_earth(), found, known)
+        .settle(0, scene.start, measured, scene.sun_earth(), found, known)
         .back()
         .resolution;
   };
@@ -164,31 +135,22 @@ TEST(Disambiguation, AHealthyBeamThatIsSilentRulesOutTheAxisThatShowsItTheEarth)
   scene.axis_icrf = Eigen::Vector3d::UnitZ();
   scene.sun_icrf = Eigen::Vector3d{1.0, 0.6, 0.3}.normalized();
   scene.config.south->mount_angle_rad = 70.0 * kRadPerDeg;
-  const double earth_angle_rad = 100.0 * kRadPerDeg;
-  const Eigen::Vector3d earth =
-      direction_icrf({.ra_rad = 1.9, .dec_rad = 0.5 * std::numbers::pi - earth_angle_rad});
-  const double turned_rad = 0.0;
+  scene.earth_icrf = direction_icrf({.ra_rad = 1.9, .dec_rad = -10.0 * kRadPerDeg});
+  scene.rate_rad_s = 1.0;
+  scene.first_turn_rad = 0.0;
   const auto run = [&](bool healthy, int revolutions) {
     scene.config.south->healthy = healthy;
-    const SunEarthDirections sun_earth{.sun_icrf = scene.sun_icrf,
-                                       .earth_icrf = earth,
-                                       .disc_rad = std::asin(6418.137 / kRange_km),
-                                       .earth_pole_icrf = Eigen::Vector3d::UnitZ()};
-    Revolution revolution =
-        testing::revolution_seen({.axis_icrf = scene.axis_icrf,
-                                  .rate_rad_s = 1.0,
-                                  .first_turn_rad = turned_rad,
-                                  .config = scene.config},
-                                 testing::at_rest(scene.sun_icrf, kRange_km * earth), kStart);
+    Revolution revolution = scene.seen();
     EXPECT_FALSE(revolution.edge(PulseChannel::SouthIn));
     revolution.edges.at(index_of(PulseChannel::Sun2)).reset();
     const auto measured = measure(scene.config, revolution);
-    const auto found = axis_candidates(scene.config, measured, sun_earth).value();
+    const auto found = axis_candidates(scene.config, measured, scene.sun_earth()).value();
     EXPECT_GT(found.candidates.size(), 1U);
     Disambiguator disambiguator{scene.config};
     SpinFix last{};
     for (int i = 0; i < revolutions; ++i) {
-      last = disambiguator.settle(i, kStart, measured, sun_earth, found, std::nullopt).back();
+      last = disambiguator.settle(i, scene.start, measured, scene.sun_earth(), found, std::nullopt)
+                 .back();
     }
     return last;
   };
@@ -197,7 +159,7 @@ TEST(Disambiguation, AHealthyBeamThatIsSilentRulesOutTheAxisThatShowsItTheEarth)
   const SpinFix fix = run(true, 5);
   EXPECT_EQ(fix.resolution, Resolution::Constraint);
   EXPECT_TRUE(fix.accepted);
-  EXPECT_LT(angle_between_rad(fix.axis_icrf, scene.axis_icrf), 1e-5);
+  EXPECT_LT(scene.off_rad(fix.axis_icrf), 1e-5);
 }
 
 TEST(Disambiguation, AHealthyBeamThatIsSilentSpeaksAgainstTheOnlyAxisToo) {
@@ -223,22 +185,21 @@ TEST(Disambiguation, AHealthyBeamThatIsSilentSpeaksAgainstTheOnlyAxisToo) {
   }
 }
 
-TEST(Disambiguation, DispersionSettlesTheEarlierFixesOfItsWindowToo) {
-  const Scene scene;
+TEST_F(DisambiguationTest, DispersionSettlesTheEarlierFixesOfItsWindowToo) {
   Disambiguator disambiguator{scene.config};
   std::set<std::int64_t> ambiguous;
   bool settled_earlier = false;
   int told = 0;
   for (int number = 0; number < 60; ++number) {
-    const double turn_rad = 0.25 * kRadPerDeg * number;
-    Revolution revolution = scene.seen(turn_rad);
+    const Scene there = moved(scene, 0.25 * kRadPerDeg * number);
+    Revolution revolution = there.seen();
     revolution.number = number;
-    const auto fixes = settle(disambiguator, scene, revolution, kDihedrals, {}, turn_rad);
+    const auto fixes = settle(disambiguator, there, revolution, kDihedrals);
     ASSERT_EQ(fixes.back().revolution, number);
     if (const auto& steady = disambiguator.newly_stationary()) {
       ++told;
       EXPECT_GT(fixes.size(), 1U) << "with the fixes that it settles";
-      EXPECT_LT(angle_between_rad(steady->axis.axis_icrf, scene.axis_icrf), 1e-5);
+      EXPECT_LT(scene.off_rad(steady->axis.axis_icrf), 1e-5);
       EXPECT_GT(steady->scatter_ratio, 1.0);
     }
     if (fixes.back().resolution == Resolution::Ambiguous) {
@@ -249,7 +210,7 @@ TEST(Disambiguation, DispersionSettlesTheEarlierFixesOfItsWindowToo) {
     for (const SpinFix& fix : fixes) {
       EXPECT_EQ(fix.resolution, Resolution::Dispersion);
       EXPECT_TRUE(fix.accepted);
-      EXPECT_LT(angle_between_rad(fix.axis_icrf, scene.axis_icrf), 1e-5);
+      EXPECT_LT(scene.off_rad(fix.axis_icrf), 1e-5);
       ambiguous.erase(fix.revolution);
     }
     settled_earlier = settled_earlier || fixes.size() > 1;
@@ -259,18 +220,17 @@ TEST(Disambiguation, DispersionSettlesTheEarlierFixesOfItsWindowToo) {
   EXPECT_TRUE(ambiguous.empty());
 }
 
-TEST(Disambiguation, MeasurementsThatContradictEachOtherAreNeverAccepted) {
-  Scene scene;
-  scene.config.prior = SpinPrior{.axis_icrf = scene.axis_icrf, .sigma_rad = 2.0 * kRadPerDeg};
-  const auto measured = testing::measured_without(scene.config, scene.seen(), kDihedrals);
+TEST_F(DisambiguationTest, MeasurementsThatContradictEachOtherAreNeverAccepted) {
+  scene.config.prior = prior(scene, 0.0, 2.0);
+  const auto measured = scene.measured(kDihedrals);
   SunEarthDirections sun_earth = scene.sun_earth();
   sun_earth.disc_rad *= 1.25;
   const auto found = axis_candidates(scene.config, measured, sun_earth).value();
   const SpinFix fix = Disambiguator{scene.config}
-                          .settle(0, kStart, measured, sun_earth, found, std::nullopt)
+                          .settle(0, scene.start, measured, sun_earth, found, std::nullopt)
                           .back();
   EXPECT_EQ(fix.resolution, Resolution::Ambiguous);
   EXPECT_FALSE(fix.accepted);
 }
 
-}  // namespace spindrift::disambiguation_test
+}  // namespace spindrift::testing::disambiguation_test

@@ -5,7 +5,9 @@
 #include <Eigen/Geometry>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <random>
+#include <utility>
 #include <vector>
 
 #include "pipelines/frames/angle.h"
@@ -16,6 +18,14 @@ namespace spindrift::dispersion_test {
 
 constexpr double kSigma_rad = 0.3 * kRadPerDeg;
 
+AxisCandidate candidate(const Eigen::Vector3d& axis_icrf, double sigma_rad) {
+  return {.axis_icrf = axis_icrf,
+          .covariance_rad2 = sigma_rad * sigma_rad * Eigen::Matrix2d::Identity(),
+          .norm = 1.0,
+          .consistent = true,
+          .model_shift_icrf = Eigen::Matrix<double, 3, kModelErrors>::Zero()};
+}
+
 /// Draws noisy axes: one that is constant, and others that drift.
 class Sky {
  public:
@@ -23,11 +33,7 @@ class Sky {
 
   AxisCandidate seen(const Eigen::Vector3d& axis_icrf, double sigma_rad = kSigma_rad) {
     const Eigen::Vector2d off_rad{sigma_rad * normal_(rng_), sigma_rad * normal_(rng_)};
-    return {.axis_icrf = (axis_icrf + tangent_basis(axis_icrf) * off_rad).normalized(),
-            .covariance_rad2 = sigma_rad * sigma_rad * Eigen::Matrix2d::Identity(),
-            .norm = 1.0,
-            .consistent = true,
-            .model_shift_icrf = Eigen::Matrix<double, 3, kModelErrors>::Zero()};
+    return candidate((axis_icrf + tangent_basis(axis_icrf) * off_rad).normalized(), sigma_rad);
   }
 
  private:
@@ -44,50 +50,68 @@ Eigen::Vector3d drifting(double moved_rad) {
   return Eigen::AngleAxisd{moved_rad, Eigen::Vector3d::UnitX()} * start;
 }
 
-TEST(Dispersion, TheBranchThatStaysIsFound) {
-  Sky sky{61};
+/// Returns the candidates of a revolution.
+using Candidates = std::function<std::vector<AxisCandidate>(Sky& sky, int revolution)>;
+
+/// Adds revolutions until a branch is found stationary, which has to be the true one.
+/// @return The branch and the number of revolutions.
+std::pair<StationaryBranch, int> found_of(std::uint64_t seed, int most, const Candidates& of) {
+  Sky sky{seed};
   Dispersion dispersion{100};
   std::optional<StationaryBranch> found;
   int revolution = 0;
-  for (; revolution < 200 && !found; ++revolution) {
-    const std::array candidates{sky.seen(drifting(0.1 * kRadPerDeg * revolution)),
-                                sky.seen(kTrue_icrf)};
-    found = dispersion.add(candidates);
+  for (; revolution < most && !found; ++revolution) {
+    found = dispersion.add(of(sky, revolution));
   }
-  ASSERT_TRUE(found);
-  EXPECT_LT(angle_between_rad(found->axis.axis_icrf, kTrue_icrf), 0.2 * kRadPerDeg);
-  EXPECT_EQ(found->axis.count, revolution);
+  EXPECT_LT(angle_between_rad(found.value().axis.axis_icrf, kTrue_icrf), 0.2 * kRadPerDeg);
+  return {*found, revolution};
+}
+
+TEST(Dispersion, TheBranchThatStaysIsFound) {
+  const auto [found, revolutions] = found_of(61, 200, [](Sky& sky, int revolution) {
+    const AxisCandidate other = sky.seen(drifting(0.1 * kRadPerDeg * revolution));
+    return std::vector{other, sky.seen(kTrue_icrf)};
+  });
+  EXPECT_EQ(found.axis.count, revolutions);
 }
 
 TEST(Dispersion, TheOrderOfTheCandidatesDoesNotMatter) {
-  Sky sky{62};
-  Dispersion dispersion{100};
-  std::optional<StationaryBranch> found;
-  for (int revolution = 0; revolution < 200 && !found; ++revolution) {
-    std::vector candidates{sky.seen(drifting(0.1 * kRadPerDeg * revolution)), sky.seen(kTrue_icrf)};
-    if (revolution % 3 == 0) {
-      std::swap(candidates[0], candidates[1]);
-    }
-    found = dispersion.add(candidates);
-  }
-  ASSERT_TRUE(found);
-  EXPECT_LT(angle_between_rad(found->axis.axis_icrf, kTrue_icrf), 0.2 * kRadPerDeg);
+  found_of(62, 200, [](Sky& sky, int revolution) {
+    const AxisCandidate other = sky.seen(drifting(0.1 * kRadPerDeg * revolution));
+    const AxisCandidate true_one = sky.seen(kTrue_icrf);
+    return revolution % 3 == 0 ? std::vector{true_one, other} : std::vector{other, true_one};
+  });
 }
 
 TEST(Dispersion, ADriftTooSlowForTheWindowShowsInALongPass) {
   // The drift of 0.3 deg in a hundred revolutions is a tenth of what their scatter could hide; in
   // all it is 9 deg.
-  Sky sky{63};
-  Dispersion dispersion{100};
-  std::optional<StationaryBranch> found;
-  for (int revolution = 0; revolution < 3000 && !found; ++revolution) {
-    const std::array candidates{sky.seen(kTrue_icrf),
-                                sky.seen(drifting(0.003 * kRadPerDeg * revolution))};
-    found = dispersion.add(candidates);
-  }
-  ASSERT_TRUE(found);
-  EXPECT_GT(found->axis.count, 100.0);
-  EXPECT_LT(angle_between_rad(found->axis.axis_icrf, kTrue_icrf), 0.2 * kRadPerDeg);
+  const auto [found, revolutions] = found_of(63, 3000, [](Sky& sky, int revolution) {
+    const AxisCandidate true_one = sky.seen(kTrue_icrf);
+    return std::vector{true_one, sky.seen(drifting(0.003 * kRadPerDeg * revolution))};
+  });
+  EXPECT_GT(found.axis.count, 100.0);
+}
+
+TEST(Dispersion, OutliersAndDropOutsAreSurvived) {
+  found_of(65, 300, [](Sky& sky, int revolution) {
+    const double moved_rad = 0.08 * kRadPerDeg * revolution;
+    std::vector candidates{sky.seen(drifting(moved_rad)), sky.seen(kTrue_icrf)};
+    if (revolution % 7 == 3) {
+      candidates.pop_back();
+    }
+    if (revolution % 11 == 5) {  // A displaced edge moves both branches.
+      candidates = {sky.seen(drifting(moved_rad + 0.2)), sky.seen(drifting(-0.4))};
+    }
+    return candidates;
+  });
+}
+
+TEST(Dispersion, AfterASilenceTheTrueBranchIsWhereItWas) {
+  found_of(66, 60, [](Sky& sky, int revolution) {
+    const AxisCandidate true_one = sky.seen(kTrue_icrf);
+    return std::vector{true_one, sky.seen(drifting(revolution < 20 ? 0.0 : 15.0 * kRadPerDeg))};
+  });
 }
 
 constexpr double kStep_rad = 0.1 * kRadPerDeg;
@@ -103,13 +127,7 @@ double ratio_of_drift(double revolutions) {
 
 /// Settles noise-free branches: X is constant, the others drift, one twice as fast as the other.
 StationaryBranch settled_without_noise(bool unlike) {
-  const auto at = [](const Eigen::Vector3d& axis_icrf) -> AxisCandidate {
-    return {.axis_icrf = axis_icrf,
-            .covariance_rad2 = kSigma_rad * kSigma_rad * Eigen::Matrix2d::Identity(),
-            .norm = 1.0,
-            .consistent = true,
-            .model_shift_icrf = Eigen::Matrix<double, 3, kModelErrors>::Zero()};
-  };
+  const auto at = [](const Eigen::Vector3d& axis_icrf) { return candidate(axis_icrf, kSigma_rad); };
   Dispersion dispersion{100};
   if (unlike) {
     dispersion.note_unlike();
@@ -170,38 +188,6 @@ TEST(Dispersion, WhereAllBranchesDriftNoneIsSteady) {
     const std::array candidates{sky.seen(slow), sky.seen(drifting(0.15 * kRadPerDeg * revolution))};
     ASSERT_FALSE(dispersion.add(candidates)) << revolution;
   }
-}
-
-TEST(Dispersion, OutliersAndDropOutsAreSurvived) {
-  Sky sky{65};
-  Dispersion dispersion{100};
-  std::optional<StationaryBranch> found;
-  for (int revolution = 0; revolution < 300 && !found; ++revolution) {
-    const double moved_rad = 0.08 * kRadPerDeg * revolution;
-    std::vector candidates{sky.seen(drifting(moved_rad)), sky.seen(kTrue_icrf)};
-    if (revolution % 7 == 3) {
-      candidates.pop_back();
-    }
-    if (revolution % 11 == 5) {  // A displaced edge moves both branches.
-      candidates = {sky.seen(drifting(moved_rad + 0.2)), sky.seen(drifting(-0.4))};
-    }
-    found = dispersion.add(candidates);
-  }
-  ASSERT_TRUE(found);
-  EXPECT_LT(angle_between_rad(found->axis.axis_icrf, kTrue_icrf), 0.2 * kRadPerDeg);
-}
-
-TEST(Dispersion, AfterASilenceTheTrueBranchIsWhereItWas) {
-  Sky sky{66};
-  Dispersion dispersion{100};
-  std::optional<StationaryBranch> found;
-  for (int revolution = 0; revolution < 60 && !found; ++revolution) {
-    const double silence_rad = revolution < 20 ? 0.0 : 15.0 * kRadPerDeg;
-    const std::array candidates{sky.seen(kTrue_icrf), sky.seen(drifting(silence_rad))};
-    found = dispersion.add(candidates);
-  }
-  ASSERT_TRUE(found);
-  EXPECT_LT(angle_between_rad(found->axis.axis_icrf, kTrue_icrf), 0.2 * kRadPerDeg);
 }
 
 TEST(Dispersion, ABranchThatPassesThroughTheTrueOneIsNotTakenForIt) {

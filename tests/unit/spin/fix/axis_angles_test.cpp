@@ -14,9 +14,9 @@
 #include "pipelines/frames/celestial.h"
 #include "tests/support/axis_scene.h"
 
-namespace spindrift::axis_angles_test {
+namespace spindrift::testing::axis_angles_test {
 
-using Scene = testing::AxisScene;
+using Scene = AxisScene;
 using enum SpinQuantity;
 
 /// Returns the dihedral from the Sun's half-plane to the Earth's about the axis, [0, 2 pi).
@@ -42,8 +42,7 @@ struct Solved {
 };
 
 Solved solved(const Scene& scene, const std::set<SpinQuantity>& left_out) {
-  const RevolutionMeasurements measured =
-      testing::measured_without(scene.config, scene.seen(), left_out);
+  const RevolutionMeasurements measured = scene.measured(left_out);
   const auto sun_earth = scene.sun_earth();
   const FixInput input = fix_input(scene.config, measured, sun_earth, views_of_sphere(sun_earth));
   Solved solved{.found = solve_axis_angles(input), .nearest_rad = 10.0};
@@ -68,9 +67,9 @@ TEST(AxisAngles, OfABodyUprightBetweenSunAndEarth) {
     const AxisSolutions found = solved(scene, left_out).found;
     ASSERT_FALSE(found.places.empty());
     const AxisAngles& best = found.places.front();
-    EXPECT_NEAR(best.sun_angle_rad.value(), 90.0 * kRadPerDeg, testing::kExact_rad);
-    EXPECT_NEAR(best.earth_angle_rad.value(), 90.0 * kRadPerDeg, testing::kExact_rad);
-    EXPECT_NEAR(best.dihedral_rad.value(), 90.0 * kRadPerDeg, testing::kExact_rad);
+    EXPECT_NEAR(best.sun_angle_rad.value(), 90.0 * kRadPerDeg, kExact_rad);
+    EXPECT_NEAR(best.earth_angle_rad.value(), 90.0 * kRadPerDeg, kExact_rad);
+    EXPECT_NEAR(best.dihedral_rad.value(), 90.0 * kRadPerDeg, kExact_rad);
   }
 }
 
@@ -78,7 +77,7 @@ TEST(AxisAngles, AreThoseOfTheVectorsWhateverIsMissing) {
   const Scene scene;
   for (std::size_t i = 0; i < kLosses.size(); ++i) {
     SCOPED_TRACE(i);
-    EXPECT_LT(solved(scene, kLosses[i]).nearest_rad, testing::kExact_rad);
+    EXPECT_LT(solved(scene, kLosses[i]).nearest_rad, kExact_rad);
   }
 }
 
@@ -96,7 +95,7 @@ TEST(AxisAngles, AreThoseOfTheVectorsAnywhere) {
         continue;
       }
       // Near a double root the error grows as the square root of the 1 ns resolution.
-      EXPECT_LT(answer.nearest_rad, 1e3 * testing::kExact_rad) << trial;
+      EXPECT_LT(answer.nearest_rad, 1e3 * kExact_rad) << trial;
       ++tried;
     }
   }
@@ -139,8 +138,8 @@ TEST(AxisAngles, BothChordsAreToldApartAndOneOfTwoRootsIsRankedFirst) {
   for (const SpinQuantity lost : {SouthChord, NorthChord}) {
     const Solved one = solved(scene, {lost});
     ASSERT_FALSE(one.found.places.empty());
-    EXPECT_LT(distance_rad(scene, one.found.places.front()), testing::kExact_rad);
+    EXPECT_LT(distance_rad(scene, one.found.places.front()), kExact_rad);
   }
 }
 
-}  // namespace spindrift::axis_angles_test
+}  // namespace spindrift::testing::axis_angles_test

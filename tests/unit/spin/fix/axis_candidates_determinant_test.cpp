@@ -4,16 +4,16 @@
 #include <cmath>
 #include <numbers>
 #include <random>
+#include <vector>
 
 #include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
 #include "pipelines/spin/fix/axis_candidates.h"
 #include "tests/support/axis_scene.h"
 
-namespace spindrift::axis_candidates_determinant_test {
+namespace spindrift::testing::axis_candidates_determinant_test {
 
-using testing::kExact_rad;
-using Scene = testing::AxisScene;
+using Scene = AxisScene;
 
 constexpr double kPi = std::numbers::pi;
 
@@ -29,72 +29,70 @@ Scene scene_of_determinant(double determinant, double earth_angle_deg = 87.0) {
   return scene;
 }
 
-TEST(AxisCandidates, ALargeDeterminantLeavesNoAlternate) {
-  for (const double delta : {0.0302, 0.05, -0.0302, -0.05}) {
-    const Scene scene = scene_of_determinant(delta);
-    const SpinFix fix = scene.fix().value();
-    EXPECT_TRUE(fix.alternates.empty()) << delta;
-    EXPECT_EQ(fix.resolution, Resolution::Geometry);
-    EXPECT_LT(angle_between_rad(fix.axis_icrf, scene.axis_icrf), kExact_rad);
+/// Describes what becomes of the two roots that one chord leaves.
+struct Roots {
+  std::vector<double> deltas;
+  double earth_angle_deg;
+  Resolution resolution;
+  bool both;  ///< Whether the other root is an alternate.
+};
+
+TEST(AxisCandidates, TheDeterminantSaysWhetherTheRootsAreToldApart) {
+  using enum Resolution;
+  const std::vector<Roots> all = {
+      {{0.0302, 0.05, -0.0302, -0.05}, 87.0, Geometry, false},
+      // The roots are 15 deg on either side of the beam; noise and model errors move them only
+      // slightly.
+      {{0.0298, -0.02, -0.0298}, 70.0, Geometry, true},
+      // The roots are 2 deg on either side of the beam, where a limb error of 0.15 deg moves them
+      // as far; with a vanishing determinant nothing tells them apart.
+      {{0.0298, 0.02, -0.02, -0.0298, 0.0098, 0.0, -0.0098}, 87.0, Ambiguous, true}};
+  for (const Roots& roots : all) {
+    for (const double delta : roots.deltas) {
+      SCOPED_TRACE(delta);
+      const Scene scene = scene_of_determinant(delta, roots.earth_angle_deg);
+      const SpinFix fix = scene.fix().value();
+      EXPECT_EQ(fix.resolution, roots.resolution);
+      EXPECT_EQ(fix.accepted, roots.resolution == Geometry);
+      EXPECT_EQ(fix.geometry_case, 2);
+      ASSERT_EQ(fix.alternates.size(), roots.both ? 1U : 0U);
+      double nearest_rad = scene.off_rad(fix.axis_icrf);
+      if (roots.both) {
+        const double other_rad = scene.off_rad(fix.alternates.front().axis_icrf);
+        EXPECT_GT(std::max(nearest_rad, other_rad), kRadPerDeg);
+        EXPECT_TRUE(roots.resolution != Geometry || nearest_rad < other_rad);
+        nearest_rad = std::min(nearest_rad, other_rad);
+      }
+      EXPECT_LT(nearest_rad, kExact_rad);
+    }
   }
 }
 
-TEST(AxisCandidates, ASmallDeterminantLeavesTheOtherRootAsAlternate) {
-  for (const double delta : {0.0298, -0.02, -0.0298}) {
-    // The roots are 15 deg on either side of the beam; noise and model errors move them only
-    // slightly.
-    const Scene scene = scene_of_determinant(delta, 70.0);
-    const SpinFix fix = scene.fix().value();
-    EXPECT_EQ(fix.resolution, Resolution::Geometry) << delta;
-    EXPECT_TRUE(fix.accepted);
-    EXPECT_LT(angle_between_rad(fix.axis_icrf, scene.axis_icrf), kExact_rad);
-    ASSERT_EQ(fix.alternates.size(), 1);
-    EXPECT_GT(angle_between_rad(fix.alternates.front().axis_icrf, scene.axis_icrf), kRadPerDeg);
+/// Expects no fix of three hundred noisy revolutions to be accepted far from the true axis.
+/// @return Number of accepted fixes that are not near tangent.
+int accepted_of_noise(const Scene& scene, std::mt19937_64& rng) {
+  const Revolution exact = scene.seen();
+  int accepted = 0;
+  for (int draw = 0; draw < 300; ++draw) {
+    const auto fix = lone_fix(scene.config, noisy(scene, exact, rng), {}, scene.sun_earth());
+    if (fix && fix->accepted) {
+      accepted += fix->near_tangent ? 0 : 1;
+      EXPECT_TRUE(fix->near_tangent ||
+                  scene.off_rad(fix->axis_icrf) < 6.0 * std::sqrt(fix->covariance_rad2.trace()));
+    }
   }
-}
-
-TEST(AxisCandidates, RootsThatTheModelMayExchangeAreAmbiguous) {
-  // The roots are 2 deg on either side of the beam, where a limb error of 0.15 deg moves them as
-  // far.
-  for (const double delta : {0.0298, 0.02, -0.02, -0.0298}) {
-    const SpinFix fix = scene_of_determinant(delta).fix().value();
-    EXPECT_EQ(fix.resolution, Resolution::Ambiguous) << delta;
-    EXPECT_EQ(fix.alternates.size(), 1);
-  }
-}
-
-TEST(AxisCandidates, AVanishingDeterminantIsAmbiguousAndNotAccepted) {
-  for (const double delta : {0.0098, 0.0, -0.0098}) {
-    const Scene scene = scene_of_determinant(delta);
-    const SpinFix fix = scene.fix().value();
-    EXPECT_EQ(fix.resolution, Resolution::Ambiguous) << delta;
-    EXPECT_FALSE(fix.accepted);
-    EXPECT_EQ(fix.geometry_case, 2);
-    ASSERT_EQ(fix.alternates.size(), 1);
-    const double off_rad = angle_between_rad(fix.axis_icrf, scene.axis_icrf);
-    const double alternate_off_rad =
-        angle_between_rad(fix.alternates.front().axis_icrf, scene.axis_icrf);
-    EXPECT_LT(std::min(off_rad, alternate_off_rad), kExact_rad);
-    EXPECT_GT(std::max(off_rad, alternate_off_rad), kRadPerDeg);
-  }
+  return accepted;
 }
 
 TEST(AxisCandidates, ARootThatFitsBetterByNoiseAloneIsNotAccepted) {
   std::mt19937_64 rng{5};
   for (const double delta : {0.012, 0.02, 0.028, 0.035}) {
+    SCOPED_TRACE(delta);
     Scene scene = scene_of_determinant(delta);
     scene.sun_icrf = Eigen::Vector3d{1.0, 0.0, 0.5}.normalized();
     scene.rate_rad_s = 2.0 * kPi;
     scene.config.noise.infrared_s = 1.5e-3;
-    const Revolution exact = scene.seen();
-    for (int draw = 0; draw < 300; ++draw) {
-      const auto fix =
-          testing::lone_fix(scene.config, testing::noisy(scene, exact, rng), {}, scene.sun_earth());
-      if (fix && fix->accepted) {
-        const double sigma_rad = std::sqrt(fix->covariance_rad2.trace());
-        EXPECT_LT(angle_between_rad(fix->axis_icrf, scene.axis_icrf), 6.0 * sigma_rad) << delta;
-      }
-    }
+    accepted_of_noise(scene, rng);
   }
 }
 
@@ -105,21 +103,11 @@ TEST(AxisCandidates, ARootOfANarrowChordIsNotAcceptedByNoiseAlone) {
   int accepted = 0;
   for (const double delta : {0.012, 0.016, 0.02, 0.028}) {
     for (const double inside_deg : {0.05, 0.1, 0.2, 0.4}) {
-      Scene scene;
-      const double disc_deg = scene.sun_earth().disc_rad / kRadPerDeg;
-      scene = scene_of_determinant(delta, 85.0 + disc_deg - inside_deg);
+      SCOPED_TRACE(::testing::Message() << delta << ' ' << inside_deg);
+      const double disc_deg = Scene{}.sun_earth().disc_rad / kRadPerDeg;
+      Scene scene = scene_of_determinant(delta, 85.0 + disc_deg - inside_deg);
       scene.rate_rad_s = 2.5 * 2.0 * kPi;
-      const Revolution exact = scene.seen();
-      for (int draw = 0; draw < 300; ++draw) {
-        const auto fix = testing::lone_fix(scene.config, testing::noisy(scene, exact, rng), {},
-                                           scene.sun_earth());
-        if (fix && fix->accepted && !fix->near_tangent) {
-          const double sigma_rad = std::sqrt(fix->covariance_rad2.trace());
-          EXPECT_LT(angle_between_rad(fix->axis_icrf, scene.axis_icrf), 6.0 * sigma_rad)
-              << delta << ' ' << inside_deg;
-          ++accepted;
-        }
-      }
+      accepted += accepted_of_noise(scene, rng);
     }
   }
   EXPECT_GT(accepted, 100);
@@ -140,7 +128,7 @@ TEST(AxisCandidates, AChordWiderThanTheDiscIsRefusedWithItsMeasure) {
   Revolution revolution = scene.seen();
   const TaiTime in = revolution.edge(PulseChannel::NorthIn).value();
   revolution.edges.at(index_of(PulseChannel::NorthOut)) = shifted(in, 0.9 / scene.rate_rad_s);
-  const auto fix = testing::lone_fix(scene.config, revolution, {}, scene.sun_earth());
+  const auto fix = lone_fix(scene.config, revolution, {}, scene.sun_earth());
   ASSERT_FALSE(fix);
   EXPECT_TRUE(fix.error().contradictory);
   EXPECT_EQ(fix.error().why.code, NoFixCode::ChordTooWide);
@@ -160,4 +148,4 @@ TEST(AxisCandidates, ASolutionThatTheNoiseDestroysIsRefused) {
   EXPECT_FALSE(fix.error().contradictory);
 }
 
-}  // namespace spindrift::axis_candidates_determinant_test
+}  // namespace spindrift::testing::axis_candidates_determinant_test

@@ -4,11 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstddef>
 #include <numbers>
 #include <random>
 #include <set>
-#include <string>
 #include <vector>
 
 #include "pipelines/frames/angle.h"
@@ -16,29 +14,14 @@
 #include "pipelines/spin/fix/axis_candidates.h"
 #include "tests/support/axis_scene.h"
 
-namespace spindrift::axis_candidates_horizon_test {
+namespace spindrift::testing::axis_candidates_horizon_test {
 
-using Scene = testing::AxisScene;
+using Scene = AxisScene;
 using enum SpinQuantity;
 
 /// Quantities left out: none, and either chord.
 const std::array<std::set<SpinQuantity>, 3> kLeftOut = {std::set<SpinQuantity>{},
                                                         std::set{SouthChord}, std::set{NorthChord}};
-
-/// Returns a scene with the spin axis tilted against the Earth's and the Sun well aside.
-Scene tilted_scene(double tilt_deg, double earth_angle_deg, HorizonModel earth) {
-  Scene scene{.earth = earth};
-  scene.config.horizon.model = earth;
-  scene.axis_icrf =
-      Eigen::AngleAxisd{tilt_deg * kRadPerDeg, Eigen::Vector3d::UnitX()} * Eigen::Vector3d::UnitZ();
-  const Eigen::Vector3d side = Eigen::AngleAxisd{0.3, scene.axis_icrf} * Eigen::Vector3d::UnitX();
-  const auto from_axis = [&](double angle_rad) -> Eigen::Vector3d {
-    return Eigen::AngleAxisd{angle_rad, scene.axis_icrf.cross(side)} * scene.axis_icrf;
-  };
-  scene.earth_icrf = from_axis(earth_angle_deg * kRadPerDeg);
-  scene.sun_icrf = Eigen::AngleAxisd{1.2, scene.axis_icrf} * from_axis(1.8);
-  return scene;
-}
 
 std::vector<Scene> usual_scenes(HorizonModel earth) {
   std::vector<Scene> scenes;
@@ -57,8 +40,8 @@ TEST_P(FixesOnHorizons, ExactEdgesGiveTheTrueAxis) {
     for (const auto& left_out : kLeftOut) {
       const SpinFix fix = scene.fix(left_out).value();
       EXPECT_TRUE(fix.accepted);
-      EXPECT_LT(angle_between_rad(fix.axis_icrf, scene.axis_icrf), testing::kExact_rad);
-      EXPECT_NEAR(fix.norm, 1.0, testing::kExact_rad);
+      EXPECT_LT(scene.off_rad(fix.axis_icrf), kExact_rad);
+      EXPECT_NEAR(fix.norm, 1.0, kExact_rad);
     }
   }
 }
@@ -86,8 +69,8 @@ TEST_P(FixesOnHorizons, ExactEdgesGiveTheTrueAxisWhileTheEarthMoves) {
     const Revolution seen = scene.seen_while_earth_moves(motion_icrf_s);
     const SunEarthDirections sun_earth = scene.sightlines_while_earth_moves(motion_icrf_s);
     for (const auto& left_out : kLeftOut) {
-      const SpinFix fix = testing::lone_fix(scene.config, seen, left_out, sun_earth).value();
-      EXPECT_LT(angle_between_rad(fix.axis_icrf, scene.axis_icrf), testing::kExact_rad);
+      const SpinFix fix = lone_fix(scene.config, seen, left_out, sun_earth).value();
+      EXPECT_LT(scene.off_rad(fix.axis_icrf), kExact_rad);
     }
   }
 }
@@ -96,7 +79,7 @@ TEST_P(FixesOnHorizons, AFixTurnsWithAllThatItWasMadeFrom) {
   std::mt19937_64 rng{94};
   std::normal_distribution<double> normal;
   for (const Scene& scene : usual_scenes(GetParam())) {
-    const Revolution seen = testing::noisy(scene, scene.seen(), rng);
+    const Revolution seen = noisy(scene, scene.seen(), rng);
     const double w = normal(rng);
     const double x = normal(rng);
     const double y = normal(rng);
@@ -109,8 +92,8 @@ TEST_P(FixesOnHorizons, AFixTurnsWithAllThatItWasMadeFrom) {
       turned.*direction = turn * (sun_earth.*direction);
     }
     for (const auto& left_out : kLeftOut) {
-      const SpinFix fix = testing::lone_fix(scene.config, seen, left_out, sun_earth).value();
-      const SpinFix there = testing::lone_fix(scene.config, seen, left_out, turned).value();
+      const SpinFix fix = lone_fix(scene.config, seen, left_out, sun_earth).value();
+      const SpinFix there = lone_fix(scene.config, seen, left_out, turned).value();
       EXPECT_LT(angle_between_rad(there.axis_icrf, turn * fix.axis_icrf), 1e-10);
       EXPECT_NEAR(there.norm, fix.norm, 1e-10);
       EXPECT_NEAR(there.covariance_rad2.trace() / fix.covariance_rad2.trace(), 1.0, 1e-6);
@@ -137,8 +120,7 @@ TEST(AxisCandidatesOnTheEllipsoid, ABeamThatOnTheSphereWouldMissItHasAFixToo) {
           0.5 * std::numbers::pi - limb_rad + depth_deg * kRadPerDeg;
       const SpinFix fix = scene.fix({SouthChord, SouthDihedral}).value();
       EXPECT_EQ(fix.geometry_case, 2);
-      EXPECT_LT(angle_between_rad(fix.axis_icrf, scene.axis_icrf), 0.0005 * kRadPerDeg)
-          << tilt_deg << " " << depth_deg;
+      EXPECT_LT(scene.off_rad(fix.axis_icrf), 0.0005 * kRadPerDeg) << tilt_deg << " " << depth_deg;
     }
   }
 }
@@ -150,7 +132,7 @@ void mount_for_chord(double chord_rad, Scene& scene) {
   double wider_rad = earth_angle_rad - 15.0 * kRadPerDeg;
   for (int i = 0; i < 30; ++i) {
     scene.config.north->mount_angle_rad = 0.5 * (narrower_rad + wider_rad);
-    const auto crossing = measure(scene.config, scene.seen()).crossing(Side::North);
+    const auto crossing = scene.measured().crossing(Side::North);
     const bool wider = crossing && crossing->chord && crossing->chord->value_rad > chord_rad;
     (wider ? wider_rad : narrower_rad) = scene.config.north->mount_angle_rad;
   }
@@ -166,13 +148,12 @@ TEST(AxisCandidatesOnTheEllipsoid, ANarrowChordAnywhereOnTheLimbHasAFixToo) {
         mount_for_chord(chord_deg * kRadPerDeg, scene);
         for (const auto& left_out : {std::set{SouthChord, SouthDihedral},
                                      std::set{SouthChord, SouthDihedral, NorthDihedral}}) {
-          const auto found = axis_candidates(
-              scene.config, testing::measured_without(scene.config, scene.seen(), left_out),
-              scene.sun_earth());
+          const auto found =
+              axis_candidates(scene.config, scene.measured(left_out), scene.sun_earth());
           ASSERT_TRUE(found);
           double off_rad = 1.0;
           for (const AxisCandidate& candidate : found->candidates) {
-            off_rad = std::min(off_rad, angle_between_rad(candidate.axis_icrf, scene.axis_icrf));
+            off_rad = std::min(off_rad, scene.off_rad(candidate.axis_icrf));
           }
           EXPECT_LT(off_rad, 0.0002 * kRadPerDeg)
               << tilt_deg << " " << earth_angle_deg << " " << chord_deg;
@@ -187,8 +168,7 @@ TEST(AxisCandidatesOnTheEllipsoid, RootsThatOnlyTheSphereAllowsAreNone) {
   Scene scene = tilted_scene(90.0, 89.5, HorizonModel::Sphere);
   scene.config.north->mount_angle_rad = 0.5 * std::numbers::pi;
   scene.config.south.reset();
-  const RevolutionMeasurements measured =
-      testing::measured_without(scene.config, scene.seen(), {SunAngle});
+  const RevolutionMeasurements measured = scene.measured({SunAngle});
   const auto candidates = [&] {
     return axis_candidates(scene.config, measured, scene.sun_earth());
   };
@@ -200,4 +180,4 @@ TEST(AxisCandidatesOnTheEllipsoid, RootsThatOnlyTheSphereAllowsAreNone) {
   EXPECT_EQ(found.error().why.code, NoFixCode::ChordTooWide);
 }
 
-}  // namespace spindrift::axis_candidates_horizon_test
+}  // namespace spindrift::testing::axis_candidates_horizon_test

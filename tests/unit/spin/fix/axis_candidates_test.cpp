@@ -12,63 +12,63 @@
 #include "pipelines/spin/sensor_model/geometry.h"
 #include "tests/support/axis_scene.h"
 
-namespace spindrift::axis_candidates_test {
+namespace spindrift::testing::axis_candidates_test {
 
-using testing::kExact_rad;
-using Scene = testing::AxisScene;
+using Scene = AxisScene;
 using enum SpinQuantity;
 
-TEST(AxisCandidates, CaseOneHasBothChords) {
-  const Scene scene;
+struct AxisCandidatesTest : ::testing::Test {
+  Scene scene;
+};
+
+TEST_F(AxisCandidatesTest, CaseOneHasBothChords) {
   const SpinFix fix = scene.fix().value();
   EXPECT_EQ(fix.geometry_case, 1);
   EXPECT_EQ(fix.resolution, Resolution::Geometry);
   EXPECT_TRUE(fix.accepted);
   EXPECT_TRUE(fix.alternates.empty());
-  EXPECT_LT(angle_between_rad(fix.axis_icrf, scene.axis_icrf), kExact_rad);
+  EXPECT_LT(scene.off_rad(fix.axis_icrf), kExact_rad);
   EXPECT_NEAR(fix.norm, 1.0, kExact_rad);
   EXPECT_EQ(fix.t, scene.seen().edge(PulseChannel::Sun1));
 }
 
-TEST(AxisCandidates, CasesTwoAndThreeHaveOneChord) {
-  const Scene scene;
+TEST_F(AxisCandidatesTest, WhatIsLeftOutMakesTheCase) {
   for (const auto& [left_out, geometry_case] :
-       {std::pair{SouthChord, 2}, std::pair{NorthChord, 3}}) {
+       {std::pair{SouthChord, 2}, std::pair{NorthChord, 3}, std::pair{NorthDihedral, 1},
+        std::pair{SouthDihedral, 1}}) {
+    SCOPED_TRACE(name_of(left_out));
     const SpinFix fix = scene.fix({left_out}).value();
     EXPECT_EQ(fix.geometry_case, geometry_case);
     EXPECT_EQ(fix.resolution, Resolution::Geometry);
     EXPECT_TRUE(fix.accepted);
-    EXPECT_LT(angle_between_rad(fix.axis_icrf, scene.axis_icrf), kExact_rad);
+    EXPECT_LT(scene.off_rad(fix.axis_icrf), kExact_rad);
   }
 }
 
-TEST(AxisCandidates, AChordMayBeWiderThanHalfATurn) {
-  Scene scene;
+TEST_F(AxisCandidatesTest, AChordMayBeWiderThanHalfATurn) {
   scene.earth_icrf =
       Eigen::AngleAxisd{10.0 * kRadPerDeg, scene.axis_icrf.unitOrthogonal()} * scene.axis_icrf;
   scene.config.north->mount_angle_rad = 16.0 * kRadPerDeg;
   scene.config.south->mount_angle_rad = 20.0 * kRadPerDeg;
-  const RevolutionMeasurements measured = measure(scene.config, scene.seen());
+  const RevolutionMeasurements measured = scene.measured();
   EXPECT_GT(value_of(measured, NorthChord)->value_rad, 240.0 * kRadPerDeg);
   EXPECT_GT(value_of(measured, SouthChord)->value_rad, 190.0 * kRadPerDeg);
   for (const std::set<SpinQuantity>& left_out :
        {std::set<SpinQuantity>{}, std::set{SouthChord}, std::set{NorthChord}}) {
     const SpinFix fix = scene.fix(left_out).value();
-    EXPECT_LT(angle_between_rad(fix.axis_icrf, scene.axis_icrf), kExact_rad) << left_out.size();
+    EXPECT_LT(scene.off_rad(fix.axis_icrf), kExact_rad) << left_out.size();
   }
 }
 
-TEST(AxisCandidates, OneDihedralIsEnough) {
-  const Scene scene;
-  for (const SpinQuantity left_out : {NorthDihedral, SouthDihedral}) {
-    const SpinFix fix = scene.fix({left_out}).value();
-    EXPECT_EQ(fix.geometry_case, 1);
-    EXPECT_LT(angle_between_rad(fix.axis_icrf, scene.axis_icrf), kExact_rad);
+TEST_F(AxisCandidatesTest, ASensorThatTheMissionDoesNotHaveOrThatSeesTheSameMakesItCaseTwo) {
+  for (const double apart_deg : {0.0, 0.3}) {
+    scene.config.south->mount_angle_rad =
+        scene.config.north->mount_angle_rad + apart_deg * kRadPerDeg;
+    const SpinFix fix = scene.fix().value();
+    EXPECT_EQ(fix.geometry_case, 2);
+    EXPECT_TRUE(fix.accepted);
+    EXPECT_LT(scene.off_rad(fix.axis_icrf), kExact_rad);
   }
-}
-
-TEST(AxisCandidates, ASensorThatTheMissionDoesNotHaveMakesItCaseTwo) {
-  Scene scene;
   scene.config.south.reset();
   EXPECT_EQ(scene.fix().value().geometry_case, 2);
 }
@@ -85,8 +85,8 @@ TEST(AxisCandidates, DihedralsOnEitherSideOfPiAreAveragedThere) {
   for (const PulseChannel channel : {PulseChannel::SouthIn, PulseChannel::SouthOut}) {
     revolution.edges.at(index_of(channel)) = shifted(*revolution.edge(channel), -1e-4);
   }
-  const SpinFix fix = testing::lone_fix(scene.config, revolution, {}, scene.sun_earth()).value();
-  EXPECT_LT(angle_between_rad(fix.axis_icrf, scene.axis_icrf), kExact_rad);
+  const SpinFix fix = lone_fix(scene.config, revolution, {}, scene.sun_earth()).value();
+  EXPECT_LT(scene.off_rad(fix.axis_icrf), kExact_rad);
 }
 
 TEST(AxisCandidates, AnEarthThatMovesBetweenTheEdgesIsAllowedFor) {
@@ -97,8 +97,8 @@ TEST(AxisCandidates, AnEarthThatMovesBetweenTheEdgesIsAllowedFor) {
   for (const std::set<SpinQuantity>& left_out :
        {std::set<SpinQuantity>{}, std::set{SouthChord}, std::set{NorthChord}}) {
     const auto off_rad = [&](const SunEarthDirections& taken) {
-      const SpinFix fix = testing::lone_fix(scene.config, seen, left_out, taken).value();
-      return angle_between_rad(fix.axis_icrf, scene.axis_icrf);
+      const SpinFix fix = lone_fix(scene.config, seen, left_out, taken).value();
+      return scene.off_rad(fix.axis_icrf);
     };
     EXPECT_LT(off_rad(sun_earth), 0.02 * off_rad(scene.sun_earth()));
     EXPECT_GT(off_rad(scene.sun_earth()), 0.03 * kRadPerDeg);
@@ -119,71 +119,44 @@ TEST(AxisCandidates, SunAndEarthInLineLeaveTheAxisOpen) {
   }
 }
 
-TEST(AxisCandidates, BeamsMountedAlikeAreOneBeam) {
-  Scene scene;
-  for (const double apart_deg : {0.0, 0.3}) {
-    scene.config.south->mount_angle_rad =
-        scene.config.north->mount_angle_rad + apart_deg * kRadPerDeg;
-    const SpinFix fix = scene.fix().value();
-    EXPECT_EQ(fix.geometry_case, 2);
-    EXPECT_TRUE(fix.accepted);
-    EXPECT_LT(angle_between_rad(fix.axis_icrf, scene.axis_icrf), kExact_rad);
-  }
-}
-
-TEST(AxisCandidates, AWrongAzimuthContradictsTheAngleBetweenSunAndEarth) {
-  const Scene scene;
+TEST_F(AxisCandidatesTest, AWrongAzimuthContradictsTheAngleBetweenSunAndEarth) {
   SpinConfig wrong = scene.config;
   wrong.north->azimuth_rad -= 80.0 * kRadPerDeg;
   wrong.south->azimuth_rad -= 80.0 * kRadPerDeg;
-  const SpinFix fix = testing::lone_fix(wrong, scene.seen(), {}, scene.sun_earth()).value();
+  const SpinFix fix = lone_fix(wrong, scene.seen(), {}, scene.sun_earth()).value();
   EXPECT_FALSE(fix.accepted);
   EXPECT_GT(std::abs(fix.norm - 1.0), 0.1);
 }
 
-TEST(AxisCandidates, ChordsOfAnotherDiscContradictTheOrbit) {
-  const Scene scene;
+TEST_F(AxisCandidatesTest, ChordsOfAnotherDiscContradictTheOrbit) {
   for (const double range_factor : {0.8, 1.25}) {
     SunEarthDirections sun_earth = scene.sun_earth();
     sun_earth.disc_rad = std::asin(std::sin(sun_earth.disc_rad) / range_factor);
-    const SpinFix fix = testing::lone_fix(scene.config, scene.seen(), {}, sun_earth).value();
+    const SpinFix fix = lone_fix(scene.config, scene.seen(), {}, sun_earth).value();
     EXPECT_FALSE(fix.accepted) << range_factor;
     // Two chords need no disc: the axis is right, but the fix must not be trusted.
-    EXPECT_LT(angle_between_rad(fix.axis_icrf, scene.axis_icrf), kExact_rad);
+    EXPECT_LT(scene.off_rad(fix.axis_icrf), kExact_rad);
   }
 }
 
-TEST(AxisCandidates, OnlyWhatCouldGiveAFixCanContradictItself) {
-  Scene scene;
+TEST_F(AxisCandidatesTest, OnlyWhatCouldGiveAFixCanContradictItself) {
   const auto contradicts = [&](const RevolutionMeasurements& measured) {
     return is_inconsistent(axis_candidates(scene.config, measured, scene.sun_earth()));
   };
-  EXPECT_FALSE(contradicts(measure(scene.config, scene.seen())));
-  RevolutionMeasurements cones =
-      testing::measured_without(scene.config, scene.seen(), {NorthDihedral, SouthDihedral});
+  EXPECT_FALSE(contradicts(scene.measured()));
+  RevolutionMeasurements cones = scene.measured({NorthDihedral, SouthDihedral});
   cones.sun_angle->value_rad = 10.0 * kRadPerDeg;
   EXPECT_TRUE(contradicts(cones));
+  EXPECT_EQ(axis_candidates(scene.config, cones, scene.sun_earth()).error().why.code,
+            NoFixCode::ConesApart);
   const Revolution seen = scene.seen();
-  EXPECT_FALSE(
-      contradicts(testing::measured_without(scene.config, seen, {NorthChord, SouthChord})));
+  EXPECT_FALSE(contradicts(scene.measured({NorthChord, SouthChord})));
   scene.config.north->mount_angle_rad = 20.0 * kRadPerDeg;
   scene.config.south->mount_angle_rad = 160.0 * kRadPerDeg;
   EXPECT_TRUE(contradicts(measure(scene.config, seen)));
 }
 
-TEST(AxisCandidates, ConesThatDoNotMeetAreRefused) {
-  const Scene scene;
-  RevolutionMeasurements measured =
-      testing::measured_without(scene.config, scene.seen(), {NorthDihedral, SouthDihedral});
-  measured.sun_angle->value_rad = 10.0 * kRadPerDeg;
-  const auto found = axis_candidates(scene.config, measured, scene.sun_earth());
-  ASSERT_FALSE(found);
-  EXPECT_TRUE(found.error().contradictory);
-  EXPECT_EQ(found.error().why.code, NoFixCode::ConesApart);
-}
-
-TEST(AxisCandidates, WhatRestsOnARejectedEdgeIsNotUsed) {
-  const Scene scene;
+TEST_F(AxisCandidatesTest, WhatRestsOnARejectedEdgeIsNotUsed) {
   Revolution revolution = scene.seen();
   revolution.edge_rejections.at(index_of(PulseChannel::SouthOut)) = Rejection::Phase;
   EXPECT_EQ(geometry_case_of(measure(scene.config, revolution)), 2);
@@ -220,7 +193,7 @@ TEST(AxisCandidates, TwoConesMeetInTheTrueAndTheFalseSolutionOfTheGoldenValues) 
   const auto at_deg = [](double ra_deg, double dec_deg) {
     return direction_icrf({.ra_rad = ra_deg * kRadPerDeg, .dec_rad = dec_deg * kRadPerDeg});
   };
-  SpinConfig config = testing::usual_config();
+  SpinConfig config = usual_config();
   config.north->mount_angle_rad = 120.0 * kRadPerDeg;
   config.south->mount_angle_rad = 145.0 * kRadPerDeg;
   const SunEarthDirections sun_earth{.sun_icrf = at_deg(10.0, 4.3),
@@ -242,4 +215,4 @@ TEST(AxisCandidates, TwoConesMeetInTheTrueAndTheFalseSolutionOfTheGoldenValues) 
             kPrinted_rad);
 }
 
-}  // namespace spindrift::axis_candidates_test
+}  // namespace spindrift::testing::axis_candidates_test

@@ -14,10 +14,9 @@
 #include "pipelines/spin/measurement/beam_view.h"
 #include "tests/support/axis_scene.h"
 
-namespace spindrift::horizon_roots_test {
+namespace spindrift::testing::horizon_roots_test {
 
 using Eigen::Vector3d;
-using testing::AxisScene;
 using enum SpinQuantity;
 
 /// Returns the axis with these angles to Sun and Earth, on the side of their plane that the
@@ -41,9 +40,7 @@ struct Revolved {
   SunEarthDirections sun_earth;
 
   explicit Revolved(const AxisScene& scene, const std::set<SpinQuantity>& left_out = {})
-      : config{scene.config},
-        measured{testing::measured_without(scene.config, scene.seen(), left_out)},
-        sun_earth{scene.sun_earth()} {}
+      : config{scene.config}, measured{scene.measured(left_out)}, sun_earth{scene.sun_earth()} {}
 
   FixInput on_sphere() const {
     return fix_input(config, measured, sun_earth, views_of_sphere(sun_earth));
@@ -69,21 +66,6 @@ double nearest_rad(const std::vector<Vector3d>& axes, const Vector3d& axis) {
   return nearest;
 }
 
-/// Returns a scene with the spin axis tilted against the Earth's, so that the flattening is
-/// oblique, and the Sun aside.
-AxisScene tilted_scene(double tilt_deg, double earth_angle_deg, HorizonModel earth) {
-  AxisScene scene{.earth = earth};
-  scene.config.horizon.model = earth;
-  scene.axis_icrf = Eigen::AngleAxisd{tilt_deg * kRadPerDeg, Vector3d::UnitX()} * Vector3d::UnitZ();
-  const Vector3d side = Eigen::AngleAxisd{0.3, scene.axis_icrf} * Vector3d::UnitX();
-  const auto from_axis = [&](double angle_rad) -> Vector3d {
-    return Eigen::AngleAxisd{angle_rad, scene.axis_icrf.cross(side)} * scene.axis_icrf;
-  };
-  scene.earth_icrf = from_axis(earth_angle_deg * kRadPerDeg);
-  scene.sun_icrf = Eigen::AngleAxisd{1.2, scene.axis_icrf} * from_axis(1.8);
-  return scene;
-}
-
 /// Quantities left out, so that all measurements remain, or one chord, or one chord with only the
 /// Sun's azimuth or only its angle.
 const std::vector<std::set<SpinQuantity>> kLeftOut = {
@@ -106,11 +88,11 @@ TEST(HorizonRoots, TheTrueAxisIsAmongThem) {
   for (const HorizonModel earth : {HorizonModel::Sphere, HorizonModel::Ellipsoid}) {
     for_all(earth, [](const AxisScene& scene, const Revolved& revolved) {
       const AxisSolutions found = solve_on_horizon(revolved.on_sphere());
-      EXPECT_LT(nearest_rad(revolved.axes_of(found), scene.axis_icrf), 10.0 * testing::kExact_rad);
+      EXPECT_LT(nearest_rad(revolved.axes_of(found), scene.axis_icrf), 10.0 * kExact_rad);
       if (found.told_apart) {
         EXPECT_LT(
             angle_between_rad(axis_of(revolved.sun_earth, found.places.front()), scene.axis_icrf),
-            10.0 * testing::kExact_rad);
+            10.0 * kExact_rad);
       }
     });
   }
@@ -176,7 +158,7 @@ TEST(HorizonRoots, WhereTheTrueOneIsMissingTheySayThatTheyAreNearTangent) {
       for (const SpinQuantity chord : {NorthChord, SouthChord}) {
         const Revolved revolved{scene, {chord, SunAngle}};
         const AxisSolutions found = solve_on_horizon(revolved.on_sphere());
-        if (nearest_rad(revolved.axes_of(found), scene.axis_icrf) > 10.0 * testing::kExact_rad) {
+        if (nearest_rad(revolved.axes_of(found), scene.axis_icrf) > 10.0 * kExact_rad) {
           ++missing;
           EXPECT_TRUE(found.near_tangent) << tilt_deg << " " << earth_angle_deg;
         }
@@ -220,4 +202,4 @@ TEST(HorizonRoots, WhereAllVanishOnTheWayThereIsNoneAndAReason) {
   EXPECT_GT(vanished, 0);
 }
 
-}  // namespace spindrift::horizon_roots_test
+}  // namespace spindrift::testing::horizon_roots_test

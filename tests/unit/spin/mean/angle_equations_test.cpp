@@ -3,19 +3,15 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Dense>
-#include <cmath>
-#include <numbers>
-#include <optional>
 #include <random>
-#include <vector>
 
 #include "pipelines/frames/celestial.h"
 #include "tests/support/axis_scene.h"
 #include "tests/support/normalised_square.h"
 
-namespace spindrift::angle_equations_test {
+namespace spindrift::testing::angle_equations_test {
 
-using Scene = testing::AxisScene;
+using Scene = AxisScene;
 using enum SpinQuantity;
 
 /// The step is small enough for linearity and ten thousand times the rounding to nanoseconds.
@@ -36,6 +32,14 @@ RevolutionMeasurements only(SpinQuantity quantity, const SpinConfig& config,
   return measured;
 }
 
+/// Returns the equations of one revolution, counted from the axis about which they are linear.
+AngleEquations equations_of(const SpinConfig& config, const RevolutionMeasurements& measured,
+                            const SunEarthDirections& sun_earth, const Eigen::Vector3d& axis_icrf) {
+  AngleEquations equations{axis_icrf};
+  equations.add(config, measured, sun_earth, axis_icrf);
+  return equations;
+}
+
 /// Expects equations that are linear in one unknown while the others are zero: the residual is the
 /// slope times the step, so the right-hand side is the normal matrix times the step.
 void expect_linear(const AngleEquations& equations, int unknown, double step_rad) {
@@ -47,8 +51,11 @@ void expect_linear(const AngleEquations& equations, int unknown, double step_rad
               2e-3 * slopes(unknown) * step_rad * step_rad + 1e-12);
 }
 
-TEST(AngleEquations, SlopesToTheAxisAreDifferencesOfResiduals) {
-  const Scene scene;
+struct AngleEquationsTest : ::testing::Test {
+  Scene scene;
+};
+
+TEST_F(AngleEquationsTest, SlopesToTheAxisAreDifferencesOfResiduals) {
   for (const SpinQuantity quantity : kMeasuredAngles) {
     SCOPED_TRACE(name_of(quantity));
     const RevolutionMeasurements measured = only(quantity, scene.config, scene.seen());
@@ -56,17 +63,15 @@ TEST(AngleEquations, SlopesToTheAxisAreDifferencesOfResiduals) {
       for (const double step_rad : {kStep_rad, -kStep_rad}) {
         const Eigen::Vector3d beside_icrf =
             (scene.axis_icrf - step_rad * tangent_basis(scene.axis_icrf).col(across)).normalized();
-        AngleEquations equations{beside_icrf};
-        equations.add(scene.config, measured, scene.sun_earth(), beside_icrf);
-        expect_linear(equations, across, step_rad);
+        expect_linear(equations_of(scene.config, measured, scene.sun_earth(), beside_icrf), across,
+                      step_rad);
       }
     }
   }
 }
 
-TEST(AngleEquations, AnAxisBesideTheReferenceIsCountedFromThere) {
-  const Scene scene;
-  const RevolutionMeasurements measured = measure(scene.config, scene.seen());
+TEST_F(AngleEquationsTest, AnAxisBesideTheReferenceIsCountedFromThere) {
+  const RevolutionMeasurements measured = scene.measured();
   const Eigen::Vector3d reference_icrf =
       (scene.axis_icrf + kStep_rad * Eigen::Vector3d::UnitX()).normalized();
   for (const Eigen::Vector3d& about_icrf : {scene.axis_icrf, reference_icrf}) {
@@ -79,53 +84,46 @@ TEST(AngleEquations, AnAxisBesideTheReferenceIsCountedFromThere) {
   }
 }
 
-TEST(AngleEquations, SlopesToTheLimbAreThoseOfALargerDisc) {
-  const Scene scene;
+TEST_F(AngleEquationsTest, SlopesToTheLimbAreThoseOfALargerDisc) {
   SunEarthDirections larger = scene.sun_earth();
   larger.disc_rad += kStep_rad;
   for (const auto& [quantity, error] :
        {std::pair{NorthChord, NorthLimb}, std::pair{SouthChord, SouthLimb}}) {
-    AngleEquations equations{scene.axis_icrf};
-    equations.add(scene.config, only(quantity, scene.config, scene.seen()), larger,
-                  scene.axis_icrf);
-    expect_linear(equations, 2 + error, kStep_rad);
+    expect_linear(equations_of(scene.config, only(quantity, scene.config, scene.seen()), larger,
+                               scene.axis_icrf),
+                  2 + error, kStep_rad);
   }
 }
 
-TEST(AngleEquations, SlopesToTheAzimuthsAreThoseOfAWrongMissionFile) {
-  const Scene scene;
+TEST_F(AngleEquationsTest, SlopesToTheAzimuthsAreThoseOfAWrongMissionFile) {
   SpinConfig wrong = scene.config;
   wrong.north->azimuth_rad -= kStep_rad;
   wrong.south->azimuth_rad -= kStep_rad;
   for (const auto& [quantity, error] :
        {std::pair{NorthDihedral, NorthAzimuth}, std::pair{SouthDihedral, SouthAzimuth}}) {
-    AngleEquations equations{scene.axis_icrf};
-    equations.add(wrong, only(quantity, wrong, scene.seen()), scene.sun_earth(), scene.axis_icrf);
-    expect_linear(equations, 2 + error, kStep_rad);
+    expect_linear(equations_of(wrong, only(quantity, wrong, scene.seen()), scene.sun_earth(),
+                               scene.axis_icrf),
+                  2 + error, kStep_rad);
   }
 }
 
-TEST(AngleEquations, SlopesToTheSunAngleAreThoseOfAWrongSeparation) {
-  const Scene scene;
+TEST_F(AngleEquationsTest, SlopesToTheSunAngleAreThoseOfAWrongSeparation) {
   SpinConfig wrong = scene.config;
   wrong.sun_sensor.slit_separation_rad += kStep_rad;
-  const double too_large_rad = measure(wrong, scene.seen()).sun_angle->value_rad -
-                               measure(scene.config, scene.seen()).sun_angle->value_rad;
+  const double too_large_rad =
+      measure(wrong, scene.seen()).sun_angle->value_rad - scene.measured().sun_angle->value_rad;
   EXPECT_GT(too_large_rad, 0.0);
   for (const SpinQuantity quantity : {SunAngle, MixedAzimuth}) {
-    AngleEquations equations{scene.axis_icrf};
-    equations.add(wrong, only(quantity, wrong, scene.seen()), scene.sun_earth(), scene.axis_icrf);
-    expect_linear(equations, 2 + SunAngleError, too_large_rad);
+    expect_linear(equations_of(wrong, only(quantity, wrong, scene.seen()), scene.sun_earth(),
+                               scene.axis_icrf),
+                  2 + SunAngleError, too_large_rad);
   }
 }
 
-TEST(AngleEquations, AChannelThatIsLateMovesTheAxisByItsOffset) {
-  const Scene scene;
+TEST_F(AngleEquationsTest, AChannelThatIsLateMovesTheAxisByItsOffset) {
   const auto axis_of = [&](const Revolution& revolution) {
-    AngleEquations equations{scene.axis_icrf};
-    equations.add(scene.config, measure(scene.config, revolution), scene.sun_earth(),
-                  scene.axis_icrf);
-    return equations;
+    return equations_of(scene.config, measure(scene.config, revolution), scene.sun_earth(),
+                        scene.axis_icrf);
   };
   const AngleEquations in_time = axis_of(scene.seen());
   const double late_s = kStep_rad / scene.rate_rad_s;
@@ -142,14 +140,12 @@ TEST(AngleEquations, AChannelThatIsLateMovesTheAxisByItsOffset) {
   }
 }
 
-TEST(AngleEquations, AChordThatGrazesTheLimbIsLeftOut) {
-  Scene scene;
+TEST_F(AngleEquationsTest, AChordThatGrazesTheLimbIsLeftOut) {
   const double disc_rad = scene.sun_earth().disc_rad;
   const double earth_rad = angle_between_rad(scene.axis_icrf, scene.earth_icrf);
   scene.config.north->mount_angle_rad = earth_rad - disc_rad + 0.005;
-  AngleEquations equations{scene.axis_icrf};
-  equations.add(scene.config, measure(scene.config, scene.seen()), scene.sun_earth(),
-                scene.axis_icrf);
+  const AngleEquations equations =
+      equations_of(scene.config, scene.measured(), scene.sun_earth(), scene.axis_icrf);
   EXPECT_EQ(equations.angles(), 4);
 }
 
@@ -161,29 +157,27 @@ TEST(AngleEquations, CovarianceIsTheScatterOfTheAxis) {
   std::mt19937_64 rng{31};
   double squares = 0.0;
   for (int draw = 0; draw < kDraws; ++draw) {
-    AngleEquations equations{scene.axis_icrf};
-    equations.add(scene.config, measure(scene.config, testing::noisy(scene, exact, rng)),
-                  scene.sun_earth(), scene.axis_icrf);
+    const AngleEquations equations =
+        equations_of(scene.config, measure(scene.config, noisy(scene, exact, rng)),
+                     scene.sun_earth(), scene.axis_icrf);
     const Eigen::Vector2d error_rad =
         tangent_basis(scene.axis_icrf).transpose() * equations.axis_icrf();
-    squares += testing::normalised_square(error_rad, equations.covariance_rad2());
+    squares += normalised_square(error_rad, equations.covariance_rad2());
   }
   // Chi-square with 6000 degrees of freedom has a standard deviation of sqrt(12000); 99.9 %.
   EXPECT_NEAR(squares, 2.0 * kDraws, 3.29 * 109.5);
 }
 
-TEST(AngleEquations, WhatNoAngleFixesStaysAtTheReference) {
-  const Scene scene;
+TEST_F(AngleEquationsTest, WhatNoAngleFixesStaysAtTheReference) {
   const AngleEquations none{scene.axis_icrf};
   EXPECT_LT(angle_between_rad(none.axis_icrf(), scene.axis_icrf), 1e-15);
   EXPECT_TRUE(none.covariance_rad2().isApprox(Eigen::Matrix2d::Identity()));
 
-  AngleEquations sun_only{scene.axis_icrf};
-  sun_only.add(scene.config, only(SunAngle, scene.config, scene.seen()), scene.sun_earth(),
-               scene.axis_icrf);
+  const AngleEquations sun_only = equations_of(
+      scene.config, only(SunAngle, scene.config, scene.seen()), scene.sun_earth(), scene.axis_icrf);
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver{sun_only.covariance_rad2()};
   EXPECT_NEAR(solver.eigenvalues()(1), 1.0, 1e-7);
   EXPECT_LT(solver.eigenvalues()(0), 1e-6);
 }
 
-}  // namespace spindrift::angle_equations_test
+}  // namespace spindrift::testing::angle_equations_test

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
-#include <cmath>
 #include <random>
 
 #include "pipelines/frames/angle.h"
@@ -12,7 +11,7 @@
 #include "tests/support/axis_scene.h"
 #include "tests/support/product_text.h"
 
-namespace spindrift::mean_estimator_test {
+namespace spindrift::testing::mean_estimator_test {
 
 /// Feeds the estimator with revolutions of a constant scene.
 class Pass {
@@ -20,9 +19,9 @@ class Pass {
   /// Adds one revolution.
   /// @param turned_rad Rotation of the fix away from its angles.
   SpinEstimate next(double turned_rad = 0.0) {
-    const Revolution revolution = testing::noisy(scene_, scene_.seen(), rng_);
+    const Revolution revolution = noisy(scene_, scene_.seen(), rng_);
     const RevolutionMeasurements measured = measure(scene_.config, revolution);
-    SpinFix fix = testing::lone_fix(scene_.config, revolution, {}, scene_.sun_earth()).value();
+    SpinFix fix = lone_fix(scene_.config, revolution, {}, scene_.sun_earth()).value();
     fix.revolution = ++number_;
     fix.axis_icrf = Eigen::AngleAxisd{turned_rad, Eigen::Vector3d::UnitX()} * fix.axis_icrf;
     mean_.keep(number_, measured, scene_.sun_earth());
@@ -38,7 +37,7 @@ class Pass {
   }
 
  private:
-  testing::AxisScene scene_;
+  AxisScene scene_;
   std::mt19937_64 rng_{41};
   MeanEstimator mean_{scene_.config};
   std::int64_t number_ = 0;
@@ -57,7 +56,7 @@ TEST(MeanEstimator, OneOrTwoFixesAreDoubtfulAndThreeAreNot) {
   EXPECT_EQ(pass.next().assessment, too_few(2));
   const SpinEstimate mean = pass.next();
   EXPECT_EQ(mean.assessment, (Assessment{Quality::Converging, {fixes(3)}}));
-  EXPECT_LT(pass.off_rad(mean), 3.0 * testing::sigma_rad(mean));
+  EXPECT_LT(pass.off_rad(mean), 3.0 * sigma_rad(mean));
 }
 
 TEST(MeanEstimator, WhatIsGivenUpIsLostUntilAFixComes) {
@@ -68,7 +67,7 @@ TEST(MeanEstimator, WhatIsGivenUpIsLostUntilAFixComes) {
   for (const SpinEstimate& lost : {pass.begin_anew(), pass.begin_anew()}) {
     EXPECT_EQ(lost.assessment, (Assessment{Quality::Lost, {Reason{ReasonCode::AwaitingFix, {}}}}));
     EXPECT_EQ(lost.axis_icrf, last.axis_icrf);
-    EXPECT_GT(testing::sigma_rad(lost), 90.0 * kRadPerDeg);
+    EXPECT_GT(sigma_rad(lost), 90.0 * kRadPerDeg);
   }
   EXPECT_EQ(pass.next().assessment, too_few(1));
 }
@@ -80,10 +79,10 @@ TEST(MeanEstimator, FixesThatAreNotWhatTheirAnglesSayAreDoubtful) {
     for (int i = 0; i < 20; ++i) {
       const SpinEstimate mean = pass.next(turned_deg * kRadPerDeg);
       EXPECT_TRUE(mean.assessment.quality == Quality::Doubtful) << sentence_of(mean.assessment);
-      EXPECT_TRUE(i < 2 || pass.off_rad(mean) < 3.0 * testing::sigma_rad(mean))
+      EXPECT_TRUE(i < 2 || pass.off_rad(mean) < 3.0 * sigma_rad(mean))
           << sentence_of(mean.assessment);
     }
   }
 }
 
-}  // namespace spindrift::mean_estimator_test
+}  // namespace spindrift::testing::mean_estimator_test

@@ -9,53 +9,29 @@
 
 #include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
+#include "tests/support/axis_scene.h"
 #include "tests/support/normalised_square.h"
-#include "tests/support/spinning_body.h"
 
-namespace spindrift::model_check_test {
+namespace spindrift::testing::model_check_test {
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kRange_km = 16000.0;
-const TaiTime kStart = tai_from_ns(1'795'143'637'000'000'000);
-
-const Eigen::Vector3d kSun = Eigen::Vector3d{1.0, 0.2, 0.1}.normalized();
-const Eigen::Vector3d kEarth = Eigen::Vector3d{0.3, 1.0, -0.02}.normalized();
-const Eigen::Vector3d kAxis = Eigen::Vector3d{0.1, -0.05, 1.0}.normalized();
-const SunEarthDirections kSightlines{.sun_icrf = kSun,
-                                     .earth_icrf = kEarth,
-                                     .disc_rad = std::asin(6418.137 / kRange_km),
-                                     .earth_pole_icrf = Eigen::Vector3d::UnitZ()};
-
-Revolution seen() {
-  return testing::revolution_seen({.axis_icrf = kAxis,
-                                   .rate_rad_s = 2.0 * kPi,
-                                   .first_turn_rad = 0.1,
-                                   .config = testing::usual_config()},
-                                  testing::at_rest(kSun, kRange_km * kEarth), kStart);
-}
-
-Revolution with_noise(Revolution revolution, const PulseNoise& noise, std::mt19937_64& rng) {
-  std::normal_distribution<double> normal;
-  for (std::size_t channel = 0; channel < kPulseChannels; ++channel) {
-    auto& edge = revolution.edges.at(channel);
-    const bool sun =
-        channel == index_of(PulseChannel::Sun1) || channel == index_of(PulseChannel::Sun2);
-    edge = shifted(edge.value(), (sun ? noise.sun_s : noise.infrared_s) * normal(rng));
-  }
-  return revolution;
-}
+// The scene turns once a second.
+const AxisScene kScene{.rate_rad_s = 2.0 * kPi};
+const SunEarthDirections kSightlines = kScene.sun_earth();
+const Eigen::Vector3d kAxis = kScene.axis_icrf;
 
 /// Returns the equations of many revolutions whose sensors differ from `config`; the true noise is
 /// `noise_times` the stated one.
 AngleEquations equations_of(const SpinConfig& config, double noise_times = 1.0,
                             int revolutions = 400) {
   std::mt19937_64 rng{17};
-  const PulseNoise noise{.sun_s = noise_times * config.noise.sun_s,
-                         .infrared_s = noise_times * config.noise.infrared_s};
-  const Revolution exact = seen();
+  AxisScene noisier = kScene;
+  noisier.config.noise = {.sun_s = noise_times * config.noise.sun_s,
+                          .infrared_s = noise_times * config.noise.infrared_s};
+  const Revolution exact = kScene.seen();
   AngleEquations equations{kAxis};
   for (int i = 0; i < revolutions; ++i) {
-    equations.add(config, measure(config, with_noise(exact, noise, rng)), kSightlines, kAxis);
+    equations.add(config, measure(config, noisy(noisier, exact, rng)), kSightlines, kAxis);
   }
   return equations;
 }
@@ -69,13 +45,13 @@ void expect_silence(const ModelTest& verdict) {
 
 TEST(ModelCheck, SaysNothingWithoutRevolutionsAndOfModelsThatAreRight) {
   expect_silence(test_model(AngleEquations{kAxis}));
-  expect_silence(test_model(equations_of(testing::usual_config())));
+  expect_silence(test_model(equations_of(usual_config())));
 }
 
 TEST(ModelCheck, DoesNotMindAnAxisBesideTheTrueOne) {
   // Without noise and with so many revolutions a slope wrong by 1/20 would show.
-  const SpinConfig config = testing::usual_config();
-  const RevolutionMeasurements measured = measure(config, seen());
+  const SpinConfig config = usual_config();
+  const RevolutionMeasurements measured = measure(config, kScene.seen());
   const Eigen::Matrix<double, 3, 2> basis = tangent_basis(kAxis);
   for (const double turned_rad : {0.0, 0.5 * kPi, 1.0, -2.0}) {
     const Eigen::Vector3d beside =
@@ -92,7 +68,7 @@ TEST(ModelCheck, DoesNotMindAnAxisBesideTheTrueOne) {
 
 TEST(ModelCheck, SeesAnAzimuthThatIsWrong) {
   for (const ModelError error : {NorthAzimuth, SouthAzimuth}) {
-    SpinConfig config = testing::usual_config();
+    SpinConfig config = usual_config();
     auto& sensor = error == NorthAzimuth ? config.north : config.south;
     sensor->azimuth_rad -= 1.0 * kRadPerDeg;
     const ModelTest verdict = test_model(equations_of(config));
@@ -101,24 +77,24 @@ TEST(ModelCheck, SeesAnAzimuthThatIsWrong) {
     EXPECT_LT(verdict.error_rad, 3.0 * kRadPerDeg);
     const auto truth =
         (1.0 * kRadPerDeg * Eigen::Matrix<double, kModelErrors, 1>::Unit(error)).eval();
-    EXPECT_LT(testing::normalised_square(truth, verdict.errors_rad2), 9.0);
+    EXPECT_LT(normalised_square(truth, verdict.errors_rad2), 9.0);
     EXPECT_EQ(verdict.excess_noise, 1.0);
   }
 }
 
 TEST(ModelCheck, SeesASunAngleAndALimbThatAreWrong) {
-  SpinConfig slit = testing::usual_config();
+  SpinConfig slit = usual_config();
   // With Sun and Earth perpendicular to the axis, as nearly here, the sun angle hardly affects the
   // other angles.
   slit.sun_sensor.slit_separation_rad += 10.0 * kRadPerDeg;
   EXPECT_TRUE(test_model(equations_of(slit)).beyond_allowance);
-  SpinConfig beam = testing::usual_config();
+  SpinConfig beam = usual_config();
   beam.north->mount_angle_rad += 4.0 * kRadPerDeg;
   EXPECT_TRUE(test_model(equations_of(beam)).beyond_allowance);
 }
 
 TEST(ModelCheck, ShowsWhatTheAllowanceExcusesWithoutDoubt) {
-  SpinConfig config = testing::usual_config();
+  SpinConfig config = usual_config();
   config.north->azimuth_rad += 0.15 * kRadPerDeg;
   const AngleEquations equations = equations_of(config);
   EXPECT_GT(test_model(equations).error_rad, 0.0);
@@ -126,10 +102,10 @@ TEST(ModelCheck, ShowsWhatTheAllowanceExcusesWithoutDoubt) {
 }
 
 TEST(ModelCheck, MeasuresNoiseThatIsMoreThanStated) {
-  const ModelTest verdict = test_model(equations_of(testing::usual_config(), 3.0));
+  const ModelTest verdict = test_model(equations_of(usual_config(), 3.0));
   // The mean square of 2000 angles scatters by 3 %.
   EXPECT_NEAR(verdict.excess_noise, 9.0, 1.2);
   EXPECT_EQ(verdict.error_rad, 0.0);
 }
 
-}  // namespace spindrift::model_check_test
+}  // namespace spindrift::testing::model_check_test

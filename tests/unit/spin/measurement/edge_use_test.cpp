@@ -8,7 +8,7 @@
 
 #include "tests/support/spinning_body.h"
 
-namespace spindrift::edge_use_test {
+namespace spindrift::testing::edge_use_test {
 
 using enum PulseChannel;
 
@@ -26,7 +26,7 @@ std::optional<Rejection> use_of(PulseChannel channel, Rejection out_rejected_by,
   const std::vector<Verdict> verdicts = {
       {.quantity = SpinQuantity::NorthChord, .rejected_by = out_rejected_by},
       {.quantity = SpinQuantity::SunAngle, .rejected_by = sun_angle_rejected_by}};
-  const auto uses = edge_uses(testing::usual_config(), revolution, verdicts);
+  const auto uses = edge_uses(usual_config(), revolution, verdicts);
   const auto use = std::find_if(uses.begin(), uses.end(),
                                 [&](const PulseUse& u) { return u.pulse.channel == channel; });
   return use->rejected_by;
@@ -44,4 +44,4 @@ TEST(EdgeUse, WithoutAnOrbitEvenALoneEdgeIsNotAccepted) {
   EXPECT_EQ(use_of(NorthOut, Rejection::Phase, Rejection::NoOrbit), Rejection::Phase);
 }
 
-}  // namespace spindrift::edge_use_test
+}  // namespace spindrift::testing::edge_use_test

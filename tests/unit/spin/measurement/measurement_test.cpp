@@ -13,7 +13,7 @@
 #include "pipelines/frames/celestial.h"
 #include "tests/support/spinning_body.h"
 
-namespace spindrift::measurement_test {
+namespace spindrift::testing::measurement_test {
 
 using enum PulseChannel;
 
@@ -30,7 +30,7 @@ struct Scene {
   double earth_angle_rad = 92.0 * kRadPerDeg;
   double dihedral_rad = 1.0;
   double first_turn_rad = 0.3;
-  SpinConfig config = testing::usual_config();
+  SpinConfig config = usual_config();
 };
 
 Revolution seen(const Scene& scene) {
@@ -38,14 +38,13 @@ Revolution seen(const Scene& scene) {
     return Eigen::AngleAxisd{azimuth_rad, Eigen::Vector3d::UnitZ()} *
            (Eigen::AngleAxisd{polar_rad, Eigen::Vector3d::UnitY()} * Eigen::Vector3d::UnitZ());
   };
-  return testing::revolution_seen(
-      {.axis_icrf = Eigen::Vector3d::UnitZ(),
-       .rate_rad_s = kRate_rad_s,
-       .first_turn_rad = scene.first_turn_rad,
-       .config = scene.config},
-      testing::at_rest(at(scene.sun_angle_rad, 0.4),
-                       16000.0 * at(scene.earth_angle_rad, 0.4 + scene.dihedral_rad)),
-      kStart);
+  return revolution_seen({.axis_icrf = Eigen::Vector3d::UnitZ(),
+                          .rate_rad_s = kRate_rad_s,
+                          .first_turn_rad = scene.first_turn_rad,
+                          .config = scene.config},
+                         at_rest(at(scene.sun_angle_rad, 0.4),
+                                 16000.0 * at(scene.earth_angle_rad, 0.4 + scene.dihedral_rad)),
+                         kStart);
 }
 
 TEST(SpinMeasurements, SunAngleIsThatOfTheOracle) {
@@ -123,8 +122,8 @@ TEST(SpinMeasurements, ChordIsTheTurnFromEdgeToEdge) {
             1e-9);
 }
 
-TEST(SpinMeasurements, WhatAnEdgeDoesNotGiveIsAbsent) {
-  const Scene scene;
+TEST(SpinMeasurements, WhatAnEdgeOrASensorDoesNotGiveIsAbsent) {
+  Scene scene;
   const auto without = [&](PulseChannel channel) {
     Revolution revolution = seen(scene);
     revolution.edges.at(index_of(channel)).reset();
@@ -140,10 +139,6 @@ TEST(SpinMeasurements, WhatAnEdgeDoesNotGiveIsAbsent) {
   EXPECT_FALSE(without(NorthOut).crossing(Side::North));
   EXPECT_TRUE(without(NorthOut).crossing(Side::South));
   EXPECT_FALSE(without(SouthIn).crossing(Side::South));
-}
-
-TEST(SpinMeasurements, ASensorThatTheMissionDoesNotHaveMeasuresNothing) {
-  Scene scene;
   const Revolution revolution = seen(scene);
   scene.config.south.reset();
   EXPECT_FALSE(measure(scene.config, revolution).crossing(Side::South));
@@ -151,7 +146,7 @@ TEST(SpinMeasurements, ASensorThatTheMissionDoesNotHaveMeasuresNothing) {
 }
 
 TEST(SpinMeasurements, ASlitLagOfAQuarterTurnHasNoMeaning) {
-  const SunSensor sensor = testing::usual_config().sun_sensor;
+  const SunSensor sensor = usual_config().sun_sensor;
   const auto with_lag = [&](double lag_rad) {
     return sun_angle(sensor, (sensor.slit_separation_rad + lag_rad) / kRate_rad_s, kRate_rad_s,
                      1e-4);
@@ -179,10 +174,12 @@ TEST(SpinMeasurements, AChordOfAWholeTurnOrBackwardsHasNoMeaning) {
   EXPECT_FALSE(chord_of(-0.1));
 }
 
+constexpr std::array kAll = {SpinQuantity::SunAngle, SpinQuantity::NorthChord,
+                             SpinQuantity::SouthChord, SpinQuantity::NorthDihedral,
+                             SpinQuantity::SouthDihedral};
+
 TEST(SpinMeasurements, RejectingAQuantityLeavesTheOthersGood) {
   const Scene scene;
-  using enum SpinQuantity;
-  constexpr std::array kAll = {SunAngle, NorthChord, SouthChord, NorthDihedral, SouthDihedral};
   for (const SpinQuantity rejected : kAll) {
     RevolutionMeasurements measured = measure(scene.config, seen(scene));
     reject(measured, rejected, Rejection::SunAngle);
@@ -268,8 +265,7 @@ TEST(SpinMeasurements, NoiseIsWhatEachEdgeMovesThemBy) {
       if (!revolution.edges.at(channel)) {
         continue;
       }
-      const double sigma_s =
-          channel < index_of(NorthIn) ? scene.config.noise.sun_s : scene.config.noise.infrared_s;
+      const double sigma_s = edge_sigma_s(scene.config.noise, static_cast<PulseChannel>(channel));
       const auto moved_by = [&](double offset_s) {
         Revolution moved = revolution;
         moved.edges.at(channel) = shifted(*revolution.edges.at(channel), offset_s);
@@ -293,8 +289,6 @@ TEST(SpinMeasurements, NoiseIsWhatEachEdgeMovesThemBy) {
 
 TEST(SpinMeasurements, SigmaIsTheScatterThatTheNoiseMakes) {
   constexpr int kDraws = 20000;
-  using enum SpinQuantity;
-  constexpr std::array kAll = {SunAngle, NorthChord, SouthChord, NorthDihedral, SouthDihedral};
   Scene scene{.sun_angle_rad = 70.0 * kRadPerDeg};
   scene.config.sun_sensor.slit_cant_rad = 30.0 * kRadPerDeg;
   const Revolution exact = seen(scene);
@@ -306,8 +300,7 @@ TEST(SpinMeasurements, SigmaIsTheScatterThatTheNoiseMakes) {
   for (int draw = 0; draw < kDraws; ++draw) {
     Revolution noisy = exact;
     for (std::size_t channel = 0; channel < kPulseChannels; ++channel) {
-      const double sigma_s =
-          channel < index_of(NorthIn) ? scene.config.noise.sun_s : scene.config.noise.infrared_s;
+      const double sigma_s = edge_sigma_s(scene.config.noise, static_cast<PulseChannel>(channel));
       noisy.edges.at(channel) = shifted(noisy.edges.at(channel).value(), sigma_s * normal(rng));
     }
     const RevolutionMeasurements measured = measure(scene.config, noisy);
@@ -328,4 +321,4 @@ TEST(SpinMeasurements, SigmaIsTheScatterThatTheNoiseMakes) {
   }
 }
 
-}  // namespace spindrift::measurement_test
+}  // namespace spindrift::testing::measurement_test

@@ -7,7 +7,6 @@
 #include <random>
 
 #include "pipelines/frames/angle.h"
-#include "pipelines/frames/celestial.h"
 
 namespace spindrift::mixed_azimuth_test {
 

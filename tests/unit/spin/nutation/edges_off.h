@@ -36,7 +36,8 @@ using Off = std::function<double(const SteadyChannel& channel, double turns)>;
 
 /// Returns the residuals turn by turn.
 inline std::vector<UniformSpinResidual> edges_off(const std::vector<SteadyChannel>& channels,
-                                                  int turns, const Off& off_rad) {
+                                                  int turns, const Off& off_rad,
+                                                  double sigma_rad = kSteadySigma_rad) {
   std::vector<UniformSpinResidual> residuals;
   for (int turn = 0; turn < turns; ++turn) {
     for (const SteadyChannel& channel : channels) {
@@ -46,7 +47,7 @@ inline std::vector<UniformSpinResidual> edges_off(const std::vector<SteadyChanne
            .t_s = kSteadyPeriod_s * at,
            .turns = at,
            .off_rad = off_rad(channel, at),
-           .sigma_rad = kSteadySigma_rad,
+           .sigma_rad = sigma_rad,
            .expected = {.phase_rad = 0.0,
                         .phase_per_rotation = {channel.per_tilt.x(), channel.per_tilt.y(), -1.0},
                         .phase_per_error = Eigen::Matrix<double, 1, kModelErrors>::Zero(),

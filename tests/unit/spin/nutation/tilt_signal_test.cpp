@@ -12,18 +12,9 @@
 #include "pipelines/frames/angle.h"
 #include "tests/unit/spin/nutation/edges_off.h"
 
-namespace spindrift::tilt_signal_test {
+namespace spindrift::testing::tilt_signal_test {
 
 using Eigen::VectorXd;
-
-using testing::edges_off;
-using testing::kSteadyChannels;
-using testing::kSteadyPeriod_s;
-using testing::kSteadySigma_rad;
-using testing::Off;
-using testing::off_by_circle;
-using testing::off_by_noise;
-using testing::SteadyChannel;
 
 /// Returns a different parabola for each channel.
 double parabola_rad(const SteadyChannel& channel, double turns) {
@@ -216,4 +207,4 @@ TEST(TiltSignal, DoesNotTrustAChannelWithoutBoundThatLeavesNothing) {
   EXPECT_NEAR(signal.off().norm(), 1e3 * before.norm(), 1e-6 * before.norm());
 }
 
-}  // namespace spindrift::tilt_signal_test
+}  // namespace spindrift::testing::tilt_signal_test

@@ -7,21 +7,14 @@
 #include "pipelines/spin/nutation/tilt_signal.h"
 #include "tests/unit/spin/nutation/edges_off.h"
 
-namespace spindrift::tilt_spectrum_test {
-
-using testing::kSteadySigma_rad;
-using testing::Off;
-using testing::off_by_noise;
-using testing::sum_of;
+namespace spindrift::testing::tilt_spectrum_test {
 
 constexpr int kTurns = 200;
 
-Off circle(double size_rad, double per_turn) {
-  return testing::off_by_circle(size_rad, per_turn, 0.4);
-}
+Off circle(double size_rad, double per_turn) { return off_by_circle(size_rad, per_turn, 0.4); }
 
 TiltSignal signal_of(const Off& off_rad, int turns = kTurns) {
-  return TiltSignal{testing::edges_off(testing::kSteadyChannels, turns, off_rad)};
+  return TiltSignal{edges_off(kSteadyChannels, turns, off_rad)};
 }
 
 // Frequency resolution of the pass.
@@ -121,4 +114,4 @@ TEST(TiltSpectrum, NamesNoTiltThatGoesRoundAWholeNumberOfTimes) {
   }
 }
 
-}  // namespace spindrift::tilt_spectrum_test
+}  // namespace spindrift::testing::tilt_spectrum_test

@@ -7,11 +7,10 @@
 #include <cmath>
 #include <utility>
 
-#include "pipelines/time/utc.h"
 #include "services/base/notice_words.h"
-#include "tests/support/spinning_body.h"
+#include "tests/support/observed_spin.h"
 
-namespace spindrift::pass_notices_test {
+namespace spindrift::testing::pass_notices_test {
 
 using ::testing::AllOf;
 using ::testing::Contains;
@@ -23,7 +22,8 @@ using ::testing::Not;
 using ::testing::StartsWith;
 using enum PulseChannel;
 
-const SpinConfig kConfig = testing::usual_config();
+const TaiTime kStart = tai_from_ns(1'795'143'637'000'000'000);
+const SpinConfig kConfig = usual_config();
 
 Association of_one_revolution() {
   return {.closed = {Revolution{.number = 0, .edges = {}, .period_candidate = {}, .period = {}}},
@@ -45,8 +45,19 @@ std::vector<std::string> at_the_end(PassNotices& notices) {
   return taken(notices);
 }
 
+void hear_all(PassNotices& notices) {
+  for (const PulseChannel channel : {Sun1, Sun2, NorthIn, NorthOut, SouthIn, SouthOut}) {
+    notices.edge_came(channel);
+  }
+}
+
+class PassNoticesTest : public ::testing::Test {
+ protected:
+  PassNotices notices_{kConfig};
+};
+
 SpinEstimate estimate_of(Assessment assessment) {
-  return {.t = tai_from_ns(1'795'143'637'000'000'000),
+  return {.t = kStart,
           .estimator = SpinEstimator::Sequential,
           .axis_icrf = Eigen::Vector3d::UnitX(),
           .covariance_rad2 = Eigen::Matrix2d::Identity() * 1e-8,
@@ -56,16 +67,12 @@ SpinEstimate estimate_of(Assessment assessment) {
 }
 
 SpinFix fix_of(int geometry_case, Resolution resolution, bool near_tangent = false) {
-  return {.revolution = 0,
-          .t = tai_from_ns(1'795'143'637'000'000'000),
-          .geometry_case = geometry_case,
-          .axis_icrf = Eigen::Vector3d::UnitX(),
-          .covariance_rad2 = Eigen::Matrix2d::Identity() * 1e-6,
-          .alternates = {},
-          .resolution = resolution,
-          .norm = 1.0,
-          .accepted = resolution != Resolution::Ambiguous,
-          .near_tangent = near_tangent};
+  SpinFix fix = made_fix(Eigen::Vector3d::UnitX(), Eigen::Matrix2d::Identity() * 1e-6);
+  fix.geometry_case = geometry_case;
+  fix.resolution = resolution;
+  fix.accepted = resolution != Resolution::Ambiguous;
+  fix.near_tangent = near_tangent;
+  return fix;
 }
 
 /// Returns the final notice on an ambiguous axis for a mission with or without a prior.
@@ -78,7 +85,7 @@ std::string said_of_ambiguous(const Assessment& assessment, const std::optional<
   notices.has_fix(fix_of(4, Resolution::Ambiguous), verdict);
   notices.estimated(estimate_of(assessment));
   if (contradicted) {
-    notices.prior_contradicted(tai_from_ns(1'795'143'637'000'000'000));
+    notices.prior_contradicted(kStart);
   }
   const auto said = at_the_end(notices);
   return said.size() == 1 ? said.front() : "not one notice";
@@ -100,9 +107,7 @@ TEST(PassNotices, SayThatMostEdgesDoNotFit) {
   const auto said = [](const std::vector<SpinProduct>& products) {
     PassNotices notices{kConfig};
     notices.associated(of_one_revolution());
-    for (const PulseChannel channel : {Sun1, Sun2, NorthIn, NorthOut, SouthIn, SouthOut}) {
-      notices.edge_came(channel);
-    }
+    hear_all(notices);
     notices.used(products);
     return at_the_end(notices);
   };
@@ -114,79 +119,69 @@ TEST(PassNotices, SayThatMostEdgesDoNotFit) {
   EXPECT_THAT(said(used(200, 200, Rejection::NoOrbit)), IsEmpty());
 }
 
-TEST(PassNotices, CopiesAreSaidAsTheyBeginAndInTheEndHowManyAndHowFarApart) {
-  PassNotices notices{kConfig};
-  for (const PulseChannel channel : {Sun1, Sun2, NorthIn, NorthOut, SouthIn, SouthOut}) {
-    notices.edge_came(channel);
-  }
+TEST_F(PassNoticesTest, CopiesAreSaidAsTheyBeginAndInTheEndHowManyAndHowFarApart) {
+  hear_all(notices_);
   Association association = of_one_revolution();
-  const Pulse copy{.t = tai_from_ns(1'795'143'637'000'000'000), .channel = Sun2};
+  const Pulse copy{.t = kStart, .channel = Sun2};
   association.copies = {{.pulse = copy, .apart_s = 0.004}};
-  notices.associated(association);
-  EXPECT_THAT(taken(notices),
+  notices_.associated(association);
+  EXPECT_THAT(taken(notices_),
               ElementsAre(AllOf(HasSubstr("2026-11-20T03:00:00"),
                                 HasSubstr("the edges of sun2 come several times"))));
   association.copies = {{.pulse = {.t = copy.t, .channel = Sun1}, .apart_s = 0.006},
                         {.pulse = copy, .apart_s = 0.005}};
-  notices.associated(association);
-  EXPECT_THAT(taken(notices), IsEmpty());
-  EXPECT_THAT(at_the_end(notices),
+  notices_.associated(association);
+  EXPECT_THAT(taken(notices_), IsEmpty());
+  EXPECT_THAT(at_the_end(notices_),
               ElementsAre(HasSubstr("3 edges of sun1, sun2 are copies, on average 0.005 s")));
 }
 
-TEST(PassNotices, EachThingIsSaidOnce) {
-  PassNotices notices{kConfig};
-  notices.edge_came_late();
-  notices.edge_came_late();
-  notices.edge_out_of_time();
-  EXPECT_THAT(taken(notices),
+TEST_F(PassNoticesTest, EachThingIsSaidOnce) {
+  notices_.edge_came_late();
+  notices_.edge_came_late();
+  notices_.edge_out_of_time();
+  EXPECT_THAT(taken(notices_),
               ElementsAre(HasSubstr("after their time"), HasSubstr("far from the times")));
-  notices.edge_came_late();
-  EXPECT_THAT(taken(notices), IsEmpty());
+  notices_.edge_came_late();
+  EXPECT_THAT(taken(notices_), IsEmpty());
 }
 
-TEST(PassNotices, TheFirstOutsideTheOrbitIsNamedAndTheEndSaysHowMany) {
-  PassNotices notices{kConfig};
-  const TaiTime first = parse_utc("2026-11-20T03:00:00Z").value();
-  notices.outside_orbit(first, ErrorCode::NoCoverage);
-  notices.outside_orbit(shifted(first, 5.0), ErrorCode::NoCoverage);
-  EXPECT_THAT(taken(notices), ElementsAre(HasSubstr("2026-11-20T03:00:00.000Z: the orbit of the "
-                                                    "mission file does not cover the revolution")));
-  EXPECT_THAT(at_the_end(notices), ElementsAre(HasSubstr("2 revolutions outside it gave no axis, "
-                                                         "the last at 2026-11-20T03:00:05.000Z")));
+TEST_F(PassNoticesTest, TheFirstOutsideTheOrbitIsNamedAndTheEndSaysHowMany) {
+  notices_.outside_orbit(kStart, ErrorCode::NoCoverage);
+  notices_.outside_orbit(shifted(kStart, 5.0), ErrorCode::NoCoverage);
+  EXPECT_THAT(taken(notices_),
+              ElementsAre(HasSubstr("2026-11-20T03:00:00.000Z: the orbit of the "
+                                    "mission file does not cover the revolution")));
+  EXPECT_THAT(at_the_end(notices_), ElementsAre(HasSubstr("2 revolutions outside it gave no axis, "
+                                                          "the last at 2026-11-20T03:00:05.000Z")));
 }
 
-TEST(PassNotices, AnOrbitWithinTheEarthIsNotOneThatEnds) {
-  PassNotices notices{kConfig};
-  notices.outside_orbit(parse_utc("2026-11-20T03:00:00Z").value(), ErrorCode::Unobservable);
-  EXPECT_THAT(taken(notices), ElementsAre(HasSubstr("below the infrared horizon")));
+TEST_F(PassNoticesTest, AnOrbitWithinTheEarthIsNotOneThatEnds) {
+  notices_.outside_orbit(kStart, ErrorCode::Unobservable);
+  EXPECT_THAT(taken(notices_), ElementsAre(HasSubstr("below the infrared horizon")));
 }
 
-TEST(PassNotices, TheEndNamesTheChannelsThatWereNeverHeard) {
-  PassNotices notices{kConfig};
+TEST_F(PassNoticesTest, TheEndNamesTheChannelsThatWereNeverHeard) {
   for (const PulseChannel channel : {Sun1, NorthIn, NorthOut, SouthIn}) {
-    notices.edge_came(channel);
+    notices_.edge_came(channel);
   }
-  notices.associated(of_one_revolution());
-  EXPECT_THAT(at_the_end(notices), ElementsAre("no edge at all came from sun2, south_out"));
+  notices_.associated(of_one_revolution());
+  EXPECT_THAT(at_the_end(notices_), ElementsAre("no edge at all came from sun2, south_out"));
 }
 
 TEST(PassNotices, TheEndNamesTheChannelsOfNoSensor) {
   SpinConfig config = kConfig;
   config.north.reset();
   PassNotices notices{config};
-  for (const PulseChannel channel : {Sun1, Sun2, NorthIn, NorthOut, SouthIn, SouthOut}) {
-    notices.edge_came(channel);
-  }
+  hear_all(notices);
   notices.associated(of_one_revolution());
   EXPECT_THAT(at_the_end(notices),
               ElementsAre(StartsWith("the mission describes no sensor for north_in, north_out:")));
 }
 
-TEST(PassNotices, WithoutAnyRevolutionThePeriodIsWhatIsMissing) {
-  PassNotices notices{kConfig};
-  notices.associated({.closed = {}, .left_over = {PulseUse{}}});
-  EXPECT_THAT(at_the_end(notices), ElementsAre(HasSubstr("of rates from 4 to 240 rpm")));
+TEST_F(PassNoticesTest, WithoutAnyRevolutionThePeriodIsWhatIsMissing) {
+  notices_.associated({.closed = {}, .left_over = {PulseUse{}}});
+  EXPECT_THAT(at_the_end(notices_), ElementsAre(HasSubstr("of rates from 4 to 240 rpm")));
 }
 
 TEST(PassNotices, TheEndSaysWhyTheAxisIsAmbiguous) {
@@ -218,75 +213,68 @@ TEST(PassNotices, WhereAllFixesAreNearTangentNoPriorIsSaidToSettleTheAxis) {
               EndsWith("the prior of the mission (spin.prior) does not settle it"));
 }
 
-TEST(PassNotices, TheEndSaysWhyNoFixIsInTheMean) {
-  PassNotices notices{kConfig};
-  notices.has_fix(fix_of(7, Resolution::Prior, true), {});
-  notices.has_fix(fix_of(7, Resolution::Ambiguous, true), {});
-  notices.has_fix(fix_of(4, Resolution::Ambiguous), {});
+TEST_F(PassNoticesTest, TheEndSaysWhyNoFixIsInTheMean) {
+  notices_.has_fix(fix_of(7, Resolution::Prior, true), {});
+  notices_.has_fix(fix_of(7, Resolution::Ambiguous, true), {});
+  notices_.has_fix(fix_of(4, Resolution::Ambiguous), {});
   SpinFix contradictory = fix_of(1, Resolution::Geometry);
   contradictory.accepted = false;
-  notices.has_fix(contradictory, {});
-  notices.estimated(estimate_of({Quality::Doubtful}));
+  notices_.has_fix(contradictory, {});
+  notices_.estimated(estimate_of({Quality::Doubtful}));
   EXPECT_THAT(
-      at_the_end(notices),
+      at_the_end(notices_),
       ElementsAre("the estimator 'mean' never began: of 4 fixes, 2 are near-tangent "
                   "(their candidates come together within the noise), 1 are ambiguous, 1 are not "
                   "accepted"));
 }
 
-TEST(PassNotices, AMeanThatBeganIsNotMissed) {
-  PassNotices notices{kConfig};
-  notices.has_fix(fix_of(7, Resolution::Ambiguous, true), {});
-  notices.mean_began();
-  EXPECT_THAT(at_the_end(notices), Not(Contains(HasSubstr("'mean'"))));
+TEST_F(PassNoticesTest, AMeanThatBeganIsNotMissed) {
+  notices_.has_fix(fix_of(7, Resolution::Ambiguous, true), {});
+  notices_.mean_began();
+  EXPECT_THAT(at_the_end(notices_), Not(Contains(HasSubstr("'mean'"))));
 }
 
-TEST(PassNotices, ADispersionThatSettlesIsToldWithItsRatio) {
-  PassNotices notices{kConfig};
+TEST_F(PassNoticesTest, ADispersionThatSettlesIsToldWithItsRatio) {
   StationaryBranch branch{.axis = {.axis_icrf = Eigen::Vector3d::UnitY(), .count = 42.0},
                           .scatter_ratio = 25.34,
                           .log_likelihood_ratio = {}};
-  const TaiTime t = tai_from_ns(1'795'143'637'000'000'000);
-  notices.settled_by_dispersion(t, branch);
+  notices_.settled_by_dispersion(kStart, branch);
   branch.scatter_ratio = 1.8;
   branch.log_likelihood_ratio = 34.4;
-  notices.settled_by_dispersion(t, branch);
+  notices_.settled_by_dispersion(kStart, branch);
   EXPECT_THAT(
-      taken(notices),
+      taken(notices_),
       ElementsAre("2026-11-20T03:00:00.000Z: the dispersion settles on the axis near ra 90.00 dec "
                   "0.00 deg: over 42 fixes its candidates stay where they are and the others "
                   "drift, ratio of the scatters 25.3 (F-test)",
                   EndsWith("ratio of the scatters 1.8 (likelihood ratio e^34)")));
 }
 
-TEST(PassNotices, FixesWithoutAnEstimateAreSaidToBeTooUncertain) {
-  PassNotices notices{kConfig};
-  notices.without_fix(0, {NoFixCode::NothingMeasured});
-  notices.has_fix(fix_of(1, Resolution::Geometry), {});
-  notices.mean_began();
+TEST_F(PassNoticesTest, FixesWithoutAnEstimateAreSaidToBeTooUncertain) {
+  notices_.without_fix(0, {NoFixCode::NothingMeasured});
+  notices_.has_fix(fix_of(1, Resolution::Geometry), {});
+  notices_.mean_began();
   EXPECT_THAT(
-      taken(notices),
+      taken(notices_),
       ElementsAre("revolution 0 is the first that gives no fix: no measurement that an axis could "
                   "be found from"));
-  EXPECT_THAT(at_the_end(notices), ElementsAre(HasSubstr("'sequential' never began")));
+  EXPECT_THAT(at_the_end(notices_), ElementsAre(HasSubstr("'sequential' never began")));
 }
 
-TEST(PassNotices, TheRevolutionThatTheEndCutsShortIsNotTheFirstWithoutAFix) {
-  PassNotices notices{kConfig};
-  notices.has_fix(fix_of(1, Resolution::Geometry), {});
-  notices.mean_began();
-  notices.estimated(estimate_of({Quality::Ambiguous}));
-  notices.cut_short(9);
-  notices.without_fix(9, {NoFixCode::NothingMeasured});
-  EXPECT_THAT(taken(notices), IsEmpty());
+TEST_F(PassNoticesTest, TheRevolutionThatTheEndCutsShortIsNotTheFirstWithoutAFix) {
+  notices_.has_fix(fix_of(1, Resolution::Geometry), {});
+  notices_.mean_began();
+  notices_.estimated(estimate_of({Quality::Ambiguous}));
+  notices_.cut_short(9);
+  notices_.without_fix(9, {NoFixCode::NothingMeasured});
+  EXPECT_THAT(taken(notices_), IsEmpty());
 }
 
-TEST(PassNotices, AnOnlyRevolutionThatIsCutShortIsWhyThereIsNoAxis) {
-  PassNotices notices{kConfig};
-  notices.cut_short(0);
-  notices.without_fix(0, {NoFixCode::NothingMeasured});
-  EXPECT_THAT(at_the_end(notices), ElementsAre("no axis: 1 revolutions gave no fix, the last: no "
-                                               "measurement that an axis could be found from"));
+TEST_F(PassNoticesTest, AnOnlyRevolutionThatIsCutShortIsWhyThereIsNoAxis) {
+  notices_.cut_short(0);
+  notices_.without_fix(0, {NoFixCode::NothingMeasured});
+  EXPECT_THAT(at_the_end(notices_), ElementsAre("no axis: 1 revolutions gave no fix, the last: no "
+                                                "measurement that an axis could be found from"));
 }
 
 TEST(PassNotices, APriorThatIsFarFromTheAxisIsNamedOnceThoughNothingHadToBeChosen) {
@@ -304,4 +292,4 @@ TEST(PassNotices, APriorThatIsFarFromTheAxisIsNamedOnceThoughNothingHadToBeChose
       ElementsAre(HasSubstr("11.5 deg from the prior of the mission (spin.prior), 12 times")));
 }
 
-}  // namespace spindrift::pass_notices_test
+}  // namespace spindrift::testing::pass_notices_test

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <map>
 #include <random>
 #include <set>
@@ -21,19 +20,12 @@
 #include "tests/support/recorded_pass.h"
 #include "tests/support/stepped_orbit.h"
 
-namespace spindrift::spin_pass_test {
+namespace spindrift::testing::spin_pass_test {
 
-using testing::all_of;
 using ::testing::AnyOf;
 using ::testing::Contains;
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
-using testing::last_estimate;
-using testing::recorded_pass;
-using testing::RecordedPass;
-using testing::run;
-using testing::sigma_rad;
-using testing::texts_of;
 
 SpinEstimate mean_of(const SpinOutput& output) {
   return last_estimate(output, SpinEstimator::Mean);
@@ -64,12 +56,12 @@ TEST(SpinPass, FindsTheAxisOfEveryRecordedPass) {
     SCOPED_TRACE(limit.pass);
     const RecordedPass pass = recorded_pass(limit.pass);
     const SpinOutput output = run(pass);
-    const SpinEstimate mean = mean_of(output);
-    EXPECT_LT(error_rad(pass, mean), limit.mean_deg * kRadPerDeg);
-    EXPECT_LT(error_rad(pass, mean), 3.0 * sigma_rad(mean));
     const SpinEstimate sequential = sequential_of(output);
-    EXPECT_LT(error_rad(pass, sequential), limit.sequential_deg * kRadPerDeg);
-    EXPECT_LT(error_rad(pass, sequential), 3.0 * sigma_rad(sequential));
+    for (const auto& [estimate, limit_deg] : {std::pair{mean_of(output), limit.mean_deg},
+                                              std::pair{sequential, limit.sequential_deg}}) {
+      EXPECT_LT(error_rad(pass, estimate), limit_deg * kRadPerDeg);
+      EXPECT_LT(error_rad(pass, estimate), 3.0 * sigma_rad(estimate));
+    }
     EXPECT_TRUE(is_unopposed(sequential.assessment.quality));
   }
 }
@@ -98,7 +90,7 @@ TEST(SpinPass, OfCopiesWithinTheNoiseEveryAnswerIsDoubtful) {
     std::mt19937_64 rng{316};
     const SpinOutput output =
         run(SpinPass{pass.config, pass.orbit},
-            testing::copied(pass.pulses, {.behind_s = 1e-9, .jitter_s = jitter_s}, rng));
+            copied(pass.pulses, {.behind_s = 1e-9, .jitter_s = jitter_s}, rng));
     for (const SpinEstimate& last : {mean_of(output), sequential_of(output)}) {
       const bool noisy = jitter_s > 0.0;
       EXPECT_EQ(has(last.assessment, ReasonCode::CopiesInNoise), noisy);
@@ -106,7 +98,7 @@ TEST(SpinPass, OfCopiesWithinTheNoiseEveryAnswerIsDoubtful) {
       EXPECT_LT(error_rad(pass, last), 5.0 * sigma_rad(last));
     }
     EXPECT_TRUE(testing::has(output.notices, NoticeCode::CopiesBegin));
-    EXPECT_EQ(testing::number_of(output.notices, NoticeCode::Copied, "edges"),
+    EXPECT_EQ(number_of(output.notices, NoticeCode::Copied, "edges"),
               static_cast<double>(pass.pulses.size()));
   }
 }
@@ -157,8 +149,7 @@ TEST(SpinPass, TakesAnIntervalOfMoreThanAPeriodForAnEdgeOfTheNextRevolution) {
                       .delay_s = {std::nullopt, 11.0, 4.0, 5.0, 14.5, 16.0}});
   }
   std::map<PulseChannel, std::vector<TaiTime>> told;
-  for (const PulseUse& use :
-       all_of<PulseUse>(testing::run(SpinPass{pass.config, pass.orbit}, frames))) {
+  for (const PulseUse& use : all_of<PulseUse>(run(SpinPass{pass.config, pass.orbit}, frames))) {
     EXPECT_NE(use.rejected_by, Rejection::Late);
     told[use.pulse.channel].push_back(use.pulse.t);
   }
@@ -184,9 +175,8 @@ TEST(SpinPass, ComputesASilentStreamUpToTheOpenRevolution) {
     note(spin.push(pass.frames[i]));
   }
   const auto is_last_told = [&] {
-    return std::any_of(uses.begin(), uses.end(), [&](const PulseUse& use) {
-      return use.pulse == Pulse{.t = pass.frames[kFrames - 2].t, .channel = PulseChannel::Sun1};
-    });
+    const Pulse last{.t = pass.frames[kFrames - 2].t, .channel = PulseChannel::Sun1};
+    return std::ranges::count(uses, last, &PulseUse::pulse) > 0;
   };
   EXPECT_FALSE(is_last_told());
   note(spin.fall_silent());
@@ -277,31 +267,31 @@ TEST(SpinPass, ALatePulseIsToldAndLeftOut) {
   EXPECT_EQ(told, 1);
 }
 
+/// Returns an edge of a channel in the middle of the pass.
+std::vector<Pulse>::iterator in_the_middle(RecordedPass& pass, PulseChannel channel) {
+  return std::find_if(pass.pulses.begin() + 2000, pass.pulses.end(),
+                      [&](const Pulse& pulse) { return pulse.channel == channel; });
+}
+
 TEST(SpinPass, AWrongEdgeIsRejectedByTheTestItFails) {
   RecordedPass pass = recorded_pass("nominal");
-  const auto edge =
-      std::find_if(pass.pulses.begin() + 2000, pass.pulses.end(),
-                   [](const Pulse& pulse) { return pulse.channel == PulseChannel::NorthOut; });
+  const auto edge = in_the_middle(pass, PulseChannel::NorthOut);
   edge->t = shifted(edge->t, 0.01);  // Twenty sigmas of its noise.
   const Pulse wrong = *edge;
   const SpinOutput output = run(pass);
   const auto uses = all_of<PulseUse>(output);
-  const auto use =
-      std::find_if(uses.begin(), uses.end(), [&](const PulseUse& u) { return u.pulse == wrong; });
+  const auto use = std::ranges::find(uses, wrong, &PulseUse::pulse);
   ASSERT_NE(use, uses.end());
   EXPECT_EQ(use->rejected_by, Rejection::Phase);
   const auto fixes = all_of<SpinFix>(output);
-  const auto fix = std::find_if(fixes.begin(), fixes.end(),
-                                [&](const SpinFix& f) { return f.revolution == use->revolution; });
+  const auto fix = std::ranges::find(fixes, use->revolution, &SpinFix::revolution);
   ASSERT_NE(fix, fixes.end());
   EXPECT_EQ(fix->geometry_case, 3);  // The other measurements of that revolution are kept.
 }
 
 TEST(SpinPass, AnEdgeWithoutItsPartnerIsUsed) {
   RecordedPass pass = recorded_pass("nominal");
-  const auto edge =
-      std::find_if(pass.pulses.begin() + 2000, pass.pulses.end(),
-                   [](const Pulse& pulse) { return pulse.channel == PulseChannel::SouthIn; });
+  const auto edge = in_the_middle(pass, PulseChannel::SouthIn);
   const TaiTime lost = edge->t;
   pass.pulses.erase(edge);
   int partners = 0;
@@ -342,19 +332,15 @@ TEST(SpinPass, SaysInTheEndWhichChannelsWereSilentThroughout) {
   const auto silent = [&] {
     const SpinOutput output = run(pass);
     const auto notice =
-        std::find_if(output.notices.begin(), output.notices.end(),
-                     [](const Notice& one) { return one.code == NoticeCode::SilentChannels; });
+        std::ranges::find(output.notices, NoticeCode::SilentChannels, &Notice::code);
     return notice == output.notices.end()
                ? std::vector<std::string>{}
                : std::get<std::vector<std::string>>(notice->values.front().value);
   };
   EXPECT_THAT(silent(), IsEmpty());
-  pass.pulses.erase(std::remove_if(pass.pulses.begin(), pass.pulses.end(),
-                                   [](const Pulse& pulse) {
-                                     return pulse.channel == PulseChannel::Sun2 ||
-                                            pulse.channel == PulseChannel::NorthIn;
-                                   }),
-                    pass.pulses.end());
+  std::erase_if(pass.pulses, [](const Pulse& pulse) {
+    return pulse.channel == PulseChannel::Sun2 || pulse.channel == PulseChannel::NorthIn;
+  });
   EXPECT_THAT(silent(), ElementsAre("sun2", "north_in"));
   pass.config.north.reset();
   EXPECT_THAT(silent(), ElementsAre("sun2"));
@@ -395,12 +381,12 @@ TEST(SpinPass, DoubtsWhatRestsOnBothSidesOfAStepOfTheOrbit) {
   const Eigen::Vector3d none = Eigen::Vector3d::Zero();
   const Eigen::Vector3d off{0.0, 0.0, 1.0};
   RecordedPass pass = recorded_pass("nominal");
-  const OemSegment segment = testing::of_few_points(pass.orbit.ephemeris()->segments().front());
+  const OemSegment segment = of_few_points(pass.orbit.ephemeris()->segments().front());
   const TaiTime begins = pass.pulses.front().t;
   for (const bool of_velocity : {true, false}) {
-    const OrbitEphemeris orbit = testing::stepped(segment, shifted(begins, 240.0),
-                                                  of_velocity ? none : Eigen::Vector3d{20.0 * off},
-                                                  of_velocity ? Eigen::Vector3d{0.12 * off} : none);
+    const OrbitEphemeris orbit =
+        stepped(segment, shifted(begins, 240.0), of_velocity ? none : Eigen::Vector3d{20.0 * off},
+                of_velocity ? Eigen::Vector3d{0.12 * off} : none);
     pass.orbit = Orbit{orbit};
     const SpinOutput output = run(pass);
     ASSERT_TRUE(testing::has(output.notices, NoticeCode::OrbitStepsInPass));
@@ -408,8 +394,8 @@ TEST(SpinPass, DoubtsWhatRestsOnBothSidesOfAStepOfTheOrbit) {
   }
   // The orbit continues smoothly, or its step lies outside the pass.
   for (const double after_s : {240.0, -100.0}) {
-    pass.orbit = Orbit{
-        testing::stepped(segment, shifted(begins, after_s), after_s > 0.0 ? none : off, none)};
+    pass.orbit =
+        Orbit{stepped(segment, shifted(begins, after_s), after_s > 0.0 ? none : off, none)};
     const SpinOutput output = run(pass);
     EXPECT_FALSE(testing::has(output.notices, NoticeCode::OrbitStepsInPass));
     expect_doubts_of_orbit(output, TaiTime::max());
@@ -419,9 +405,8 @@ TEST(SpinPass, DoubtsWhatRestsOnBothSidesOfAStepOfTheOrbit) {
 TEST(SpinPass, AMarkedManoeuvreLeavesTheStepOfTheOrbitBehind) {
   RecordedPass pass = recorded_pass("nominal");
   const TaiTime burn = shifted(pass.pulses.front().t, 240.0);
-  const OrbitEphemeris orbit =
-      testing::stepped(pass.orbit.ephemeris()->segments().front(), burn, Eigen::Vector3d::Zero(),
-                       Eigen::Vector3d{0.0, 0.0, 0.02});
+  const OrbitEphemeris orbit = stepped(pass.orbit.ephemeris()->segments().front(), burn,
+                                       Eigen::Vector3d::Zero(), Eigen::Vector3d{0.0, 0.0, 0.02});
   SpinPass spin{pass.config, Orbit{orbit}};
   spin.act(orbit.segments()[1].usable_from, MarkManoeuvre{});
   const SpinEstimate estimate = sequential_of(run(std::move(spin), pass.pulses));
@@ -432,9 +417,7 @@ TEST(SpinPass, AMarkedManoeuvreLeavesTheStepOfTheOrbitBehind) {
 TEST(SpinPass, TimesOnAGridAreSaidAndInTheSigmaOfEveryEstimate) {
   const RecordedPass pass = recorded_pass("../faults/times-in-ms");
   const SpinOutput output = run(pass);
-  const auto said =
-      std::find_if(output.notices.begin(), output.notices.end(),
-                   [](const Notice& notice) { return notice.code == NoticeCode::TimesOnGrid; });
+  const auto said = std::ranges::find(output.notices, NoticeCode::TimesOnGrid, &Notice::code);
   ASSERT_NE(said, output.notices.end());
   EXPECT_EQ(said->values[1], (NamedValue{"grid_s", 1e-3}));
   int ok = 0;
@@ -475,4 +458,4 @@ TEST(SpinPass, TheAxisStandsWhileThePassRuns) {
   EXPECT_GE(estimates, 27U);
 }
 
-}  // namespace spindrift::spin_pass_test
+}  // namespace spindrift::testing::spin_pass_test

@@ -1,32 +1,19 @@
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <numbers>
 #include <random>
 
-#include "pipelines/frames/celestial.h"
 #include "pipelines/spin/measurement/measurement.h"
 #include "pipelines/spin/planning/pass_geometry.h"
 #include "tests/support/observed_spin.h"
 
-namespace spindrift::expected_revolution_test {
+namespace spindrift::testing::expected_revolution_test {
 
 using enum PulseChannel;
 
-Eigen::Matrix3d frame_about(const Eigen::Vector3d& axis_icrf) {
-  Eigen::Matrix3d R_spin_icrf;
-  R_spin_icrf << tangent_basis(axis_icrf).transpose(), axis_icrf.transpose();
-  return R_spin_icrf;
-}
-
-struct Scene {
-  Orbit orbit = testing::transfer_orbit();
-  testing::SunEarthEphemeris around =
-      testing::seen_from(orbit, testing::spherical_horizon_km(40.0));
-
-  ExpectedRevolution expected(const testing::SpinningBody& body, TaiTime t,
-                              bool sun_hidden = false) const {
-    return expected_revolution(body.config, testing::sky_at(orbit, t), frame_about(body.axis_icrf),
+struct Scene : Surroundings {
+  ExpectedRevolution expected(const SpinningBody& body, TaiTime t, bool sun_hidden = false) const {
+    return expected_revolution(body.config, sky_at(orbit, t), spin_frame(body.axis_icrf),
                                body.rate_rad_s, sun_hidden);
   }
 };
@@ -37,10 +24,10 @@ TEST(ExpectedRevolution, HasTheOraclesEdges) {
   // The beams are a seventh of a turn apart, so that one of them crosses sun1 repeatedly.
   for (int trial = 0; trial < 40; ++trial) {
     SCOPED_TRACE(trial);
-    auto body = testing::random_body(scene.around, 0.05, rng);
+    auto body = random_body(scene.around, 0.05, rng);
     body.rate_rad_s /= trial % 2 == 0 ? 1.0 : 10.0;
     body.config.north->azimuth_rad = 0.157 * trial;
-    const Revolution seen = testing::revolution_seen(body, scene.around, testing::kTransferStart);
+    const Revolution seen = revolution_seen(body, scene.around, kTransferStart);
     const ExpectedRevolution expected = scene.expected(body, *seen.edge(Sun1));
     for (std::size_t i = 0; i < kPulseChannels; ++i) {
       SCOPED_TRACE(i);
@@ -55,9 +42,9 @@ TEST(ExpectedRevolution, HasTheOraclesEdges) {
 TEST(ExpectedRevolution, HasNoSunEdgesBehindTheEarth) {
   const Scene scene;
   std::mt19937_64 rng{3};
-  const auto body = testing::random_body(scene.around, 0.05, rng);
-  const ExpectedRevolution hidden = scene.expected(body, testing::kTransferStart, true);
-  const ExpectedRevolution lit = scene.expected(body, testing::kTransferStart);
+  const auto body = random_body(scene.around, 0.05, rng);
+  const ExpectedRevolution hidden = scene.expected(body, kTransferStart, true);
+  const ExpectedRevolution lit = scene.expected(body, kTransferStart);
   for (const PulseChannel channel : {Sun1, Sun2}) {
     EXPECT_FALSE(hidden.revolution.edge(channel));
     EXPECT_TRUE(lit.revolution.edge(channel));
@@ -70,19 +57,19 @@ TEST(ExpectedRevolution, HasNoSunEdgesBehindTheEarth) {
 TEST(ExpectedRevolution, LeavesOutEdgesThatMeet) {
   const Scene scene;
   std::mt19937_64 rng{3};
-  auto body = testing::random_body(scene.around, 0.05, rng);
+  auto body = random_body(scene.around, 0.05, rng);
   // The chords differ, so that only their beginnings can coincide.
   body.config.south->mount_angle_rad = 100.0 * std::numbers::pi / 180.0;
-  const ExpectedRevolution apart = scene.expected(body, testing::kTransferStart);
+  const ExpectedRevolution apart = scene.expected(body, kTransferStart);
   EXPECT_TRUE(apart.meeting.empty());
   // South's beginning is placed 3 ms before north's, more than 2.5 sigma of both (1.8 ms).
   const double gap_s =
       seconds_between(*apart.revolution.edge(NorthIn), *apart.revolution.edge(SouthIn));
   body.config.south->azimuth_rad -= (gap_s + 3e-3) * body.rate_rad_s;
   body.config.screening.interference_s = 1e-3;
-  EXPECT_TRUE(scene.expected(body, testing::kTransferStart).meeting.empty());
+  EXPECT_TRUE(scene.expected(body, kTransferStart).meeting.empty());
   body.config.screening.interference_s = 2e-3;
-  const ExpectedRevolution met = scene.expected(body, testing::kTransferStart);
+  const ExpectedRevolution met = scene.expected(body, kTransferStart);
   ASSERT_EQ(met.meeting.size(), 1U);
   EXPECT_EQ(met.meeting.front().one, NorthIn);
   EXPECT_EQ(met.meeting.front().other, SouthIn);
@@ -92,4 +79,4 @@ TEST(ExpectedRevolution, LeavesOutEdgesThatMeet) {
   EXPECT_TRUE(met.revolution.good_edge(Sun1));
 }
 
-}  // namespace spindrift::expected_revolution_test
+}  // namespace spindrift::testing::expected_revolution_test

@@ -20,7 +20,7 @@
 #include "tests/support/observed_spin.h"
 #include "tests/support/recorded_pass.h"
 
-namespace spindrift::pass_geometry_test {
+namespace spindrift::testing::pass_geometry_test {
 
 using ::testing::Contains;
 using ::testing::HasSubstr;
@@ -39,10 +39,14 @@ std::vector<std::string> sentences_of(const SpinConfig& config, const PassGeomet
   return sentences;
 }
 
+/// Returns the geometry at the start of a recorded pass with these sensors.
+PassGeometry first_of(const RecordedPass& pass, const SpinConfig& config) {
+  return at(config, pass.orbit, pass.true_axis_icrf, pass.pulses.front().t, pass.true_rate_rad_s);
+}
+
 TEST(PassGeometry, HasTheFiguresOfTheNominalPass) {
-  const auto pass = testing::recorded_pass("nominal");
-  const PassGeometry first =
-      at(pass.config, pass.orbit, pass.true_axis_icrf, pass.pulses.front().t, pass.true_rate_rad_s);
+  const auto pass = recorded_pass("nominal");
+  const PassGeometry first = first_of(pass, pass.config);
   // Source: truth.json, which holds for the start of the pass, up to half a turn earlier.
   EXPECT_NEAR(first.angles.sun_angle_rad / kRadPerDeg, 96.23210, 1e-3);
   EXPECT_NEAR(first.angles.earth_angle_rad / kRadPerDeg, 90.88075, 0.01);
@@ -55,7 +59,7 @@ TEST(PassGeometry, HasTheFiguresOfTheNominalPass) {
 }
 
 TEST(PassGeometry, ExpectsOfAFixWhatFixesOfTheNominalPassScatter) {
-  const auto pass = testing::recorded_pass("nominal");
+  const auto pass = recorded_pass("nominal");
   PassScene scene{pass.config, pass.orbit, pass.true_axis_icrf, pass.true_rate_rad_s};
   double sum_rad2 = 0.0;
   constexpr int kTimes = 60;
@@ -69,13 +73,13 @@ TEST(PassGeometry, ExpectsOfAFixWhatFixesOfTheNominalPassScatter) {
 }
 
 TEST(PassGeometry, SeesChordsByTheClosedForm) {
-  const Orbit orbit = testing::orbit_across_the_earth();
+  const Orbit orbit = orbit_across_the_earth();
   std::mt19937_64 rng{17};
   std::uniform_real_distribution<double> uniform;
   std::array<int, 5> views{};
   for (int trial = 0; trial < 3000; ++trial) {
     SCOPED_TRACE(trial);
-    SpinConfig config = testing::usual_config();
+    SpinConfig config = usual_config();
     config.north->mount_angle_rad = (5.0 + 170.0 * uniform(rng)) * kRadPerDeg;
     const Eigen::Vector3d axis_icrf = direction_icrf(
         {.ra_rad = 6.28 * uniform(rng), .dec_rad = std::asin(2.0 * uniform(rng) - 1.0)});
@@ -83,7 +87,7 @@ TEST(PassGeometry, SeesChordsByTheClosedForm) {
     // Earth hardly moves within a turn.
     const double t_s = trial % 2 == 0 ? 34'400.0 + 800.0 * uniform(rng) : 40'000.0 * uniform(rng);
     const PassGeometry geometry =
-        at(config, orbit, axis_icrf, shifted(testing::kTransferStart, t_s), 1000.0);
+        at(config, orbit, axis_icrf, shifted(kTransferStart, t_s), 1000.0);
     const BeamGeometry& beam = geometry.beams.at(index_of(Side::North));
     ++views.at(static_cast<std::size_t>(beam.view));
     // The beam moves on a circle about the axis; these are its extreme distances from the Earth.
@@ -123,9 +127,9 @@ TEST(PassGeometry, SeesChordsByTheClosedForm) {
 }
 
 TEST(PassGeometry, DeltaIsTheDeterminantOfTheTwoEquations) {
-  const auto body = testing::body_across_the_earth();
-  const PassGeometry geometry = at(body.config, testing::orbit_across_the_earth(), body.axis_icrf,
-                                   testing::kTransferStart, body.rate_rad_s);
+  const auto body = body_across_the_earth();
+  const PassGeometry geometry =
+      at(body.config, orbit_across_the_earth(), body.axis_icrf, kTransferStart, body.rate_rad_s);
   const auto& [sun_rad, earth_rad, dihedral_rad] = geometry.angles;
   for (const Side side : kSides) {
     const BeamGeometry& beam = geometry.beams.at(index_of(side));
@@ -147,11 +151,10 @@ TEST(PassGeometry, DeltaHasTheClassesOfTheMission) {
 }
 
 TEST(PassGeometry, WithOneBeamTheFixIsByItsChord) {
-  const auto pass = testing::recorded_pass("nominal");
+  const auto pass = recorded_pass("nominal");
   SpinConfig config = pass.config;
   config.south.reset();
-  const PassGeometry geometry =
-      at(config, pass.orbit, pass.true_axis_icrf, pass.pulses.front().t, pass.true_rate_rad_s);
+  const PassGeometry geometry = first_of(pass, config);
   EXPECT_EQ(geometry.fix.geometry_case, 2);
   EXPECT_EQ(geometry.beams.at(index_of(Side::South)).view, BeamSight::NoSensor);
   const auto words = sentences_of(config, geometry);
@@ -182,49 +185,46 @@ Eigen::Vector3d axis_across(const Orbit& orbit, TaiTime t) {
   return geometric_sun_icrf_km(t).cross(orbit.at(t).value().position_icrf_km).normalized();
 }
 
+/// Returns the geometry where the spacecraft is this angle from the line between Earth and Sun.
+PassGeometry beside_the_sun(const SpinConfig& config, double offset_deg) {
+  const TaiTime t = kTransferStart;
+  const Orbit orbit = orbit_through_the_sun(t, 20'000.0, offset_deg * kRadPerDeg);
+  return at(config, orbit, axis_across(orbit, t), t);
+}
+
 TEST(PassGeometry, NoAxisIsFoundWhereSunAndEarthAreInLine) {
-  const TaiTime t = testing::kTransferStart;
-  const SpinConfig config = testing::usual_config();
-  const auto geometry_at = [&](double offset_deg) {
-    const Orbit orbit = orbit_through_the_sun(t, 20'000.0, offset_deg * kRadPerDeg);
-    return at(config, orbit, axis_across(orbit, t), t);
-  };
-  const PassGeometry in_line = geometry_at(2.9);
+  const SpinConfig config = usual_config();
+  const PassGeometry in_line = beside_the_sun(config, 2.9);
   EXPECT_NEAR(in_line.sun_earth_rad / kRadPerDeg, 177.1, 0.05);
   EXPECT_TRUE(in_line.in_line);
   EXPECT_FALSE(in_line.sun_hidden);
   EXPECT_FALSE(in_line.fix.sigma_rad);
   EXPECT_THAT(sentences_of(config, in_line), Contains("no fix (case 1): Sun and Earth in line"));
-  const PassGeometry beside = geometry_at(3.2);
+  const PassGeometry beside = beside_the_sun(config, 3.2);
   EXPECT_FALSE(beside.in_line);
   EXPECT_TRUE(beside.fix.sigma_rad);
 }
 
 TEST(PassGeometry, TheEarthHidesTheSun) {
-  const TaiTime t = testing::kTransferStart;
-  const SpinConfig config = testing::usual_config();
+  const SpinConfig config = usual_config();
   const double disc_deg = std::asin(6418.137 / 20'000.0) / kRadPerDeg;
-  const auto geometry_at = [&](double offset_deg) {
-    const Orbit orbit = orbit_through_the_sun(t, 20'000.0, (180.0 + offset_deg) * kRadPerDeg);
-    return at(config, orbit, axis_across(orbit, t), t);
-  };
-  const PassGeometry night = geometry_at(disc_deg - 0.1);
+  const PassGeometry night = beside_the_sun(config, 180.0 + disc_deg - 0.1);
   EXPECT_TRUE(night.sun_hidden);
   EXPECT_EQ(night.fix.geometry_case, 8);
   EXPECT_FALSE(night.beams.front().delta);
   EXPECT_THAT(sentences_of(config, night), Contains("the Earth hides the Sun: no sun pulses"));
-  const PassGeometry day = geometry_at(disc_deg + 0.1);
+  const PassGeometry day = beside_the_sun(config, 180.0 + disc_deg + 0.1);
   EXPECT_FALSE(day.sun_hidden);
   EXPECT_EQ(day.fix.geometry_case, 1);
 }
 
 TEST(PassGeometry, SaysWhichSlitCannotSeeTheSun) {
-  const TaiTime t = testing::kTransferStart;
-  const Orbit orbit = testing::orbit_across_the_earth();
+  const TaiTime t = kTransferStart;
+  const Orbit orbit = orbit_across_the_earth();
   const Eigen::Vector3d sun_icrf = geometric_sun_icrf_km(t).normalized();
   const auto words_at = [&](double sun_angle_deg) {
     const double angle_rad = sun_angle_deg * kRadPerDeg;
-    const SpinConfig config = testing::usual_config();
+    const SpinConfig config = usual_config();
     return sentences_of(
         config,
         at(config, orbit,
@@ -237,16 +237,13 @@ TEST(PassGeometry, SaysWhichSlitCannotSeeTheSun) {
 }
 
 TEST(PassGeometry, SaysWhatSpoilsAFix) {
-  const auto body = testing::body_across_the_earth();
+  const auto body = body_across_the_earth();
   SpinConfig config = body.config;
-  const auto words = [&] {
-    return sentences_of(config, at(config, testing::orbit_across_the_earth(), body.axis_icrf,
-                                   testing::kTransferStart, body.rate_rad_s));
+  const auto geometry = [&] {
+    return at(config, orbit_across_the_earth(), body.axis_icrf, kTransferStart, body.rate_rad_s);
   };
-  const double delta = std::abs(at(config, testing::orbit_across_the_earth(), body.axis_icrf,
-                                   testing::kTransferStart, body.rate_rad_s)
-                                    .beams.at(index_of(Side::North))
-                                    .delta.value());
+  const auto words = [&] { return sentences_of(config, geometry()); };
+  const double delta = std::abs(geometry().beams.at(index_of(Side::North)).delta.value());
   config.geometry = {.determinant_usable = 1.0, .determinant_ambiguous = 0.5 * delta};
   EXPECT_THAT(words(), Contains("|Delta| < 1 (north): a fix by its chord alone has two roots to "
                                 "tell apart"));
@@ -260,13 +257,12 @@ TEST(PassGeometry, SaysWhatSpoilsAFix) {
 }
 
 TEST(PassGeometry, BelowTheHorizonIsAnError) {
-  const Orbit orbit = testing::orbit_across_the_earth();
-  SpinConfig config = testing::usual_config();
+  const Orbit orbit = orbit_across_the_earth();
+  SpinConfig config = usual_config();
   config.horizon.co2_altitude_km = 30'000.0;
-  const auto found =
-      PassScene{config, orbit, Eigen::Vector3d::UnitZ(), 1.0}.at(testing::kTransferStart);
+  const auto found = PassScene{config, orbit, Eigen::Vector3d::UnitZ(), 1.0}.at(kTransferStart);
   ASSERT_FALSE(found);
   EXPECT_EQ(found.error().code, ErrorCode::Unobservable);
 }
 
-}  // namespace spindrift::pass_geometry_test
+}  // namespace spindrift::testing::pass_geometry_test

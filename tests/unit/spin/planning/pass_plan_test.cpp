@@ -16,14 +16,14 @@
 #include "tests/support/observed_spin.h"
 #include "tests/support/recorded_pass.h"
 
-namespace spindrift::pass_plan_test {
+namespace spindrift::testing::pass_plan_test {
 
 /// Plans a pass in an orbit that approaches the Earth and leaves it again within twelve hours.
 PassPlan plan(double from_s, double to_s, double step_s,
-              const testing::SpinningBody& body = testing::body_across_the_earth()) {
-  return plan_pass(body.config, testing::orbit_across_the_earth(),
-                   {.from = shifted(testing::kTransferStart, from_s),
-                    .to = shifted(testing::kTransferStart, to_s),
+              const SpinningBody& body = body_across_the_earth()) {
+  return plan_pass(body.config, orbit_across_the_earth(),
+                   {.from = shifted(kTransferStart, from_s),
+                    .to = shifted(kTransferStart, to_s),
                     .step_s = step_s,
                     .axis_icrf = body.axis_icrf,
                     .rate_rad_s = body.rate_rad_s})
@@ -31,7 +31,7 @@ PassPlan plan(double from_s, double to_s, double step_s,
 }
 
 /// Plans a recorded pass from its first edge on.
-Expected<PassPlan> plan(const testing::RecordedPass& pass, double duration_s, double step_s) {
+Expected<PassPlan> plan(const RecordedPass& pass, double duration_s, double step_s) {
   const TaiTime from = pass.pulses.front().t;
   return plan_pass(pass.config, pass.orbit,
                    {.from = from,
@@ -42,18 +42,17 @@ Expected<PassPlan> plan(const testing::RecordedPass& pass, double duration_s, do
 }
 
 TEST(PassPlan, ExpectsThePublishedLimitAfterAHundredTurns) {
-  const PassPlan found = plan(testing::recorded_pass("nominal"), 100.0, 50.0).value();
+  const PassPlan found = plan(recorded_pass("nominal"), 100.0, 50.0).value();
   // pipelines/spin/README.md gives 0.405 deg / 10 plus 1 %, which neglects that the geometry
   // changes.
   EXPECT_NEAR(found.steps.back().sigma_rad.value() / kRadPerDeg, 0.0409, 0.02 * 0.0409);
 }
 
 TEST(PassPlan, ExpectsTheLimitOfTheOraclesEdges) {
-  const Orbit orbit = testing::orbit_across_the_earth();
-  const auto body = testing::body_across_the_earth();
+  const Orbit orbit = orbit_across_the_earth();
+  const auto body = body_across_the_earth();
   constexpr double kDuration_s = 60.0;
-  const Eigen::Matrix2d limit = testing::cramer_rao_rad2(
-      body, testing::seen_from(orbit, testing::spherical_horizon_km(40.0)), kDuration_s);
+  const Eigen::Matrix2d limit = cramer_rao_rad2(body, seen_from(orbit), kDuration_s);
   // The oracle's limit assumes a rate without drift.
   EXPECT_NEAR(plan(0.0, kDuration_s, kDuration_s, body).steps.back().sigma_rad.value() /
                   std::sqrt(limit.trace()),
@@ -65,7 +64,7 @@ TEST(PassPlan, StepsFromTheBeginningToTheEnd) {
   std::vector<double> times_s;
   times_s.reserve(steps.size());
   for (const PassStep& step : steps) {
-    times_s.push_back(seconds_between(testing::kTransferStart, step.geometry.t));
+    times_s.push_back(seconds_between(kTransferStart, step.geometry.t));
   }
   EXPECT_THAT(times_s,
               ::testing::Pointwise(::testing::DoubleNear(1e-9), {0.0, 30.0, 60.0, 90.0, 100.0}));
@@ -102,9 +101,9 @@ TEST(PassPlan, DoesNotDependOnTheStep) {
 }
 
 TEST(PassPlan, ChordsVanishWhereTheDiscLeavesTheBeam) {
-  const auto body = testing::body_across_the_earth();
+  const auto body = body_across_the_earth();
   const PassPlan found = plan(0.0, 40'000.0, 1000.0, body);
-  PassScene scene{body.config, testing::orbit_across_the_earth(), body.axis_icrf, body.rate_rad_s};
+  PassScene scene{body.config, orbit_across_the_earth(), body.axis_icrf, body.rate_rad_s};
   const auto outside_rad = [&](TaiTime t, double mount_rad) {
     const PassGeometry geometry = scene.at(t).value();
     return std::abs(geometry.angles.earth_angle_rad - mount_rad) - geometry.disc_rad;
@@ -133,10 +132,10 @@ TEST(PassPlan, ChordsVanishWhereTheDiscLeavesTheBeam) {
 TEST(PassPlan, WhatHoldsForSecondsIsFoundWhereverItFalls) {
   // Slit 1 and the north beam's limb drift apart at the rate of the Earth's azimuth; the window is
   // chosen so that they meet for four seconds.
-  auto body = testing::body_across_the_earth();
-  PassScene scene{body.config, testing::orbit_across_the_earth(), body.axis_icrf, body.rate_rad_s};
+  auto body = body_across_the_earth();
+  PassScene scene{body.config, orbit_across_the_earth(), body.axis_icrf, body.rate_rad_s};
   const auto apart_rad = [&](double t_s) {
-    const auto expected = scene.at(shifted(testing::kTransferStart, t_s)).value().expected;
+    const auto expected = scene.at(shifted(kTransferStart, t_s)).value().expected;
     return wrapped_rad(expected.predicted.at(index_of(PulseChannel::NorthIn))->phase_rad -
                        expected.predicted.at(index_of(PulseChannel::Sun1))->phase_rad);
   };
@@ -153,17 +152,17 @@ TEST(PassPlan, WhatHoldsForSecondsIsFoundWhereverItFalls) {
                                               {{"one", "sun1"}, {"other", "north_in"}}};
     });
     ASSERT_NE(met, events.end()) << from_s;
-    EXPECT_NEAR(seconds_between(testing::kTransferStart, met->from), kMiddle_s - 2.0, 1.5);
-    EXPECT_NEAR(seconds_between(testing::kTransferStart, met->to), kMiddle_s + 2.0, 1.5);
+    EXPECT_NEAR(seconds_between(kTransferStart, met->from), kMiddle_s - 2.0, 1.5);
+    EXPECT_NEAR(seconds_between(kTransferStart, met->to), kMiddle_s + 2.0, 1.5);
   }
 }
 
 TEST(PassPlan, AnOrbitThatEndsIsAnError) {
-  const auto found = plan(testing::recorded_pass("nominal"), 3600.0, 60.0);
+  const auto found = plan(recorded_pass("nominal"), 3600.0, 60.0);
   ASSERT_FALSE(found);
   EXPECT_EQ(found.error().code, ErrorCode::NoCoverage);
   // The orbit ends two minutes after the ten-minute pass.
   EXPECT_THAT(found.error().message, ::testing::HasSubstr("2880"));
 }
 
-}  // namespace spindrift::pass_plan_test
+}  // namespace spindrift::testing::pass_plan_test

@@ -4,44 +4,35 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 #include <random>
 
 #include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
-#include "tests/support/spinning_body.h"
+#include "tests/support/axis_scene.h"
 
-namespace spindrift::screening_test {
+namespace spindrift::testing::screening_test {
 
 using enum SpinQuantity;
 
 constexpr double kPi = std::numbers::pi;
 constexpr double kRate_rad_s = 2.0 * kPi;
-const Eigen::Vector3d kSun_icrf = Eigen::Vector3d{1.0, 0.2, 0.1}.normalized();
-const Eigen::Vector3d kEarth_icrf = Eigen::Vector3d{0.1, 1.0, -0.05}.normalized();
-const Eigen::Vector3d kAxis_icrf = Eigen::Vector3d::UnitZ();
-constexpr double kRange_km = 16000.0;
+const AxisScene kScene{.earth_icrf = Eigen::Vector3d{0.1, 1.0, -0.05}.normalized(),
+                       .axis_icrf = Eigen::Vector3d::UnitZ(),
+                       .rate_rad_s = kRate_rad_s,
+                       .first_turn_rad = 0.0};
+const SunEarthDirections kSightlines = kScene.sun_earth();
 
-const SunEarthDirections kSightlines{.sun_icrf = kSun_icrf,
-                                     .earth_icrf = kEarth_icrf,
-                                     .disc_rad = std::asin(6418.137 / kRange_km),
-                                     .earth_pole_icrf = Eigen::Vector3d::UnitZ()};
+RevolutionMeasurements seen() { return measure(kScene.config, kScene.seen()); }
 
-RevolutionMeasurements seen() {
-  const SpinConfig config = testing::usual_config();
-  return measure(config,
-                 testing::revolution_seen({.axis_icrf = kAxis_icrf,
-                                           .rate_rad_s = kRate_rad_s,
-                                           .first_turn_rad = 0.0,
-                                           .config = config},
-                                          testing::at_rest(kSun_icrf, kRange_km * kEarth_icrf),
-                                          tai_from_ns(1'795'143'637'000'000'000)));
+std::vector<AngleResidual> residuals_of(const RevolutionMeasurements& measured,
+                                        const Eigen::Vector3d& axis_icrf = kScene.axis_icrf) {
+  return residuals(kScene.config, measured, kSightlines, axis_icrf);
 }
 
 TEST(Residuals, VanishAtTheTrueAxis) {
-  const auto found = residuals(testing::usual_config(), seen(), kSightlines, kAxis_icrf);
+  const auto found = residuals_of(seen());
   ASSERT_EQ(found.size(), 5U);
   for (const AngleResidual& residual : found) {
     // Three edges, each rounded to 0.5 ns.
@@ -54,7 +45,7 @@ TEST(Residuals, AreMeasuredMinusPredicted) {
   RevolutionMeasurements measured = seen();
   measured.sun_angle->value_rad += 0.01;
   measured.crossings[0]->chord->value_rad -= 0.02;
-  const auto found = residuals(testing::usual_config(), measured, kSightlines, kAxis_icrf);
+  const auto found = residuals_of(measured);
   for (const AngleResidual& residual : found) {
     const double expected_rad = residual.quantity == SunAngle     ? 0.01
                                 : residual.quantity == NorthChord ? -0.02
@@ -69,7 +60,7 @@ TEST(Residuals, OfADihedralAreWrapped) {
   RevolutionMeasurements measured = seen();
   const double dihedral_rad = measured.crossings[0]->dihedral->value_rad;
   measured.crossings[0]->dihedral->value_rad = wrapped_rad(dihedral_rad + 2.0 * kPi - 0.001);
-  const auto found = residuals(testing::usual_config(), measured, kSightlines, kAxis_icrf);
+  const auto found = residuals_of(measured);
   for (const AngleResidual& residual : found) {
     EXPECT_LT(std::abs(residual.value_rad), 0.0011) << name_of(residual.quantity);
   }
@@ -79,42 +70,35 @@ TEST(Residuals, AreThereForWhatWasMeasuredOnly) {
   RevolutionMeasurements measured = seen();
   measured.sun_angle.reset();
   measured.crossings[1].reset();
-  const auto found = residuals(testing::usual_config(), measured, kSightlines, kAxis_icrf);
+  const auto found = residuals_of(measured);
   ASSERT_EQ(found.size(), 2U);
   EXPECT_EQ(found[0].quantity, NorthChord);
   EXPECT_EQ(found[1].quantity, NorthDihedral);
 }
 
 TEST(Residuals, OfTheMixedAzimuthVanishAtTheTrueAxisToo) {
-  const SpinConfig config = testing::usual_config();
-  Revolution revolution = testing::revolution_seen(
-      {.axis_icrf = kAxis_icrf, .rate_rad_s = kRate_rad_s, .first_turn_rad = 0.0, .config = config},
-      testing::at_rest(kSun_icrf, kRange_km * kEarth_icrf), tai_from_ns(1'795'143'637'000'000'000));
+  Revolution revolution = kScene.seen();
   revolution.edges.at(index_of(PulseChannel::Sun1)).reset();
-  const auto found = residuals(config, measure(config, revolution), kSightlines, kAxis_icrf);
+  const auto found = residuals_of(measure(kScene.config, revolution));
   ASSERT_EQ(found.size(), 3U);
   EXPECT_EQ(found.back().quantity, MixedAzimuth);
   EXPECT_NEAR(found.back().value_rad, 0.0, 2e-9 * kRate_rad_s);
 }
 
 TEST(Residuals, OfAnOblateEarthVanishAtTheTrueAxisWhereItsShapeIsTaken) {
-  SpinConfig config = testing::usual_config();
-  testing::SunEarthEphemeris around = testing::at_rest(kSun_icrf, kRange_km * kEarth_icrf);
-  around.horizon_km = testing::ellipsoidal_horizon_km(40.0);
+  AxisScene scene = kScene;
+  scene.earth = HorizonModel::Ellipsoid;
   // The view is inclined, so that the shape of the limb also moves the middles of the chords.
-  const Eigen::Vector3d axis_icrf = Eigen::Vector3d{0.5, 0.0, 1.0}.normalized();
-  config.north->mount_angle_rad = angle_between_rad(axis_icrf, kEarth_icrf) - 0.1;
-  config.south->mount_angle_rad = angle_between_rad(axis_icrf, kEarth_icrf) + 0.1;
-  const RevolutionMeasurements measured =
-      measure(config, testing::revolution_seen({.axis_icrf = axis_icrf,
-                                                .rate_rad_s = kRate_rad_s,
-                                                .first_turn_rad = 0.0,
-                                                .config = config},
-                                               around, tai_from_ns(1'795'143'637'000'000'000)));
+  scene.axis_icrf = Eigen::Vector3d{0.5, 0.0, 1.0}.normalized();
+  const double earth_angle_rad = angle_between_rad(scene.axis_icrf, scene.earth_icrf);
+  scene.config.north->mount_angle_rad = earth_angle_rad - 0.1;
+  scene.config.south->mount_angle_rad = earth_angle_rad + 0.1;
+  const RevolutionMeasurements measured = scene.measured();
   const auto worst_rad = [&](HorizonModel model) {
-    config.horizon.model = model;
+    scene.config.horizon.model = model;
     double worst = 0.0;
-    for (const AngleResidual& residual : residuals(config, measured, kSightlines, axis_icrf)) {
+    for (const AngleResidual& residual :
+         residuals(scene.config, measured, kSightlines, scene.axis_icrf)) {
       worst = std::max(worst, std::abs(residual.value_rad));
     }
     return worst;
@@ -126,29 +110,19 @@ TEST(Residuals, OfAnOblateEarthVanishAtTheTrueAxisWhereItsShapeIsTaken) {
 /// The Earth passes as from a low perigee, and the beams of a slow body meet it half a turn apart.
 TEST(Residuals, VanishAtTheTrueAxisWhileTheEarthMoves) {
   const Eigen::Vector3d motion_icrf_s{-8e-4, 1e-4, 3e-4};  // The Earth moves at 0.05 deg/s.
-  SpinConfig config = testing::usual_config();
-  config.south->azimuth_rad = config.north->azimuth_rad + kPi;
-  testing::SunEarthEphemeris around = testing::at_rest(kSun_icrf, kRange_km * kEarth_icrf);
-  around.earth_icrf_km = [=](double t_s) -> Eigen::Vector3d {
-    return kRange_km * (kEarth_icrf + t_s * motion_icrf_s);
-  };
-  const TaiTime start = tai_from_ns(1'795'143'637'000'000'000);
-  constexpr double kSlow_rad_s = 2.0 * kPi / 10.0;
+  AxisScene scene = kScene;
+  scene.rate_rad_s = 2.0 * kPi / 10.0;
+  scene.config.south->azimuth_rad = scene.config.north->azimuth_rad + kPi;
   const RevolutionMeasurements measured =
-      measure(config, testing::revolution_seen({.axis_icrf = kAxis_icrf,
-                                                .rate_rad_s = kSlow_rad_s,
-                                                .first_turn_rad = 0.0,
-                                                .config = config},
-                                               around, start));
-  SunEarthDirections sun_earth = kSightlines;
-  sun_earth.t_earth = start;
-  sun_earth.earth_motion_icrf_s = motion_icrf_s;
-  const auto found = residuals(config, measured, sun_earth, kAxis_icrf);
+      measure(scene.config, scene.seen_while_earth_moves(motion_icrf_s));
+  const auto found = residuals(scene.config, measured,
+                               scene.sightlines_while_earth_moves(motion_icrf_s), scene.axis_icrf);
   ASSERT_EQ(found.size(), 5U);
   for (const AngleResidual& residual : found) {
-    EXPECT_NEAR(residual.value_rad, 0.0, 2e-9 * kSlow_rad_s) << name_of(residual.quantity);
+    EXPECT_NEAR(residual.value_rad, 0.0, 2e-9 * scene.rate_rad_s) << name_of(residual.quantity);
   }
-  for (const AngleResidual& residual : residuals(config, measured, kSightlines, kAxis_icrf)) {
+  for (const AngleResidual& residual :
+       residuals(scene.config, measured, kSightlines, scene.axis_icrf)) {
     const bool dihedral = residual.quantity == NorthDihedral || residual.quantity == SouthDihedral;
     EXPECT_TRUE(std::abs(residual.value_rad) > 2.0 * residual.sigma_rad || !dihedral)
         << name_of(residual.quantity);
@@ -158,7 +132,7 @@ TEST(Residuals, VanishAtTheTrueAxisWhileTheEarthMoves) {
 TEST(Residuals, OfWhatIsRejectedAlreadyAreNotFormed) {
   RevolutionMeasurements measured = seen();
   reject(measured, SunAngle, Rejection::Phase);
-  const auto found = residuals(testing::usual_config(), measured, kSightlines, kAxis_icrf);
+  const auto found = residuals_of(measured);
   EXPECT_EQ(found.size(), 4U);
   EXPECT_EQ(found.front().quantity, NorthChord);
 }
@@ -166,8 +140,8 @@ TEST(Residuals, OfWhatIsRejectedAlreadyAreNotFormed) {
 TEST(Residuals, AChordThatTheAxisSaysIsImpossibleHasNone) {
   // The Earth at 60 deg from the axis is beyond the reach of both beams.
   const Eigen::Vector3d axis =
-      Eigen::AngleAxisd{60.0 * kRadPerDeg, kEarth_icrf.unitOrthogonal()} * kEarth_icrf;
-  const auto found = residuals(testing::usual_config(), seen(), kSightlines, axis);
+      Eigen::AngleAxisd{60.0 * kRadPerDeg, kScene.earth_icrf.unitOrthogonal()} * kScene.earth_icrf;
+  const auto found = residuals_of(seen(), axis);
   ASSERT_EQ(found.size(), 3U);
   EXPECT_TRUE(std::none_of(found.begin(), found.end(), [](const AngleResidual& residual) {
     return residual.quantity == NorthChord || residual.quantity == SouthChord;
@@ -251,4 +225,4 @@ TEST(ScreeningWindow, RejectsTheShareOfGaussianNoiseThatLiesBeyondThreeSigma) {
   EXPECT_NEAR(static_cast<double>(rejected) / kResiduals, 0.0037, 0.0018);
 }
 
-}  // namespace spindrift::screening_test
+}  // namespace spindrift::testing::screening_test

@@ -15,23 +15,17 @@
 #include "tests/support/observed_spin.h"
 #include "tests/support/recorded_pass.h"
 
-namespace spindrift::edge_information_test {
+namespace spindrift::testing::edge_information_test {
 
 using enum PulseChannel;
 
 constexpr std::array kAll = {Sun1, Sun2, NorthIn, NorthOut, SouthIn, SouthOut};
 
-Eigen::Matrix3d frame_about(const Eigen::Vector3d& axis_icrf) {
-  Eigen::Matrix3d R_spin_icrf;
-  R_spin_icrf << tangent_basis(axis_icrf).transpose(), axis_icrf.transpose();
-  return R_spin_icrf;
-}
-
 /// Holds a turn from the middle of the first hundred of the pass to which those figures refer.
 struct Turn {
-  testing::RecordedPass pass = testing::recorded_pass("nominal");
-  Sky sky = testing::sky_at(pass.orbit, shifted(pass.pulses.front().t, 50.0));
-  Eigen::Matrix3d R_spin_icrf = frame_about(pass.true_axis_icrf);
+  RecordedPass pass = recorded_pass("nominal");
+  Sky sky = sky_at(pass.orbit, shifted(pass.pulses.front().t, 50.0));
+  Eigen::Matrix3d R_spin_icrf = spin_frame(pass.true_axis_icrf);
 
   template <class Channels>
   void add_to(EdgeInformation& information, const Channels& channels, double dt_s,
@@ -58,23 +52,22 @@ TEST(EdgeInformation, OfOneTurnAtAKnownRateIsThePublishedLimit) {
 }
 
 TEST(EdgeInformation, IsThatOfTheOraclesEdges) {
-  const Orbit orbit = testing::transfer_orbit();
-  const auto around = testing::seen_from(orbit, testing::spherical_horizon_km(40.0));
+  const Surroundings from;
   std::mt19937_64 rng{11};
   for (int trial = 0; trial < 5; ++trial) {
     SCOPED_TRACE(trial);
-    const auto body = testing::random_body(around, 0.05, rng);
+    const auto body = random_body(from.around, 0.05, rng);
     constexpr double kDuration_s = 40.0;
     EdgeInformation information;
-    for (const testing::Edge& edge : testing::edges_between(body, around, 0.0, kDuration_s)) {
-      const TaiTime t = shifted(testing::kTransferStart, edge.t_s);
+    for (const Edge& edge : edges_between(body, from.around, 0.0, kDuration_s)) {
+      const TaiTime t = shifted(kTransferStart, edge.t_s);
       const auto predicted =
-          predict_edge(body.config, testing::sky_at(orbit, t), frame_about(body.axis_icrf),
+          predict_edge(body.config, sky_at(from.orbit, t), spin_frame(body.axis_icrf),
                        {.t = t, .channel = edge.channel});
       information.add(predicted.value(), edge.t_s,
                       body.rate_rad_s * edge_sigma_s(body.config.noise, edge.channel));
     }
-    const Eigen::Matrix2d limit = testing::cramer_rao_rad2(body, around, kDuration_s);
+    const Eigen::Matrix2d limit = cramer_rao_rad2(body, from.around, kDuration_s);
     const Eigen::Matrix2d found = information.axis_covariance_rad2().value();
     // The oracle assumes a rate without drift, which hardly affects the axis.
     EXPECT_LT((found - limit).norm(), 0.02 * limit.norm()) << found << "\n" << limit;
@@ -125,4 +118,4 @@ TEST(EdgeInformation, DoesNotDependOnWhenTimeBeginsNorOnTheFrame) {
   EXPECT_LT((turned.axis_covariance_rad2().value() - expected).norm(), 1e-6 * expected.norm());
 }
 
-}  // namespace spindrift::edge_information_test
+}  // namespace spindrift::testing::edge_information_test

@@ -16,17 +16,16 @@
 #include "tests/support/observed_spin.h"
 #include "tests/support/spinning_body.h"
 
-namespace spindrift::edge_prediction_test {
+namespace spindrift::testing::edge_prediction_test {
 
 using enum PulseChannel;
 
 struct Scene {
-  Orbit orbit = testing::transfer_orbit();
-  Sky sky = testing::sky_at(orbit, testing::kTransferStart);
+  Orbit orbit = transfer_orbit();
+  Sky sky = sky_at(orbit, kTransferStart);
   std::mt19937_64 rng{5};
-  testing::SpinningBody body = testing::random_body(
-      testing::seen_from(orbit, testing::spherical_horizon_km(40.0)), 0.1, rng);
-  Eigen::Matrix3d R_spin_icrf = frame_about(body.axis_icrf).conjugate().toRotationMatrix();
+  SpinningBody body = random_body(seen_from(orbit), 0.1, rng);
+  Eigen::Matrix3d R_spin_icrf = spin_frame(body.axis_icrf);
 
   PredictedEdge predicted(PulseChannel channel, const SpinConfig& config) const {
     return predict_edge(config, sky, R_spin_icrf, {.t = sky.t, .channel = channel}).value();
@@ -76,8 +75,7 @@ TEST(EdgePrediction, TheSunHasAnAzimuthUpToHalfADegreeFromTheAxis) {
   const auto sun1_at = [&](double sun_angle_deg) {
     const Eigen::Vector3d axis_icrf =
         Eigen::AngleAxisd{sun_angle_deg * std::numbers::pi / 180.0, across} * scene.sky.sun_icrf;
-    return predict_edge(scene.body.config, scene.sky,
-                        frame_about(axis_icrf).conjugate().toRotationMatrix(),
+    return predict_edge(scene.body.config, scene.sky, spin_frame(axis_icrf),
                         {.t = scene.sky.t, .channel = Sun1});
   };
   // The edge is predicted even near the Sun: an edge that no candidate could have is compared with
@@ -131,4 +129,4 @@ TEST(EdgePrediction, AStepTowardsAnEdgeLeadsFromABeamThatMissesTheEarthToOneThat
   EXPECT_NEAR(predict_edge(config, scene.sky, tilted, edge).value().phase_rad, phase_rad, 0.005);
 }
 
-}  // namespace spindrift::edge_prediction_test
+}  // namespace spindrift::testing::edge_prediction_test

@@ -9,11 +9,7 @@
 
 #include "tests/support/sequential_scene.h"
 
-namespace spindrift::hypotheses_test {
-
-using testing::kFixSigma_rad;
-using testing::ObservedRevolution;
-using testing::Scene;
+namespace spindrift::testing::hypotheses_test {
 
 StartingPoint at(const Eigen::Vector3d& axis_icrf) {
   return {.axis_icrf = axis_icrf,
@@ -25,7 +21,7 @@ struct Race {
   explicit Race(bool with_sun) {
     seen = scene.seen(0.0, 120.0);
     if (!with_sun) {
-      seen = testing::without_sun(std::move(seen));
+      seen = without_sun(std::move(seen));
     }
     add(scene.body.axis_icrf);
     add(scene.turned_about(scene.around.sun_icrf(0.0), 6.0));
@@ -96,4 +92,4 @@ TEST(Hypotheses, OneThatIsAddedToWhatIsSettledOpensItAgain) {
   EXPECT_FALSE(race.hypotheses.settled());
 }
 
-}  // namespace spindrift::hypotheses_test
+}  // namespace spindrift::testing::hypotheses_test

@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Geometry>
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -15,10 +14,7 @@
 #include "tests/support/recorded_pass.h"
 #include "tests/support/spinning_body.h"
 
-namespace spindrift::spin_filter_test {
-
-using testing::ObservedRevolution;
-using testing::SpinningBody;
+namespace spindrift::testing::spin_filter_test {
 
 constexpr double kPi = std::numbers::pi;
 
@@ -40,51 +36,59 @@ double sigma_deg(const SpinFilter& filter) {
 /// Returns the normalised squared error (NEES): chi-square with two degrees of freedom.
 double squared_error(const SpinFilter& filter, const Eigen::Vector3d& true_icrf) {
   const Eigen::Vector2d error_rad = testing::error_rad(filter.axis_icrf(), true_icrf);
-  return testing::normalised_square(error_rad, filter.axis_covariance_rad2());
+  return normalised_square(error_rad, filter.axis_covariance_rad2());
 }
 
 // Chi-square quantile for a probability of 1e-4 and two degrees of freedom.
 constexpr double kOneInTenThousand = 18.42;
 
-TEST(SpinFilter, ReachesTheInformationLimitOfTheDesign) {
+/// Holds the recorded pass and filters about its true axis.
+class SpinFilterTest : public ::testing::Test {
+ protected:
+  SpinFilter about_the_axis(const Eigen::Matrix2d& covariance_rad2) const {
+    return SpinFilter::about(pass_.true_axis_icrf, covariance_rad2, pass_.config,
+                             seen_[0].revolution, seen_[0].sky)
+        .value();
+  }
+
+  /// Returns the filter after the edges of these revolutions.
+  SpinFilter filtered(const std::vector<ObservedRevolution>& seen) const {
+    SpinFilter filter = SpinFilter::about(pass_.true_axis_icrf, round_covariance(1.0 * kRadPerDeg),
+                                          pass_.config, seen[0].revolution, seen[0].sky)
+                            .value();
+    for (std::size_t i = 1; i <= 200; ++i) {
+      work_in(filter, pass_.config, seen[i]);
+    }
+    return filter;
+  }
+
+  RecordedPass pass_ = recorded_pass("nominal");
+  std::vector<ObservedRevolution> seen_ = observed(pass_.config, pass_.orbit, pass_.pulses);
+};
+
+TEST_F(SpinFilterTest, ReachesTheInformationLimitOfTheDesign) {
   // pipelines/spin/README.md: GTO at 13,900 km, 60 rpm, 0.1 and 0.5 ms give 0.405 deg for one
   // revolution and 0.0409 deg after 100. Chords and distance change by 5 % during the pass.
-  const auto pass = testing::recorded_pass("nominal");
-  const auto seen = testing::observed(pass.config, pass.orbit, pass.pulses);
-  Revolution first = seen[0].revolution;
-  first.period = seen[100].revolution.period;  // The figures assume that the rate is known.
-  SpinFilter filter = SpinFilter::about(pass.true_axis_icrf, round_covariance(5.0 * kRadPerDeg),
-                                        pass.config, first, seen[0].sky)
+  Revolution first = seen_[0].revolution;
+  first.period = seen_[100].revolution.period;  // The figures assume that the rate is known.
+  SpinFilter filter = SpinFilter::about(pass_.true_axis_icrf, round_covariance(5.0 * kRadPerDeg),
+                                        pass_.config, first, seen_[0].sky)
                           .value();
-  work_in(filter, pass.config, seen[1]);
+  work_in(filter, pass_.config, seen_[1]);
   EXPECT_NEAR(sigma_deg(filter), 0.405, 0.05 * 0.405);
   for (std::size_t i = 2; i <= 100; ++i) {
-    work_in(filter, pass.config, seen[i]);
+    work_in(filter, pass_.config, seen_[i]);
   }
   EXPECT_NEAR(sigma_deg(filter), 0.0409, 0.05 * 0.0409);
-  EXPECT_LT(squared_error(filter, pass.true_axis_icrf), kOneInTenThousand);
+  EXPECT_LT(squared_error(filter, pass_.true_axis_icrf), kOneInTenThousand);
 }
 
-/// Returns the filter after the edges of the pass.
-SpinFilter filtered(const testing::RecordedPass& pass,
-                    const std::vector<ObservedRevolution>& seen) {
-  SpinFilter filter = SpinFilter::about(pass.true_axis_icrf, round_covariance(1.0 * kRadPerDeg),
-                                        pass.config, seen[0].revolution, seen[0].sky)
-                          .value();
-  for (std::size_t i = 1; i <= 200; ++i) {
-    work_in(filter, pass.config, seen[i]);
-  }
-  return filter;
-}
-
-TEST(SpinFilter, AChannelThatIsLateMovesTheAxisByWhatItsOffsetAddsToTheCovariance) {
-  const auto pass = testing::recorded_pass("nominal");
-  const auto seen = testing::observed(pass.config, pass.orbit, pass.pulses);
-  const SpinFilter in_time = filtered(pass, seen);
+TEST_F(SpinFilterTest, AChannelThatIsLateMovesTheAxisByWhatItsOffsetAddsToTheCovariance) {
+  const SpinFilter in_time = filtered(seen_);
   for (std::size_t channel = 0; channel < kPulseChannels; ++channel) {
     SCOPED_TRACE(name_of(static_cast<PulseChannel>(channel)));
     constexpr double kLate_s = 2e-5;
-    auto late = seen;
+    auto late = seen_;
     for (ObservedRevolution& one : late) {
       if (auto& edge = one.revolution.edges.at(channel)) {
         edge = shifted(*edge, kLate_s);
@@ -93,43 +97,33 @@ TEST(SpinFilter, AChannelThatIsLateMovesTheAxisByWhatItsOffsetAddsToTheCovarianc
     OffsetPrior offsets_s2 = OffsetPrior::Zero();
     offsets_s2(static_cast<Eigen::Index>(channel), static_cast<Eigen::Index>(channel)) =
         kLate_s * kLate_s;
-    const double moved_rad =
-        angle_between_rad(filtered(pass, late).axis_icrf(), in_time.axis_icrf());
+    const double moved_rad = angle_between_rad(filtered(late).axis_icrf(), in_time.axis_icrf());
     // The shift is a fifth of an edge's noise: another edge may be gated, and slopes change
     // slightly.
     EXPECT_NEAR(moved_rad, std::sqrt(in_time.offsets_rad2(offsets_s2).trace()), 0.03 * moved_rad);
   }
 }
 
-TEST(SpinFilter, StartsWithWhatIsKnownOfTheAxisAndLittleOfPhaseAndRate) {
-  const auto pass = testing::recorded_pass("nominal");
-  const auto seen = testing::observed(pass.config, pass.orbit, pass.pulses);
+TEST_F(SpinFilterTest, StartsWithWhatIsKnownOfTheAxisAndLittleOfPhaseAndRate) {
   Eigen::Matrix2d covariance_rad2;
   covariance_rad2 << 4e-5, 1e-5, 1e-5, 2e-5;
-  const SpinFilter filter = SpinFilter::about(pass.true_axis_icrf, covariance_rad2, pass.config,
-                                              seen[0].revolution, seen[0].sky)
-                                .value();
-  EXPECT_LT((filter.axis_icrf() - pass.true_axis_icrf).norm(), 1e-14);
+  const SpinFilter filter = about_the_axis(covariance_rad2);
+  EXPECT_LT((filter.axis_icrf() - pass_.true_axis_icrf).norm(), 1e-14);
   EXPECT_TRUE(filter.axis_covariance_rad2().isApprox(covariance_rad2, 1e-12));
   EXPECT_GT(filter.phase_sigma_rad(), 0.05);
   EXPECT_GT(filter.rate_sigma_rad_s(), 1e-4 * filter.rate_rad_s());
-  EXPECT_NEAR(filter.rate_rad_s(), pass.true_rate_rad_s, 3.0 * filter.rate_sigma_rad_s());
+  EXPECT_NEAR(filter.rate_rad_s(), pass_.true_rate_rad_s, 3.0 * filter.rate_sigma_rad_s());
 }
 
-TEST(SpinFilter, WithoutAnEdgeNothingTellsThePhase) {
-  const auto pass = testing::recorded_pass("nominal");
-  auto seen = testing::observed(pass.config, pass.orbit, pass.pulses).front();
+TEST_F(SpinFilterTest, WithoutAnEdgeNothingTellsThePhase) {
+  ObservedRevolution seen = seen_.front();
   seen.revolution.edges = {};
-  EXPECT_FALSE(SpinFilter::about(pass.true_axis_icrf, round_covariance(0.01), pass.config,
+  EXPECT_FALSE(SpinFilter::about(pass_.true_axis_icrf, round_covariance(0.01), pass_.config,
                                  seen.revolution, seen.sky));
 }
 
-TEST(SpinFilter, UncertaintyGrowsWithTimeAndTimeNeverRunsBack) {
-  const auto pass = testing::recorded_pass("nominal");
-  const auto seen = testing::observed(pass.config, pass.orbit, pass.pulses);
-  SpinFilter filter = SpinFilter::about(pass.true_axis_icrf, round_covariance(0.01), pass.config,
-                                        seen[0].revolution, seen[0].sky)
-                          .value();
+TEST_F(SpinFilterTest, UncertaintyGrowsWithTimeAndTimeNeverRunsBack) {
+  SpinFilter filter = about_the_axis(round_covariance(0.01));
   const TaiTime t = filter.t();
   filter.predict(shifted(t, -10.0));
   EXPECT_EQ(filter.t(), t);
@@ -141,27 +135,23 @@ TEST(SpinFilter, UncertaintyGrowsWithTimeAndTimeNeverRunsBack) {
   EXPECT_GT(filter.rate_sigma_rad_s(), rate_sigma_rad_s);
 }
 
-TEST(SpinFilter, ASpuriousEdgeIsGatedAndLeavesNoTrace) {
-  const auto pass = testing::recorded_pass("nominal");
-  const auto seen = testing::observed(pass.config, pass.orbit, pass.pulses);
-  SpinFilter filter = SpinFilter::about(pass.true_axis_icrf, round_covariance(0.01), pass.config,
-                                        seen[0].revolution, seen[0].sky)
-                          .value();
+TEST_F(SpinFilterTest, ASpuriousEdgeIsGatedAndLeavesNoTrace) {
+  SpinFilter filter = about_the_axis(round_covariance(0.01));
   for (std::size_t i = 1; i < 20; ++i) {
-    work_in(filter, pass.config, seen[i]);
+    work_in(filter, pass_.config, seen_[i]);
   }
-  ObservedRevolution without = seen[20];
+  ObservedRevolution without = seen_[20];
   without.revolution.edges.at(index_of(PulseChannel::NorthIn)).reset();
-  ObservedRevolution spurious = seen[20];
+  ObservedRevolution spurious = seen_[20];
   auto& north_in = spurious.revolution.edges.at(index_of(PulseChannel::NorthIn));
   north_in = shifted(*north_in, 0.01);  // 20 sigmas of its noise.
 
   SpinFilter unharmed = filter;
-  for (const Observation& edge : work_in(unharmed, pass.config, without).edges()) {
+  for (const Observation& edge : work_in(unharmed, pass_.config, without).edges()) {
     EXPECT_FALSE(edge.rejected_by);
     EXPECT_LE(edge.nis, edge.limit);
   }
-  const RevolutionObservations said = work_in(filter, pass.config, spurious);
+  const RevolutionObservations said = work_in(filter, pass_.config, spurious);
   for (const Observation& edge : said.edges()) {
     const bool is_spurious = edge.source == SampleSource::NorthIn;
     EXPECT_EQ(edge.rejected_by.has_value(), is_spurious);
@@ -173,18 +163,14 @@ TEST(SpinFilter, ASpuriousEdgeIsGatedAndLeavesNoTrace) {
   EXPECT_EQ(filter.rate_rad_s(), unharmed.rate_rad_s());
 }
 
-TEST(SpinFilter, TheOrderOfTheEdgesHasNoWeight) {
-  const auto pass = testing::recorded_pass("nominal");
-  const auto seen = testing::observed(pass.config, pass.orbit, pass.pulses);
-  SpinFilter forward = SpinFilter::about(pass.true_axis_icrf, round_covariance(0.01), pass.config,
-                                         seen[0].revolution, seen[0].sky)
-                           .value();
+TEST_F(SpinFilterTest, TheOrderOfTheEdgesHasNoWeight) {
+  SpinFilter forward = about_the_axis(round_covariance(0.01));
   SpinFilter backward = forward;
-  const GoodEdges good{pass.config, seen[1].revolution};
+  const GoodEdges good{pass_.config, seen_[1].revolution};
   std::vector<Pulse> edges{good.span().begin(), good.span().end()};
-  forward.update(pass.config, seen[1].sky, edges);
+  forward.update(pass_.config, seen_[1].sky, edges);
   std::reverse(edges.begin(), edges.end());
-  backward.update(pass.config, seen[1].sky, edges);
+  backward.update(pass_.config, seen_[1].sky, edges);
   EXPECT_LT(angle_between_rad(forward.axis_icrf(), backward.axis_icrf()), 1e-9);
   EXPECT_TRUE(forward.axis_covariance_rad2().isApprox(backward.axis_covariance_rad2(), 1e-6));
 }
@@ -202,7 +188,7 @@ class SpinFilterAt : public ::testing::TestWithParam<Place> {};
 
 TEST_P(SpinFilterAt, AxisAndCovarianceAreAsGoodAsElsewhere) {
   const Place place = GetParam();
-  const Orbit orbit{KeplerOrbit::make({.epoch = testing::kTransferStart,
+  const Orbit orbit{KeplerOrbit::make({.epoch = kTransferStart,
                                        .semi_major_axis_km = 20000.0,
                                        .eccentricity = 0.0,
                                        .inclination_rad = place.inclination_rad,
@@ -210,18 +196,16 @@ TEST_P(SpinFilterAt, AxisAndCovarianceAreAsGoodAsElsewhere) {
                                        .argument_of_perigee_rad = 0.0,
                                        .mean_anomaly_rad = 0.0})
                         .value()};
-  const auto around = testing::seen_from(orbit, testing::spherical_horizon_km(40.0));
+  const auto around = seen_from(orbit);
   std::mt19937_64 rng{90};
   for (int trial = 0; trial < 10; ++trial) {
     const SpinningBody body{.axis_icrf = direction_icrf(place.axis),
                             .rate_rad_s = 2.0 * kPi,
                             .first_turn_rad = 0.6 * trial,
-                            .config = testing::usual_config()};
-    const auto seen =
-        testing::observed(body.config, orbit,
-                          testing::pulses_from(testing::edges_between(body, around, 0.0, 30.0),
-                                               testing::kTransferStart, body.config.noise, rng));
-    const SpinFix fix = testing::drawn_fix(body.axis_icrf, 0.5 * kRadPerDeg, rng);
+                            .config = usual_config()};
+    const auto seen = observed(body.config, orbit,
+                               noisy_pulses(body, edges_between(body, around, 0.0, 30.0), rng));
+    const SpinFix fix = drawn_fix(body.axis_icrf, 0.5 * kRadPerDeg, rng);
     SpinFilter filter = SpinFilter::about(fix.axis_icrf, fix.covariance_rad2, body.config,
                                           seen[0].revolution, seen[0].sky)
                             .value();
@@ -244,4 +228,4 @@ INSTANTIATE_TEST_SUITE_P(
                       Place{"JustBelowZero", {.ra_rad = -1e-4, .dec_rad = -0.3}, 1.5, 0.5 * kPi}),
     [](const auto& place) { return place.param.name; });
 
-}  // namespace spindrift::spin_filter_test
+}  // namespace spindrift::testing::spin_filter_test

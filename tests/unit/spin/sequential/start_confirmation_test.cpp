@@ -8,7 +8,7 @@
 #include "pipelines/spin/sequential/contradiction.h"
 #include "tests/support/observed_spin.h"
 
-namespace spindrift::start_confirmation_test {
+namespace spindrift::testing::start_confirmation_test {
 
 constexpr double kFixSigma_rad = 4.0 * kRadPerDeg;
 const Eigen::Vector3d kAxis_icrf = Eigen::Vector3d{0.3, -0.5, 0.8}.normalized();
@@ -25,7 +25,7 @@ StartConfirmation after(int fixes, const StartingPoint& followed,
   StartConfirmation start;
   start.begin(known_to(2.8 * kRadPerDeg));
   for (int i = 0; i < fixes; ++i) {
-    SpinFix fix = testing::drawn_fix(kAxis_icrf, kFixSigma_rad, rng);
+    SpinFix fix = drawn_fix(kAxis_icrf, kFixSigma_rad, rng);
     if (change) {
       change(fix);
     }
@@ -59,4 +59,4 @@ TEST(StartConfirmation, NorDoFixesThatProveNothing) {
   EXPECT_TRUE(after(100, followed, [](SpinFix& fix) { fix.near_tangent = true; }).unconfirmed());
 }
 
-}  // namespace spindrift::start_confirmation_test
+}  // namespace spindrift::testing::start_confirmation_test

@@ -5,6 +5,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 namespace spindrift::interference_test {
@@ -47,24 +48,19 @@ TEST(Interference, EdgesOfDifferentChannelsCloserThanTheWindowSpoilEachOther) {
   EXPECT_THAT(spoilt, ElementsAre(pulse_at(5000, NorthIn), pulse_at(5999, SouthIn)));
 }
 
-TEST(Interference, TheWindowItselfIsNotCloser) {
-  EXPECT_THAT(sorted(kWindow_s, {pulse_at(0, Sun1), pulse_at(1000, Sun2)}).spoilt, IsEmpty());
-}
-
-TEST(Interference, EdgesOfOneChannelDoNotSpoilEachOther) {
-  EXPECT_THAT(sorted(kWindow_s, {pulse_at(0, Sun1), pulse_at(100, Sun1)}).spoilt, IsEmpty());
-}
-
-TEST(Interference, AChainIsSpoiltAsAWhole) {
-  const std::vector<Pulse> chain{pulse_at(0, NorthIn), pulse_at(800, SouthIn),
-                                 pulse_at(1600, NorthIn), pulse_at(2400, Sun1)};
-  EXPECT_EQ(sorted(kWindow_s, chain).spoilt, chain);
-}
-
-TEST(Interference, AnEdgeOfTheSameChannelBetweenThemHidesNothing) {
-  const std::vector<Pulse> edges{pulse_at(0, NorthIn), pulse_at(300, SouthIn),
-                                 pulse_at(600, SouthIn)};
-  EXPECT_EQ(sorted(kWindow_s, edges).spoilt, edges);
+TEST(Interference, SpoilsAllOfAChainOrNothing) {
+  const std::vector<std::pair<std::vector<Pulse>, bool>> all_edges = {
+      // The window itself is not closer, and edges of one channel do not spoil each other.
+      {{pulse_at(0, Sun1), pulse_at(1000, Sun2)}, false},
+      {{pulse_at(0, Sun1), pulse_at(100, Sun1)}, false},
+      // A chain is spoilt as a whole, and an edge of the same channel in between hides nothing.
+      {{pulse_at(0, NorthIn), pulse_at(800, SouthIn), pulse_at(1600, NorthIn),
+        pulse_at(2400, Sun1)},
+       true},
+      {{pulse_at(0, NorthIn), pulse_at(300, SouthIn), pulse_at(600, SouthIn)}, true}};
+  for (const auto& [edges, is_spoilt] : all_edges) {
+    EXPECT_EQ(sorted(kWindow_s, edges).spoilt, is_spoilt ? edges : std::vector<Pulse>{});
+  }
 }
 
 TEST(Interference, WithoutAWindowEverythingPassesAtOnce) {

@@ -21,8 +21,29 @@ Pulse pulse_at(std::int64_t t_ns, PulseChannel channel = Sun1) {
   return {.t = tai_from_ns(t_ns), .channel = channel};
 }
 
-TEST(ReorderWindow, HoldsAPulseForOneSecondOfTelemetryTime) {
+/// Receives pulses and keeps what is released.
+struct Receiver {
   ReorderWindow window;
+  std::vector<Pulse> released;
+
+  void receive(const Pulse& pulse) {
+    ASSERT_EQ(window.add(pulse), Held);
+    const auto due = window.release();
+    released.insert(released.end(), due.begin(), due.end());
+  }
+  /// Ends the stream and returns what is out of time.
+  std::vector<Pulse> end() {
+    const ReorderWindow::Rest rest = window.release_all();
+    released.insert(released.end(), rest.in_time.begin(), rest.in_time.end());
+    return rest.out_of_time;
+  }
+};
+
+struct ReorderWindowTest : ::testing::Test {
+  ReorderWindow window;
+};
+
+TEST_F(ReorderWindowTest, HoldsAPulseForOneSecondOfTelemetryTime) {
   EXPECT_EQ(window.add(pulse_at(0)), Held);
   EXPECT_THAT(window.release(), IsEmpty());
   EXPECT_EQ(window.add(pulse_at(kSecond_ns - 1)), Held);
@@ -31,8 +52,7 @@ TEST(ReorderWindow, HoldsAPulseForOneSecondOfTelemetryTime) {
   EXPECT_THAT(window.release(), ElementsAre(pulse_at(0)));
 }
 
-TEST(ReorderWindow, GivesOutAllInTimeWhenTheStreamFallsSilent) {
-  ReorderWindow window;
+TEST_F(ReorderWindowTest, GivesOutAllInTimeWhenTheStreamFallsSilent) {
   for (std::int64_t i = 0; i < 10; ++i) {
     window.add(pulse_at(i * kSecond_ns));
     window.release();
@@ -46,8 +66,7 @@ TEST(ReorderWindow, GivesOutAllInTimeWhenTheStreamFallsSilent) {
   EXPECT_EQ(window.release_all().out_of_time.size(), 1U);
 }
 
-TEST(ReorderWindow, GivesOutNothingOfTheFirstFewWhenTheStreamFallsSilent) {
-  ReorderWindow window;
+TEST_F(ReorderWindowTest, GivesOutNothingOfTheFirstFewWhenTheStreamFallsSilent) {
   window.add(pulse_at(2'000'000'000 * kSecond_ns));
   for (std::int64_t i = 0; i < 7; ++i) {
     window.add(pulse_at(i));
@@ -57,10 +76,10 @@ TEST(ReorderWindow, GivesOutNothingOfTheFirstFewWhenTheStreamFallsSilent) {
   EXPECT_EQ(window.fall_silent().size(), 8U);
 }
 
-TEST(ReorderWindow, ReleasesInOrderOfTimeThenChannel) {
-  ReorderWindow window;
-  window.add(pulse_at(5, SouthOut));
-  window.add(pulse_at(5, Sun1));
+TEST_F(ReorderWindowTest, ReleasesInOrderOfTimeThenChannelAndKnowsADuplicateOfWhatItHolds) {
+  EXPECT_EQ(window.add(pulse_at(5, SouthOut)), Held);
+  EXPECT_EQ(window.add(pulse_at(5, SouthOut)), Duplicate);
+  EXPECT_EQ(window.add(pulse_at(5, Sun1)), Held);
   window.add(pulse_at(3, NorthIn));
   window.add(pulse_at(4, Sun2));
   EXPECT_THAT(window.release_all().in_time, ElementsAre(pulse_at(3, NorthIn), pulse_at(4, Sun2),
@@ -71,40 +90,34 @@ TEST(ReorderWindow, ReleasesInOrderOfTimeThenChannel) {
 TEST(ReorderWindow, ABadClockMakesNothingLate) {
   constexpr std::int64_t kYears_ns = 2'000'000'000 * kSecond_ns;
   for (const std::int64_t bad_every : {3, 50}) {
-    ReorderWindow window;
-    std::vector<Pulse> released;
+    Receiver at;
     for (std::int64_t i = 0; i < 300; ++i) {
-      ASSERT_EQ(window.add(pulse_at(i * kSecond_ns / 5)), Held) << i;
+      ASSERT_EQ(at.window.add(pulse_at(i * kSecond_ns / 5)), Held) << i;
       if (i % bad_every == 1) {
-        ASSERT_EQ(window.add(pulse_at(kYears_ns + i * kSecond_ns)), Held) << i;
+        ASSERT_EQ(at.window.add(pulse_at(kYears_ns + i * kSecond_ns)), Held) << i;
       }
-      for (const Pulse& pulse : window.release()) {
-        released.push_back(pulse);
+      for (const Pulse& pulse : at.window.release()) {
+        at.released.push_back(pulse);
       }
     }
-    const ReorderWindow::Rest rest = window.release_all();
-    released.insert(released.end(), rest.in_time.begin(), rest.in_time.end());
-    std::erase_if(released, [](const Pulse& pulse) { return pulse.t > tai_from_ns(kYears_ns); });
-    ASSERT_EQ(released.size(), 300U);
-    EXPECT_TRUE(std::is_sorted(released.begin(), released.end()));
+    at.end();
+    std::erase_if(at.released, [](const Pulse& pulse) { return pulse.t > tai_from_ns(kYears_ns); });
+    ASSERT_EQ(at.released.size(), 300U);
+    EXPECT_TRUE(std::ranges::is_sorted(at.released));
   }
 }
 
 TEST(ReorderWindow, ABadClockThatSpeaksFirstMakesNothingLate) {
-  ReorderWindow window;
-  EXPECT_EQ(window.add(pulse_at(2'000'000'000 * kSecond_ns)), Held);
-  std::size_t released = 0;
+  Receiver at;
+  EXPECT_EQ(at.window.add(pulse_at(2'000'000'000 * kSecond_ns)), Held);
   for (std::int64_t i = 0; i < 100; ++i) {
-    ASSERT_EQ(window.add(pulse_at(i * kSecond_ns / 5)), Held) << i;
-    released += window.release().size();
+    at.receive(pulse_at(i * kSecond_ns / 5));
   }
-  const ReorderWindow::Rest rest = window.release_all();
-  EXPECT_EQ(released + rest.in_time.size(), 100U);
-  EXPECT_EQ(rest.out_of_time.size(), 1U);
+  EXPECT_EQ(at.end().size(), 1U);
+  EXPECT_EQ(at.released.size(), 100U);
 }
 
-TEST(ReorderWindow, FewFarAheadAtTheEndAreOutOfTime) {
-  ReorderWindow window;
+TEST_F(ReorderWindowTest, FewFarAheadAtTheEndAreOutOfTime) {
   for (std::int64_t i = 0; i < 20; ++i) {
     window.add(pulse_at(i * kSecond_ns));
     window.release();
@@ -119,8 +132,7 @@ TEST(ReorderWindow, FewFarAheadAtTheEndAreOutOfTime) {
 }
 
 // A restarted service reads the samples back without their duplicates.
-TEST(ReorderWindow, DuplicatesOfHeldSamplesChangeNothing) {
-  ReorderWindow window;
+TEST_F(ReorderWindowTest, DuplicatesOfHeldSamplesChangeNothing) {
   for (std::int64_t i = 0; i < 8; ++i) {
     window.add(pulse_at(i));
   }
@@ -132,37 +144,21 @@ TEST(ReorderWindow, DuplicatesOfHeldSamplesChangeNothing) {
 }
 
 TEST(ReorderWindow, GoesOnAfterASilenceOfAnyLength) {
-  ReorderWindow window;
-  std::vector<Pulse> released;
-  const auto receive = [&](std::int64_t t_ns) {
-    ASSERT_EQ(window.add(pulse_at(t_ns)), Held);
-    for (const Pulse& pulse : window.release()) {
-      released.push_back(pulse);
-    }
-  };
+  Receiver at;
   for (std::int64_t i = 0; i < 20; ++i) {
-    receive(i * kSecond_ns);
+    at.receive(pulse_at(i * kSecond_ns));
   }
   for (std::int64_t i = 0; i < 20; ++i) {
-    receive((3600 + i) * kSecond_ns);
-    EXPECT_EQ(released.size(), 19U) << "a clock may be wrong for so long";
+    at.receive(pulse_at((3600 + i) * kSecond_ns));
+    EXPECT_EQ(at.released.size(), 19U) << "a clock may be wrong for so long";
   }
-  receive(3620 * kSecond_ns);
-  EXPECT_TRUE(std::is_sorted(released.begin(), released.end()));
-  EXPECT_EQ(released.size(), 40U);
-  EXPECT_EQ(window.release_all().in_time.size(), 1U);
+  at.receive(pulse_at(3620 * kSecond_ns));
+  EXPECT_TRUE(std::ranges::is_sorted(at.released));
+  EXPECT_EQ(at.released.size(), 40U);
+  EXPECT_EQ(at.window.release_all().in_time.size(), 1U);
 }
 
-TEST(ReorderWindow, KnowsADuplicateOfWhatItHolds) {
-  ReorderWindow window;
-  EXPECT_EQ(window.add(pulse_at(7)), Held);
-  EXPECT_EQ(window.add(pulse_at(7)), Duplicate);
-  EXPECT_EQ(window.add(pulse_at(7, Sun2)), Held);
-  EXPECT_THAT(window.release_all().in_time, ElementsAre(pulse_at(7), pulse_at(7, Sun2)));
-}
-
-TEST(ReorderWindow, KnowsADuplicateOfWhatItReleasedWithinTenMinutes) {
-  ReorderWindow window;
+TEST_F(ReorderWindowTest, KnowsADuplicateOfWhatItReleasedWithinTenMinutes) {
   for (std::int64_t second = 0; second <= 602; ++second) {
     window.add(pulse_at(second * kSecond_ns));
     window.release();
@@ -173,8 +169,7 @@ TEST(ReorderWindow, KnowsADuplicateOfWhatItReleasedWithinTenMinutes) {
   EXPECT_EQ(window.add(pulse_at(300 * kSecond_ns + 1)), Late);
 }
 
-TEST(ReorderWindow, WhatPrecedesAReleasedPulseIsLate) {
-  ReorderWindow window;
+TEST_F(ReorderWindowTest, WhatPrecedesAReleasedPulseIsLate) {
   window.add(pulse_at(10, Sun2));
   window.add(pulse_at(10 + kSecond_ns));
   EXPECT_THAT(window.release(), ElementsAre(pulse_at(10, Sun2)));
@@ -183,8 +178,7 @@ TEST(ReorderWindow, WhatPrecedesAReleasedPulseIsLate) {
   EXPECT_EQ(window.add(pulse_at(10, NorthIn)), Held);
 }
 
-TEST(ReorderWindow, ALatePulseIsNeverReleased) {
-  ReorderWindow window;
+TEST_F(ReorderWindowTest, ALatePulseIsNeverReleased) {
   window.add(pulse_at(2 * kSecond_ns));
   window.add(pulse_at(4 * kSecond_ns));
   window.release();
@@ -210,17 +204,12 @@ TEST(ReorderWindow, DisorderWithinOneSecondIsSortedWithoutLoss) {
     });
     std::sort(arrivals.begin(), arrivals.end());
 
-    ReorderWindow window;
-    std::vector<Pulse> received;
-    const auto receive = [&](const std::vector<Pulse>& pulses) {
-      received.insert(received.end(), pulses.begin(), pulses.end());
-    };
+    Receiver at;
     for (const auto& [arrival_ns, pulse] : arrivals) {
-      ASSERT_EQ(window.add(pulse), Held) << "trial " << trial;
-      receive(window.release());
+      at.receive(pulse);
     }
-    receive(window.release_all().in_time);
-    ASSERT_EQ(received, sent) << "trial " << trial;
+    at.end();
+    ASSERT_EQ(at.released, sent) << "trial " << trial;
   }
 }
 
@@ -250,24 +239,17 @@ TEST(ReorderWindow, AFewFarBeforeTheFirstRunAreLeftOut) {
     const std::vector<Pulse> pass = pulses;
     pulses.insert(pulses.begin() + static_cast<std::ptrdiff_t>(place), strays.begin(),
                   strays.end());
-    ReorderWindow window;
-    std::vector<Pulse> released;
+    Receiver at;
     for (const Pulse& pulse : pulses) {
-      ASSERT_EQ(window.add(pulse), Held);
-      for (const Pulse& due : window.release()) {
-        released.push_back(due);
-      }
+      at.receive(pulse);
     }
-    EXPECT_GT(released.size(), 30U) << "not held until the end";
-    const ReorderWindow::Rest rest = window.release_all();
-    released.insert(released.end(), rest.in_time.begin(), rest.in_time.end());
-    EXPECT_EQ(released, pass) << place;
-    EXPECT_EQ(rest.out_of_time, strays) << place;
+    EXPECT_GT(at.released.size(), 30U) << "not held until the end";
+    EXPECT_EQ(at.end(), strays) << place;
+    EXPECT_EQ(at.released, pass) << place;
   }
 }
 
-TEST(ReorderWindow, ADuplicateDoesNotSpeakAgainstAJump) {
-  ReorderWindow window;
+TEST_F(ReorderWindowTest, ADuplicateDoesNotSpeakAgainstAJump) {
   window.add(pulse_at(0));
   for (std::int64_t i = 0; i < 8; ++i) {
     EXPECT_EQ(window.add(pulse_at(0)), Duplicate);

@@ -33,6 +33,14 @@ class Train {
     }
   }
 
+  /// Adds turns and returns the width of the grid then, s.
+  double width_after_s(int turns, TimeGrid& grid, std::int64_t steps_ns = 1) {
+    for (int i = 0; i < turns; ++i) {
+      turn(grid, steps_ns);
+    }
+    return grid.width_s();
+  }
+
  private:
   std::int64_t on_grid(std::int64_t t_ns) const { return t_ns / grid_ns_ * grid_ns_; }
   std::int64_t noise_ns(double sigma_s) {
@@ -50,23 +58,15 @@ TEST(TimeGrid, IsFoundBeforeAnAnswerMayBeOk) {
   for (const std::int64_t grid_ns : {1'000, 100'000, 1'000'000, 10'000'000}) {
     Train train{grid_ns};
     TimeGrid grid{kNoise};
-    train.turn(grid);
-    EXPECT_EQ(grid.width_s(), 0.0);
-    for (int turn = 1; turn < 12; ++turn) {
-      train.turn(grid);
-    }
-    EXPECT_DOUBLE_EQ(grid.width_s(), 1e-9 * static_cast<double>(grid_ns));
+    EXPECT_EQ(train.width_after_s(1, grid), 0.0);
+    EXPECT_DOUBLE_EQ(train.width_after_s(11, grid), 1e-9 * static_cast<double>(grid_ns));
   }
 }
 
 TEST(TimeGrid, IsNoneOfNanosecondsNorOfLessThanAThousandthOfTheNoise) {
   for (const std::int64_t grid_ns : {1, 100}) {
-    Train train{grid_ns};
     TimeGrid grid{kNoise};
-    for (int turn = 0; turn < 10'000; ++turn) {
-      train.turn(grid);
-    }
-    EXPECT_EQ(grid.width_s(), 0.0);
+    EXPECT_EQ(Train{grid_ns}.width_after_s(10'000, grid), 0.0);
   }
 }
 
@@ -85,22 +85,14 @@ TEST(TimeGrid, IsNotHiddenByEdgesOfAnotherClock) {
 }
 
 TEST(TimeGrid, IsThatOfTheDelaysOfFramesWhoseSun1HasNone) {
-  Train train{1};
   TimeGrid grid{kNoise};
-  for (int turn = 0; turn < 12; ++turn) {
-    train.turn(grid, 1'000'000);
-  }
-  EXPECT_DOUBLE_EQ(grid.width_s(), 1e-3);
+  EXPECT_DOUBLE_EQ(Train{1}.width_after_s(12, grid, 1'000'000), 1e-3);
 }
 
 TEST(TimeGrid, MayBeOfSomeChannelsOnly) {
   for (const std::size_t cut : {1U, 2U, 3U}) {
-    Train train{1'000'000, cut};
     TimeGrid grid{kNoise};
-    for (int turn = 0; turn < 42; ++turn) {
-      train.turn(grid);
-    }
-    EXPECT_DOUBLE_EQ(grid.width_s(), 1e-3) << cut;
+    EXPECT_DOUBLE_EQ((Train{1'000'000, cut}.width_after_s(42, grid)), 1e-3) << cut;
   }
 }
 
@@ -114,27 +106,15 @@ TEST(TimeGrid, IsNoneOfTurnsOfOneLength) {
 }
 
 TEST(TimeGrid, MayBeginInThePass) {
-  Train fine{1};
-  Train coarse{1'000'000};
   TimeGrid grid{kNoise};
-  for (int turn = 0; turn < 100; ++turn) {
-    fine.turn(grid);
-  }
-  EXPECT_EQ(grid.width_s(), 0.0);
-  for (int turn = 0; turn < 14; ++turn) {
-    coarse.turn(grid);
-  }
-  EXPECT_DOUBLE_EQ(grid.width_s(), 1e-3);
+  EXPECT_EQ(Train{1}.width_after_s(100, grid), 0.0);
+  EXPECT_DOUBLE_EQ(Train{1'000'000}.width_after_s(14, grid), 1e-3);
 }
 
 /// The pass has 6,000 runs; by chance one in eleven such passes has a run with twice the width.
 TEST(TimeGrid, StaysAsWideAsItIs) {
-  Train train{100'000};
   TimeGrid grid{kNoise};
-  for (int turn = 0; turn < 20'000; ++turn) {
-    train.turn(grid);
-  }
-  EXPECT_DOUBLE_EQ(grid.width_s(), 1e-4);
+  EXPECT_DOUBLE_EQ(Train{100'000}.width_after_s(20'000, grid), 1e-4);
 }
 
 }  // namespace spindrift::time_grid_test

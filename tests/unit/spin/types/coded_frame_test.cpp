@@ -5,26 +5,20 @@
 
 #include <algorithm>
 #include <array>
-#include <fstream>
 #include <map>
-#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "pipelines/spin/association/association.h"
 #include "pipelines/spin/telemetry_order/pulse_reorder_window.h"
+#include "tests/support/edge_train.h"
 #include "tests/support/observed_spin.h"
 #include "tests/support/product_text.h"
-#include "tests/support/spinning_body.h"
-#include "tests/support/test_paths.h"
 
-namespace spindrift::coded_frame_test {
+namespace spindrift::testing::coded_frame_test {
 
 using ::testing::ElementsAre;
 using enum PulseChannel;
-
-const TaiTime kStart = tai_from_ns(1'795'143'637'000'000'000);
 
 CodedFrame frame_at(double t_s) {
   return {.t = shifted(kStart, t_s),
@@ -36,45 +30,26 @@ Pulse edge_at(double t_s, PulseChannel channel) {
   return {.t = shifted(kStart, t_s), .channel = channel};
 }
 
-/// Reads the rows of tests/data/spin/coded.
-std::vector<CodedFrame> recorded_frames() {
-  std::ifstream file{recorded_passes() / "coded" / "coded.csv"};
-  std::string line;
-  std::getline(file, line);
+std::vector<CodedFrame> frames_of(int turns) {
   std::vector<CodedFrame> frames;
-  while (std::getline(file, line)) {
-    std::istringstream row{line};
-    std::string field;
-    std::getline(row, field, ',');
-    CodedFrame frame{.t = tai_from_ns(std::stoll(field)), .period_s = {}, .delay_s = {}};
-    std::getline(row, field, ',');
-    frame.period_s = std::stod(field);
-    for (std::size_t channel = 1; channel < kPulseChannels; ++channel) {
-      if (std::getline(row, field, ',') && !field.empty() && field != "\r") {
-        frame.delay_s.at(channel) = std::stod(field);
-      }
-    }
-    frames.push_back(frame);
+  for (int turn = 0; turn < turns; ++turn) {
+    frames.push_back(frame_at(turn));
   }
   return frames;
 }
 
 Association associate(const std::vector<CodedFrame>& frames) {
-  Associator associator{testing::usual_config()};
+  Associator associator{usual_config()};
   Association all;
-  const auto collect = [&](const Association& some) {
-    all.closed.insert(all.closed.end(), some.closed.begin(), some.closed.end());
-    all.left_over.insert(all.left_over.end(), some.left_over.begin(), some.left_over.end());
-  };
   for (const CodedFrame& frame : frames) {
     if (frame.period_s) {
       associator.note_period(frame.t, *frame.period_s);
     }
     for (const Pulse& pulse : edges_of(frame)) {
-      collect(associator.push(pulse));
+      append(all, associator.push(pulse));
     }
   }
-  collect(associator.finish());
+  append(all, associator.finish());
   return all;
 }
 
@@ -147,10 +122,9 @@ TEST(CodedFrame, ChordsThatStraddleSun1AreWholeBetweenGapsHoweverSlowTheSpin) {
                                       0.7 * period_s, 0.8 * period_s}});
       }
     }
-    const SpinOutput output =
-        testing::run(SpinPass{testing::usual_config(), testing::transfer_orbit()}, frames);
+    const SpinOutput output = run(SpinPass{usual_config(), transfer_orbit()}, frames);
     std::map<std::int64_t, int> edges_of_turn;
-    for (const PulseUse& use : testing::all_of<PulseUse>(output)) {
+    for (const PulseUse& use : all_of<PulseUse>(output)) {
       const bool has_begun = use.pulse.t > shifted(kStart, 0.5 * period_s);
       if (use.revolution) {
         ++edges_of_turn[*use.revolution];
@@ -176,10 +150,9 @@ TEST(CodedFrame, OneWithoutAPeriodIsLeftOver) {
 }
 
 TEST(CodedFrame, FramesWithoutAPeriodAreTimedByTheirSun1) {
-  std::vector<CodedFrame> frames;
-  for (int turn = 0; turn < 30; ++turn) {
-    frames.push_back(frame_at(turn));
-    frames.back().period_s.reset();
+  std::vector<CodedFrame> frames = frames_of(30);
+  for (CodedFrame& frame : frames) {
+    frame.period_s.reset();
   }
   const Association all = associate(frames);
   EXPECT_EQ(all.closed.size(), 30U);
@@ -187,10 +160,7 @@ TEST(CodedFrame, FramesWithoutAPeriodAreTimedByTheirSun1) {
 }
 
 TEST(CodedFrame, AWrongPeriodOfTheFirstFrameIsOutvoted) {
-  std::vector<CodedFrame> frames;
-  for (int turn = 0; turn < 30; ++turn) {
-    frames.push_back(frame_at(turn));
-  }
+  std::vector<CodedFrame> frames = frames_of(30);
   frames.front().period_s = 0.013;
   const Association all = associate(frames);
   EXPECT_GE(all.closed.size(), 29U);
@@ -198,7 +168,7 @@ TEST(CodedFrame, AWrongPeriodOfTheFirstFrameIsOutvoted) {
 }
 
 TEST(CodedFrame, ARecordedPassIsWhole) {
-  const std::vector<CodedFrame> frames = recorded_frames();
+  const std::vector<CodedFrame> frames = recorded_pass("coded").frames;
   ASSERT_EQ(frames.size(), 299U);
   const Association all = associate(frames);
   ASSERT_EQ(all.closed.size(), frames.size());
@@ -217,7 +187,7 @@ TEST(CodedFrame, ARecordedPassIsWhole) {
 /// A frame that two senders give with different delays is left out with all its edges, whoever
 /// comes first. The rest is as if it had not been received.
 TEST(CodedFrame, FramesThatContradictEachOtherAreLeftOut) {
-  const testing::RecordedPass pass = testing::recorded_pass("coded");
+  const RecordedPass pass = recorded_pass("coded");
   const std::vector<CodedFrame>& frames = pass.frames;
   std::vector<CodedFrame> uncontested;
   std::array<std::vector<CodedFrame>, 2> both;
@@ -244,13 +214,12 @@ TEST(CodedFrame, FramesThatContradictEachOtherAreLeftOut) {
   const auto made_of = [&](const std::vector<CodedFrame>& arrivals) {
     std::vector<std::string> texts;
     std::size_t contradicted_edges = 0;
-    for (const SpinProduct& product :
-         testing::run(SpinPass{pass.config, pass.orbit}, arrivals).products) {
+    for (const SpinProduct& product : run(SpinPass{pass.config, pass.orbit}, arrivals).products) {
       const auto* const use = std::get_if<PulseUse>(&product);
       if (use != nullptr && use->rejected_by == Rejection::Contradicted) {
         ++contradicted_edges;
       } else if (!std::holds_alternative<SampleContradiction>(product)) {
-        texts.push_back(testing::text_of(product));
+        texts.push_back(text_of(product));
       }
     }
     return std::pair{texts, contradicted_edges};
@@ -271,10 +240,7 @@ TEST(CodedFrame, FramesThatContradictEachOtherAreLeftOut) {
 
 TEST(FrameReorderWindow, SortsFramesTwoTurnsOutOfOrder) {
   FrameReorderWindow window;
-  std::vector<CodedFrame> sent;
-  for (int turn = 0; turn < 20; ++turn) {
-    sent.push_back(frame_at(turn));
-  }
+  const std::vector<CodedFrame> sent = frames_of(20);
   std::vector<CodedFrame> arriving = sent;
   std::swap(arriving[4], arriving[5]);
   std::rotate(arriving.begin() + 10, arriving.begin() + 11, arriving.begin() + 13);
@@ -300,4 +266,4 @@ TEST(FrameReorderWindow, WaitsTwoAndAHalfTurnsOfTheSlowestBodyWithoutAPeriod) {
   EXPECT_EQ(reorder_horizon(frame), std::chrono::seconds{30});
 }
 
-}  // namespace spindrift::coded_frame_test
+}  // namespace spindrift::testing::coded_frame_test

@@ -29,44 +29,42 @@ TEST(SpinProducts, AFailedTestIsNamedAfterItsQuantity) {
   }
 }
 
-TEST(SpinProducts, OtherRejectionsSayWhatWasWrong) {
-  EXPECT_EQ(name_of(Rejection::Unassociated), "unassociated");
-  EXPECT_EQ(name_of(Rejection::Late), "late");
-  EXPECT_EQ(name_of(Rejection::Geometry), "geometry");
-  EXPECT_EQ(name_of(Rejection::NoOrbit), "no_orbit");
+template <class Code, std::size_t kCodes>
+void expect_names(const std::pair<Code, std::string_view> (&names)[kCodes]) {
+  for (const auto& [code, name] : names) {
+    EXPECT_EQ(name_of(code), name);
+  }
 }
 
-TEST(SpinProducts, ResolutionsHaveTheNamesOfTheArchive) {
-  EXPECT_EQ(name_of(Resolution::Geometry), "GEOMETRY");
-  EXPECT_EQ(name_of(Resolution::Constraint), "CONSTRAINT");
-  EXPECT_EQ(name_of(Resolution::Prior), "PRIOR");
-  EXPECT_EQ(name_of(Resolution::Dispersion), "DISPERSION");
-  EXPECT_EQ(name_of(Resolution::Ambiguous), "AMBIGUOUS");
+TEST(SpinProducts, CodesHaveTheNamesOfTheArchiveAndTheFiles) {
+  using enum PulseChannel;
+  expect_names<Rejection>({{Rejection::Unassociated, "unassociated"},
+                           {Rejection::Late, "late"},
+                           {Rejection::Geometry, "geometry"},
+                           {Rejection::NoOrbit, "no_orbit"}});
+  expect_names<Resolution>({{Resolution::Geometry, "GEOMETRY"},
+                            {Resolution::Constraint, "CONSTRAINT"},
+                            {Resolution::Prior, "PRIOR"},
+                            {Resolution::Dispersion, "DISPERSION"},
+                            {Resolution::Ambiguous, "AMBIGUOUS"}});
+  expect_names<SpinEstimator>({{SpinEstimator::Mean, "mean"},
+                               {SpinEstimator::Sequential, "sequential"},
+                               {SpinEstimator::Batch, "batch"}});
+  expect_names<PulseChannel>({{Sun1, "sun1"},
+                              {Sun2, "sun2"},
+                              {NorthIn, "north_in"},
+                              {NorthOut, "north_out"},
+                              {SouthIn, "south_in"},
+                              {SouthOut, "south_out"}});
 }
 
 TEST(SpinProducts, WhatSettledAnAxisIsItsEdgesOrAResolutionOfAFix) {
-  EXPECT_EQ(name_of(SettledBy::Edges), "edges");
-  EXPECT_EQ(name_of(settled_by(Resolution::Geometry)), "geometry");
-  EXPECT_EQ(name_of(settled_by(Resolution::Constraint)), "constraint");
-  EXPECT_EQ(name_of(settled_by(Resolution::Prior)), "prior");
-  EXPECT_EQ(name_of(settled_by(Resolution::Dispersion)), "dispersion");
-  EXPECT_EQ(name_of(settled_by(Resolution::Ambiguous)), "nothing");
-}
-
-TEST(SpinProducts, EstimatorsHaveTheNamesOfTheArchive) {
-  EXPECT_EQ(name_of(SpinEstimator::Mean), "mean");
-  EXPECT_EQ(name_of(SpinEstimator::Sequential), "sequential");
-  EXPECT_EQ(name_of(SpinEstimator::Batch), "batch");
-}
-
-TEST(SpinProducts, ChannelsHaveTheNamesOfTheFiles) {
-  using enum PulseChannel;
-  EXPECT_EQ(name_of(Sun1), "sun1");
-  EXPECT_EQ(name_of(Sun2), "sun2");
-  EXPECT_EQ(name_of(NorthIn), "north_in");
-  EXPECT_EQ(name_of(NorthOut), "north_out");
-  EXPECT_EQ(name_of(SouthIn), "south_in");
-  EXPECT_EQ(name_of(SouthOut), "south_out");
+  expect_names<SettledBy>({{SettledBy::Edges, "edges"},
+                           {settled_by(Resolution::Geometry), "geometry"},
+                           {settled_by(Resolution::Constraint), "constraint"},
+                           {settled_by(Resolution::Prior), "prior"},
+                           {settled_by(Resolution::Dispersion), "dispersion"},
+                           {settled_by(Resolution::Ambiguous), "nothing"}});
 }
 
 TEST(SpinProducts, AChannelIsFoundByItsExactNameOnly) {
