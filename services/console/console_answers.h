@@ -14,7 +14,6 @@
 #include <vector>
 
 #include "services/alerts/alert_desk.h"
-#include "services/alerts/operator_word.h"
 #include "services/archive/archive.h"
 #include "services/console/alert_request.h"
 #include "services/console/archive_view.h"

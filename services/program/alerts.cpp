@@ -16,7 +16,7 @@
 
 #include "pipelines/time/utc.h"
 #include "services/alerts/alert_json.h"
-#include "services/alerts/operator_word.h"
+#include "services/alerts/alert_desk.h"
 #include "services/alerts/stored_alerts.h"
 #include "services/archive/connection.h"
 #include "services/base/json_line.h"
