@@ -6,7 +6,7 @@
 #include "pipelines/time/utc.h"
 #include "services/base/json_line.h"
 #include "services/base/warning.h"
-#include "services/operator/request_client.h"
+#include "services/operator/request_socket.h"
 
 namespace spindrift {
 namespace {

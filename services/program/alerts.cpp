@@ -22,7 +22,7 @@
 #include "services/base/json_line.h"
 #include "services/base/wall_clock.h"
 #include "services/base/warning.h"
-#include "services/operator/request_client.h"
+#include "services/operator/request_socket.h"
 #include "services/products/products.h"
 #include "services/program/outcome.h"
 #include "services/serving/stop_signal.h"

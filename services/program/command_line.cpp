@@ -13,6 +13,8 @@
 #include <thread>
 #include <vector>
 
+#include "services/operator/parse_action.h"
+
 namespace spindrift {
 namespace {
 
@@ -330,17 +332,21 @@ void add_alerts(CLI::App& app, Request& request) {
   });
 }
 
+/// Returns for example "exclude_channel, choose_root or set_target".
+std::string any_action() {
+  std::vector<std::string_view> names = action_names();
+  const std::string_view last = names.back();
+  names.pop_back();
+  return fmt::format("{} or {}", fmt::join(names, ", "), last);
+}
+
 void add_act(CLI::App& app, Request& request) {
   ActOptions& options = request.act;
   CLI::App& command = *app.add_subcommand(
       "act", "Tell the running service what to make of a spacecraft's telemetry");
   command.add_option("--db", options.db, "Archive of the service")->check(check_path)->required();
   command.add_option("--spacecraft", options.spacecraft, "Whose telemetry")->required();
-  command
-      .add_option("--action", options.action,
-                  "exclude_channel, include_channel, exclude_segment, choose_root, set_prior, "
-                  "mark_manoeuvre or set_target")
-      ->required();
+  command.add_option("--action", options.action, any_action())->required();
   command.add_option("--by", options.by, "Who says so")->required();
   command.add_option("--note", options.note, "Why");
   command.add_option("--at", options.at,

@@ -20,7 +20,7 @@
 #include "services/base/wall_clock.h"
 #include "services/base/warning.h"
 #include "services/mission/mission.h"
-#include "services/operator/request_client.h"
+#include "services/operator/request_socket.h"
 #include "services/processor/pass_computing.h"
 #include "services/processor/processor.h"
 #include "services/processor/separation_solving.h"

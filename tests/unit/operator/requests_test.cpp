@@ -8,8 +8,8 @@
 #include <stdexcept>
 #include <string>
 
-#include "services/operator/request_client.h"
 #include "services/operator/request_server.h"
+#include "services/operator/request_socket.h"
 #include "tests/support/temporary_folder.h"
 
 namespace spindrift::requests_test {
