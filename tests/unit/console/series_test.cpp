@@ -1,4 +1,4 @@
-#include "services/console/decimate.h"
+#include "services/console/series.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace spindrift::decimate_test {
+namespace spindrift::series_test {
 namespace {
 
 using ::testing::Contains;
@@ -73,4 +73,4 @@ TEST(Decimate, LeavesHalfToWhatWasAcceptedHoweverMuchWasRejected) {
 }
 
 }  // namespace
-}  // namespace spindrift::decimate_test
+}  // namespace spindrift::series_test
