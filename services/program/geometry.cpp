@@ -22,8 +22,7 @@
 #include "services/program/orbit_notice.h"
 #include "services/program/outcome.h"
 #include "services/program/utc_option.h"
-#include "services/reports/geometry_plot.h"
-#include "services/reports/geometry_text.h"
+#include "services/reports/planned_pass.h"
 #include "services/reports/scale.h"
 #include "services/simulation/output_file.h"
 

@@ -27,9 +27,7 @@
 #include "services/program/orbit_notice.h"
 #include "services/program/outcome.h"
 #include "services/program/telemetry_input.h"
-#include "services/reports/separation_json.h"
-#include "services/reports/separation_plot.h"
-#include "services/reports/separation_text.h"
+#include "services/reports/separation_report.h"
 #include "services/simulation/output_file.h"
 
 namespace spindrift {

@@ -25,7 +25,7 @@
 #include "services/products/to_json.h"
 #include "services/program/batch_text.h"
 #include "services/program/disagreement_words.h"
-#include "services/reports/separation_json.h"
+#include "services/reports/separation_report.h"
 
 namespace spindrift {
 namespace {

@@ -1,8 +1,7 @@
-#include "services/reports/separation_text.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "services/reports/separation_report.h"
 #include "tests/support/made_separation.h"
 
 namespace spindrift::separation_text_test {
