@@ -22,8 +22,7 @@
 #include "services/program/orbit_notice.h"
 #include "services/program/outcome.h"
 #include "services/program/telemetry_input.h"
-#include "services/simulation/comparison_plot.h"
-#include "services/simulation/comparison_text.h"
+#include "services/simulation/comparison_report.h"
 #include "services/simulation/ground_model.h"
 #include "services/simulation/output_file.h"
 

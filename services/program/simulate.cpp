@@ -22,7 +22,6 @@
 #include "services/program/outcome.h"
 #include "services/program/telemetry_output.h"
 #include "services/simulation/flight_plot.h"
-#include "services/simulation/loop_plot.h"
 #include "services/simulation/monte_carlo_text.h"
 #include "services/simulation/output_file.h"
 #include "services/simulation/pass_files.h"

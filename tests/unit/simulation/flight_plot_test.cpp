@@ -3,7 +3,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "services/simulation/loop_plot.h"
 #include "tests/support/test_paths.h"
 #include "tests/support/well_formed.h"
 
