@@ -1,5 +1,3 @@
-#include "services/program/doctor.h"
-
 #include <fmt/format.h>
 
 #include <iterator>
@@ -15,6 +13,8 @@
 #include "services/doctor/presence.h"
 #include "services/doctor/report.h"
 #include "services/mission/mission.h"
+#include "services/program/commands.h"
+#include "services/program/outcome.h"
 #include "services/program/utc_option.h"
 
 namespace spindrift {
@@ -38,8 +38,7 @@ Expected<doctor::ComingPass> coming_pass(const DoctorOptions& options) {
     return Unexpected{from ? to.error() : from.error()};
   }
   if (*from >= *to) {
-    return Unexpected{{ErrorCode::InvalidConfiguration,
-                       fmt::format("--from {} must lie before --to {}", options.from, options.to)}};
+    return refused(fmt::format("--from {} must lie before --to {}", options.from, options.to));
   }
   return doctor::ComingPass{.from = *from, .to = *to};
 }
@@ -56,7 +55,7 @@ Expected<std::vector<doctor::MissionFacts>> look_at_missions(
     }
   }
   if (!problems.empty()) {
-    return Unexpected{{ErrorCode::InvalidConfiguration, problems}};
+    return refused(problems);
   }
   return missions;
 }

@@ -1,5 +1,3 @@
-#include "services/program/geometry.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -19,6 +17,7 @@
 #include "services/base/json_line.h"
 #include "services/base/warning.h"
 #include "services/mission/mission.h"
+#include "services/program/commands.h"
 #include "services/program/orbit_notice.h"
 #include "services/program/outcome.h"
 #include "services/program/utc_option.h"

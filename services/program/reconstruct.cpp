@@ -1,5 +1,3 @@
-#include "services/program/reconstruct.h"
-
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
@@ -24,8 +22,10 @@
 #include "services/processor/pass_computing.h"
 #include "services/processor/processor.h"
 #include "services/processor/separation_solving.h"
+#include "services/program/commands.h"
 #include "services/program/orbit_notice.h"
 #include "services/program/outcome.h"
+#include "services/program/requests.h"
 #include "services/program/telemetry_input.h"
 #include "services/reports/separation_report.h"
 #include "services/simulation/output_file.h"

@@ -1,5 +1,3 @@
-#include "services/program/simulate.h"
-
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
@@ -19,6 +17,7 @@
 #include "services/base/progress_bar.h"
 #include "services/base/wall_clock.h"
 #include "services/base/warning.h"
+#include "services/program/commands.h"
 #include "services/program/outcome.h"
 #include "services/program/telemetry_output.h"
 #include "services/simulation/flight_plot.h"
