@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <chrono>
 #include <iterator>
 #include <optional>
 #include <string>
@@ -12,6 +13,7 @@
 
 #include "pipelines/three_axis/sample_kind.h"
 #include "services/base/alert_words.h"
+#include "services/base/wall_clock.h"
 
 namespace spindrift {
 namespace {
@@ -314,36 +316,39 @@ std::vector<OpenAlert> AlertDesk::open() const {
   return all;
 }
 
-template <class Do>
-Expected<ArchiveBatch> AlertDesk::with_alert(const std::string& alert_id, const Do& act) {
+Expected<ArchiveBatch> AlertDesk::take(const OperatorWord& word, TaiTime now) {
   const std::lock_guard lock{mutex_};
+  const auto& [alert_id, by, note, minutes] = word;
   std::string open;
   for (auto& [spacecraft, desk] : desks_) {
     for (const Alert& alert : desk.book.open()) {
-      if (alert.alert_id == alert_id) {
-        return act(desk.book).map([&, &id = spacecraft, &run_of = desk.run_of](Alert&& changed) {
-          ArchiveBatch batch{.run_id = run_of.at(alert_id), .spacecraft_id = id};
-          batch.products.emplace_back(std::move(changed));
-          return batch;
-        });
+      if (alert.alert_id != alert_id) {
+        open += fmt::format("{}{} ({})", open.empty() ? "" : ", ", alert.alert_id, alert.key);
+        continue;
       }
-      open += fmt::format("{}{} ({})", open.empty() ? "" : ", ", alert.alert_id, alert.key);
+      ArchiveBatch batch{.run_id = desk.run_of.at(alert_id), .spacecraft_id = spacecraft};
+      const auto until = now + std::chrono::minutes{minutes};
+      auto changed = minutes > 0 ? desk.book.shelve(alert_id, now, until, by, note)
+                                 : desk.book.acknowledge(alert_id, now, by, note);
+      return std::move(changed).map([&](Alert&& alert_now) {
+        batch.products.emplace_back(std::move(alert_now));
+        return std::move(batch);
+      });
     }
   }
   return Unexpected{{ErrorCode::InvalidInput, fmt::format("no alert '{}' is open; open: {}",
                                                           alert_id, open.empty() ? "none" : open)}};
 }
 
-Expected<ArchiveBatch> AlertDesk::acknowledge(const std::string& alert_id, TaiTime now,
-                                              const std::string& by, const std::string& note) {
-  return with_alert(alert_id,
-                    [&](AlertBook& book) { return book.acknowledge(alert_id, now, by, note); });
-}
-
-Expected<ArchiveBatch> AlertDesk::shelve(const std::string& alert_id, TaiTime now, TaiTime until,
-                                         const std::string& by, const std::string& note) {
-  return with_alert(alert_id,
-                    [&](AlertBook& book) { return book.shelve(alert_id, now, until, by, note); });
+Expected<ArchiveBatch> take_word(const OperatorWord& word, AlertDesk& desk, Archive& archive) {
+  if (word.by.empty()) {
+    return Unexpected{{ErrorCode::InvalidInput, "by: must be a text, not empty: who says so"}};
+  }
+  return desk.take(word, tai_now()).and_then([&](const ArchiveBatch& changed) {
+    return archive.submit(changed).and_then([&] { return archive.flush(); }).map([&] {
+      return changed;
+    });
+  });
 }
 
 }  // namespace spindrift

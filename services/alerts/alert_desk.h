@@ -19,6 +19,7 @@
 #include "pipelines/supervision/contradiction_conditions.h"
 #include "pipelines/supervision/service_conditions.h"
 #include "pipelines/supervision/spin_conditions.h"
+#include "services/archive/archive.h"
 #include "services/archive/records.h"
 #include "services/mission/mission.h"
 
@@ -27,6 +28,14 @@ namespace spindrift {
 struct OpenAlert {
   std::string spacecraft;
   Alert alert;
+};
+
+/// An operator's acknowledgement or shelving of an alert.
+struct OperatorWord {
+  std::string alert_id;
+  std::string by;
+  std::string note;
+  int minutes = 0;  ///< Duration of shelving; 0 acknowledges.
 };
 
 /// Safe to use from any thread.
@@ -80,11 +89,9 @@ class AlertDesk {
   /// Returns the open alerts of all spacecraft.
   std::vector<OpenAlert> open() const;
 
-  /// @return The batch to store; InvalidInput where no such alert is open.
-  Expected<ArchiveBatch> acknowledge(const std::string& alert_id, TaiTime now,
-                                     const std::string& by, const std::string& note);
-  Expected<ArchiveBatch> shelve(const std::string& alert_id, TaiTime now, TaiTime until,
-                                const std::string& by, const std::string& note);
+  /// Acknowledges or shelves an alert. @return The batch to store; InvalidInput when no such alert
+  /// is open or it is in that state already.
+  Expected<ArchiveBatch> take(const OperatorWord& word, TaiTime now);
 
  private:
   using Conditions = std::variant<SpinConditions, AttitudeConditions>;
@@ -113,12 +120,14 @@ class AlertDesk {
   static std::vector<Alert> changed_by(const ArchiveBatch& batch, Desk& desk);
   static std::vector<Alert> changed_by(const ServiceState& state, Desk& desk);
   static std::vector<Alert> settled(const ConditionChanges& changes, Desk& desk);
-  template <class Do>
-  Expected<ArchiveBatch> with_alert(const std::string& alert_id, const Do& act);
 
   RunMode mode_ = RunMode::Process;
   mutable std::mutex mutex_;
   std::map<std::string, Desk> desks_;  ///< Desks by spacecraft.
 };
+
+/// Applies an operator's word to an alert of `desk` from now on. @return What was stored and
+/// announced; the errors of AlertDesk::take; the archive's error.
+Expected<ArchiveBatch> take_word(const OperatorWord& word, AlertDesk& desk, Archive& archive);
 
 }  // namespace spindrift

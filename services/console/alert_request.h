@@ -8,7 +8,7 @@
 #include <string_view>
 
 #include "pipelines/core/expected.h"
-#include "services/alerts/operator_word.h"
+#include "services/alerts/alert_desk.h"
 
 namespace spindrift {
 

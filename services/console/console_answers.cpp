@@ -38,6 +38,18 @@ HttpResponse bad_request(const Error& error) {
   return refusal(http::status::bad_request, error.message);
 }
 
+/// Refuses what was asked badly, or what the service cannot do now.
+HttpResponse refusal_of(const Error& error) {
+  return error.code == ErrorCode::InvalidInput
+             ? bad_request(error)
+             : refusal(http::status::service_unavailable, error.message);
+}
+
+HttpResponse not_served(const std::string& spacecraft) {
+  return refusal(http::status::not_found,
+                 fmt::format("no spacecraft {} is served", shown(spacecraft)));
+}
+
 /// Returns null when all are values.
 template <class... Value>
 const Error* first_error(const Expected<Value>&... values) {
@@ -185,8 +197,7 @@ Answer ConsoleAnswers::quantities(const RequestTarget& target) const {
   }
   const auto kind = service_.feed.kind_of(*spacecraft);
   if (!kind) {
-    return refusal(http::status::not_found,
-                   fmt::format("no spacecraft {} is served", shown(*spacecraft)));
+    return not_served(*spacecraft);
   }
   nlohmann::json all = nlohmann::json::array();
   for (const Quantity& quantity : quantities_of(*kind)) {
@@ -208,8 +219,7 @@ Answer ConsoleAnswers::series(const RequestTarget& target) {
   }
   const auto kind = service_.feed.kind_of(*spacecraft);
   if (!kind) {
-    return refusal(http::status::not_found,
-                   fmt::format("no spacecraft {} is served", shown(*spacecraft)));
+    return not_served(*spacecraft);
   }
   const auto& known = quantities_of(*kind);
   const auto quantity = std::find_if(known.begin(), known.end(),
@@ -219,11 +229,12 @@ Answer ConsoleAnswers::series(const RequestTarget& target) {
         http::status::bad_request,
         fmt::format("quantity = {}: must be one that /api/v1/quantities lists", shown(*name)));
   }
-  return ReadingAnswer{[this, run_id = *service_.feed.run_of(*spacecraft), &quantity = *quantity,
-                        span = Span{.from_tai_ns = *from, .to_tai_ns = *to},
-                        most = static_cast<std::size_t>(*points)] {
-    return read_series(run_id, quantity, span, most);
-  }};
+  return LaterAnswer{LaterAnswer::By::Reading,
+                     [this, run_id = *service_.feed.run_of(*spacecraft), &quantity = *quantity,
+                      span = Span{.from_tai_ns = *from, .to_tai_ns = *to},
+                      most = static_cast<std::size_t>(*points)] {
+                       return read_series(run_id, quantity, span, most);
+                     }};
 }
 
 HttpResponse ConsoleAnswers::read_series(const std::string& run_id, const Quantity& quantity,
@@ -258,15 +269,11 @@ Answer ConsoleAnswers::act(const HttpRequest& request) const {
     return refusal(http::status::bad_request,
                    "the body must be a JSON object with spacecraft, by, action and its arguments");
   }
-  return ActingAnswer{[this, action = std::move(action)] {
-    const auto taken = service_.act(action);
-    if (taken) {
-      return json_answer(http::status::accepted, {{"action_id", *taken}});
-    }
-    return taken.error().code == ErrorCode::InvalidInput
-               ? bad_request(taken.error())
-               : refusal(http::status::service_unavailable, taken.error().message);
-  }};
+  return LaterAnswer{LaterAnswer::By::Acting, [this, action = std::move(action)] {
+                       const auto taken = service_.act(action);
+                       return taken ? json_answer(http::status::accepted, {{"action_id", *taken}})
+                                    : refusal_of(taken.error());
+                     }};
 }
 
 Answer ConsoleAnswers::change_alert(const HttpRequest& request, const AlertPath& path) {
@@ -283,15 +290,14 @@ Answer ConsoleAnswers::change_alert(const HttpRequest& request, const AlertPath&
   if (!word) {
     return bad_request(word.error());
   }
-  return StoringAnswer{[this, word = *std::move(word)] { return change_alert(word); }};
+  return LaterAnswer{LaterAnswer::By::Storing,
+                     [this, word = *std::move(word)] { return change_alert(word); }};
 }
 
 HttpResponse ConsoleAnswers::change_alert(const OperatorWord& word) {
   const auto taken = take_word(word, service_.desk, service_.archive);
   if (!taken) {
-    return taken.error().code == ErrorCode::InvalidInput
-               ? bad_request(taken.error())
-               : refusal(http::status::service_unavailable, taken.error().message);
+    return refusal_of(taken.error());
   }
   const auto& alert = std::get<Alert>(taken->products.front());
   return json_answer(http::status::ok, alert_json(taken->spacecraft_id, taken->run_id, alert));

@@ -14,36 +14,34 @@
 #include <vector>
 
 #include "services/alerts/alert_desk.h"
-#include "services/alerts/operator_word.h"
 #include "services/archive/archive.h"
 #include "services/console/alert_request.h"
-#include "services/console/archive_view.h"
 #include "services/console/console_feed.h"
 #include "services/console/http_messages.h"
 #include "services/console/metrics.h"
 #include "services/console/quantities.h"
 #include "services/console/request_target.h"
+#include "services/console/series.h"
 #include "services/serving/kept_connection.h"
 
 namespace spindrift {
 
-/// Answer made by the thread that reads the archive.
-struct ReadingAnswer {
+/// Answer made later, each kind by a thread of its own.
+struct LaterAnswer {
+  enum class By {
+    Reading,  ///< The thread that reads the archive.
+    Storing,  ///< A thread that waits until the archive has stored something.
+    Acting,   ///< A thread that waits until an operator's action is stored.
+  };
+  By by;
   std::function<HttpResponse()> make;
 };
-/// Answer made by a thread that waits until the archive has stored something.
-struct StoringAnswer {
-  std::function<HttpResponse()> make;
-};
-/// Answer made by a thread of its own that waits until an operator's action is stored.
-struct ActingAnswer {
-  std::function<HttpResponse()> make;
-};
+
 /// Stream of the events after `id`, then of new ones.
 struct EventStream {
   std::uint64_t id;
 };
-using Answer = std::variant<HttpResponse, ReadingAnswer, StoringAnswer, ActingAnswer, EventStream>;
+using Answer = std::variant<HttpResponse, LaterAnswer, EventStream>;
 
 class ConsoleAnswers {
  public:

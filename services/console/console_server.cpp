@@ -3,11 +3,13 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include <array>
 #include <boost/algorithm/string/case_conv.hpp>
 #include <boost/asio.hpp>
 #include <boost/beast.hpp>
 #include <charconv>
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <set>
@@ -169,12 +171,9 @@ class ConsoleServer::Loop {
     Answer answer = answers_.to(session->parser.get(), open_ > kMostConnections, viewer_counts());
     if (auto* const response = std::get_if<HttpResponse>(&answer)) {
       send(session, std::move(*response));
-    } else if (auto* const reading = std::get_if<ReadingAnswer>(&answer)) {
-      send_when_made(reading_, session, std::move(reading->make));
-    } else if (auto* const storing = std::get_if<StoringAnswer>(&answer)) {
-      send_when_made(storing_, session, std::move(storing->make));
-    } else if (auto* const acting = std::get_if<ActingAnswer>(&answer)) {
-      send_when_made(acting_, session, std::move(acting->make));
+    } else if (auto* const later = std::get_if<LaterAnswer>(&answer)) {
+      send_when_made(making_.at(static_cast<std::size_t>(later->by)), session,
+                     std::move(later->make));
     } else {
       watch(session, std::get<EventStream>(answer).id);
     }
@@ -283,9 +282,9 @@ class ConsoleServer::Loop {
   asio::steady_timer accepting_{context_};
   asio::steady_timer timer_{context_};
   std::set<Shared> viewers_;
-  asio::thread_pool reading_{1};
-  asio::thread_pool storing_{1};
-  asio::thread_pool acting_{1};
+  /// A thread for each LaterAnswer::By.
+  std::array<asio::thread_pool, 3> making_{asio::thread_pool{1}, asio::thread_pool{1},
+                                           asio::thread_pool{1}};
   std::thread thread_;
 };
 

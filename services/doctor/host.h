@@ -1,5 +1,5 @@
 /// @file
-/// Checks the clock and the limits of the machine.
+/// Checks the clock and the limits of the machine, and the leap seconds it knows.
 
 #pragma once
 
@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "services/base/leap_tables.h"
 #include "services/doctor/check.h"
 
 namespace spindrift::doctor {
@@ -23,5 +24,8 @@ struct HostFacts {
 HostFacts host_facts();
 
 std::vector<Check> check_host(const HostFacts& facts);
+
+/// Checks whether the program's leap second table is complete.
+Check check_leap_seconds(const LeapFacts& facts);
 
 }  // namespace spindrift::doctor

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "services/base/counted.h"
 #include "services/base/json_line.h"
 
 namespace spindrift::doctor {
@@ -59,10 +60,6 @@ std::string entry(const Check& check, std::size_t name_width) {
   return text;
 }
 
-std::string counted(std::ptrdiff_t count, std::string_view what) {
-  return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
-}
-
 }  // namespace
 
 Verdict worst_of(std::span<const Check> checks) {
@@ -89,8 +86,8 @@ std::string to_text(std::span<const Check> checks, bool verbose) {
                          [&](const Check& check) { return check.verdict == verdict; });
   };
   return text + fmt::format("{}{}, {}, {} sound\n", text.empty() ? "" : "\n",
-                            counted(count(Verdict::Failure), "failure"),
-                            counted(count(Verdict::Warning), "warning"), count(Verdict::Ok));
+                            counted(count(Verdict::Failure), "failures"),
+                            counted(count(Verdict::Warning), "warnings"), count(Verdict::Ok));
 }
 
 std::string to_json(std::span<const Check> checks) {

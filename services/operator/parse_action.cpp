@@ -5,7 +5,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <optional>
+#include <span>
+#include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
@@ -13,12 +16,145 @@
 #include "pipelines/core/shown.h"
 #include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
+#include "services/base/json_line.h"
 #include "services/base/unique_id.h"
 #include "services/base/wall_clock.h"
-#include "services/operator/said_values.h"
+#include "services/telemetry/telemetry_time.h"
 
 namespace spindrift {
 namespace {
+
+/// Reads and checks the keys of a JSON object from outside. Collects the problems; an invalid value
+/// is replaced by a meaningless one.
+class SaidValues {
+ public:
+  /// @param object Must outlive this.
+  explicit SaidValues(const nlohmann::json& object) : object_{object} {}
+
+  /// Returns a text of at most 200 characters without control characters.
+  std::string text(const char* key);
+  std::string text_or_empty(const char* key);
+  /// @param names Allowed values. @return Index among them.
+  std::size_t name(const char* key, std::span<const std::string_view> names);
+  double number(const char* key, double at_least, double at_most);
+  TaiTime time(const char* key);
+  std::optional<TaiTime> time_if(const char* key);
+  bool has(const char* key);
+
+  void wrong(std::string problem) { problems_.push_back(std::move(problem)); }
+  /// Returns the problems, including keys that were never asked for; empty when there are none.
+  std::string problems() const;
+
+ private:
+  const nlohmann::json* find(const char* key);
+
+  const nlohmann::json& object_;
+  std::vector<std::string> asked_;
+  std::vector<std::string> problems_;
+};
+
+std::string said(const nlohmann::json& value) {
+  std::string text = json_line(value);
+  text.pop_back();
+  return shown(text);
+}
+
+bool SaidValues::has(const char* key) {
+  if (std::find(asked_.begin(), asked_.end(), key) == asked_.end()) {
+    asked_.emplace_back(key);
+  }
+  return object_.contains(key);
+}
+
+const nlohmann::json* SaidValues::find(const char* key) {
+  if (!has(key)) {
+    wrong(fmt::format("{} is missing", key));
+    return nullptr;
+  }
+  return &object_.at(key);
+}
+
+std::string SaidValues::text_or_empty(const char* key) {
+  return has(key) && object_.at(key) != nlohmann::json("") ? text(key) : "";
+}
+
+std::string SaidValues::text(const char* key) {
+  const nlohmann::json* const value = find(key);
+  if (value == nullptr) {
+    return {};
+  }
+  if (!value->is_string() || value->get_ref<const std::string&>().empty()) {
+    wrong(fmt::format("{}: {}: must be text, not empty", key, said(*value)));
+    return {};
+  }
+  auto text = value->get<std::string>();
+  if (shown(text) != text) {
+    wrong(fmt::format("{}: {}: must be at most {} characters, none of them a control character",
+                      key, said(*value), kMostShown));
+  }
+  return text;
+}
+
+std::size_t SaidValues::name(const char* key, std::span<const std::string_view> names) {
+  const nlohmann::json* const value = find(key);
+  if (value == nullptr) {
+    return 0;
+  }
+  const auto found = value->is_string() ? std::find(names.begin(), names.end(),
+                                                    value->get_ref<const std::string&>())
+                                        : names.end();
+  if (found == names.end()) {
+    wrong(fmt::format("{}: {}: must be one of {}", key, said(*value), fmt::join(names, ", ")));
+    return 0;
+  }
+  return static_cast<std::size_t>(found - names.begin());
+}
+
+double SaidValues::number(const char* key, double at_least, double at_most) {
+  const nlohmann::json* const value = find(key);
+  if (value == nullptr) {
+    return at_least;
+  }
+  // The condition is written so that NaN fails.
+  if (!value->is_number() ||
+      !(value->get<double>() >= at_least && value->get<double>() <= at_most)) {
+    wrong(fmt::format("{}: {}: must be a number, {} to {}", key, said(*value), at_least, at_most));
+    return at_least;
+  }
+  return value->get<double>();
+}
+
+std::optional<TaiTime> SaidValues::time_if(const char* key) {
+  return has(key) ? std::optional{time(key)} : std::nullopt;
+}
+
+TaiTime SaidValues::time(const char* key) {
+  const nlohmann::json* const value = find(key);
+  if (value == nullptr) {
+    return {};
+  }
+  const bool is_whole = value->is_number_integer() &&
+                        (!value->is_number_unsigned() ||
+                         value->get<std::uint64_t>() <= static_cast<std::uint64_t>(INT64_MAX));
+  const TaiTime t = is_whole ? tai_from_ns(value->get<std::int64_t>()) : TaiTime::min();
+  if (!is_telemetry_time(t)) {
+    wrong(fmt::format("{}: {}: must be nanoseconds of TAI, {} to before {}", key, said(*value),
+                      tai_ns(kEarliestTelemetry), tai_ns(kLatestTelemetry)));
+  }
+  return t;
+}
+
+std::string SaidValues::problems() const {
+  std::vector<std::string> all = problems_;
+  for (const auto& [key, value] : object_.items()) {
+    if (std::find(asked_.begin(), asked_.end(), key) == asked_.end()) {
+      all.push_back(fmt::format("{} is not known here: {}", shown(key),
+                                asked_.empty() ? "nothing is asked for"
+                                               : fmt::format("{} are", fmt::join(asked_, ", "))));
+    }
+  }
+  return fmt::format("{}", fmt::join(all, "; "));
+}
 
 constexpr std::array<const char*, 5> kOfEveryAction = {"spacecraft", "by", "action", "note",
                                                        "t_tai_ns"};
@@ -40,8 +176,15 @@ void read(SaidValues& said, SampleKind& sensor) {
   sensor = kSensorKinds.at(said.name("channel", sensor_names()));
 }
 
-template <class Channel>
-ExcludeSegment<Channel> segment(SaidValues& said) {
+template <class Action, class OfChannel>
+ActionEffect of_channel(SaidValues& said) {
+  OfChannel action{};
+  read(said, action.channel);
+  return Action{action};
+}
+
+template <class Action, class Channel>
+ActionEffect of_segment(SaidValues& said) {
   ExcludeSegment<Channel> segment{
       .from = said.time("from_tai_ns"), .to = said.time("to_tai_ns"), .channel = {}};
   if (segment.to <= segment.from) {
@@ -50,7 +193,7 @@ ExcludeSegment<Channel> segment(SaidValues& said) {
   if (said.has("channel")) {
     read(said, segment.channel.emplace());
   }
-  return segment;
+  return Action{segment};
 }
 
 Eigen::Vector3d axis_icrf(SaidValues& said) {
@@ -64,65 +207,38 @@ SpinPrior prior(SaidValues& said) {
   return {.axis_icrf = axis, .sigma_rad = said.number("sigma_deg", 1e-3, 180.0) * kRadPerDeg};
 }
 
-/// An action by name; actions on channels exist for every kind of spacecraft.
-template <class Action>
-struct Named {
+/// An action by name with how its arguments are read for each kind of spacecraft; null where that
+/// kind does not have it.
+struct KnownAction {
   std::string_view name;
-  Action (*read)(SaidValues& said);
+  ActionEffect (*of_spinner)(SaidValues& said);
+  ActionEffect (*of_three_axis)(SaidValues& said) = nullptr;
+
+  auto read_for(SpacecraftKind kind) const {
+    return kind == SpacecraftKind::Spin ? of_spinner : of_three_axis;
+  }
 };
 
-template <class Action, class Channel>
-std::vector<Named<Action>> of_channels() {
-  return {{"exclude_channel",
-           [](SaidValues& said) -> Action {
-             ExcludeChannel<Channel> action{};
-             read(said, action.channel);
-             return action;
-           }},
-          {"include_channel",
-           [](SaidValues& said) -> Action {
-             IncludeChannel<Channel> action{};
-             read(said, action.channel);
-             return action;
-           }},
-          {"exclude_segment", [](SaidValues& said) -> Action { return segment<Channel>(said); }}};
-}
-
-std::vector<Named<SpinAction>> of_spinners() {
-  auto all = of_channels<SpinAction, PulseChannel>();
-  all.push_back(
-      {"choose_root", [](SaidValues& said) -> SpinAction { return ChooseRoot{axis_icrf(said)}; }});
-  all.push_back(
-      {"set_prior", [](SaidValues& said) -> SpinAction { return SetPrior{prior(said)}; }});
-  all.push_back(
-      {"mark_manoeuvre", [](SaidValues& /*said*/) -> SpinAction { return MarkManoeuvre{}; }});
-  all.push_back(
-      {"set_target", [](SaidValues& said) -> SpinAction { return SetTarget{axis_icrf(said)}; }});
-  return all;
-}
+/// The only list of actions. The page and the schema of the archive are tested against it.
+constexpr std::array<KnownAction, 7> kActions{{
+    {"exclude_channel", &of_channel<SpinAction, ExcludeChannel<PulseChannel>>,
+     &of_channel<AttitudeAction, ExcludeChannel<SampleKind>>},
+    {"include_channel", &of_channel<SpinAction, IncludeChannel<PulseChannel>>,
+     &of_channel<AttitudeAction, IncludeChannel<SampleKind>>},
+    {"exclude_segment", &of_segment<SpinAction, PulseChannel>,
+     &of_segment<AttitudeAction, SampleKind>},
+    {"choose_root",
+     [](SaidValues& said) -> ActionEffect { return SpinAction{ChooseRoot{axis_icrf(said)}}; }},
+    {"set_prior",
+     [](SaidValues& said) -> ActionEffect { return SpinAction{SetPrior{prior(said)}}; }},
+    {"mark_manoeuvre",
+     [](SaidValues& /*said*/) -> ActionEffect { return SpinAction{MarkManoeuvre{}}; }},
+    {"set_target",
+     [](SaidValues& said) -> ActionEffect { return SpinAction{SetTarget{axis_icrf(said)}}; }},
+}};
 
 Unexpected invalid(std::string message) {
   return Unexpected{{ErrorCode::InvalidInput, std::move(message)}};
-}
-
-template <class Action>
-Expected<std::variant<SpinAction, AttitudeAction>> one_of(const std::vector<Named<Action>>& all,
-                                                          const std::string& name,
-                                                          const nlohmann::json& arguments) {
-  std::vector<std::string_view> names;
-  for (const Named<Action>& known : all) {
-    names.push_back(known.name);
-    if (known.name == name) {
-      SaidValues said{arguments};
-      Action action = known.read(said);
-      const std::string problems = said.problems();
-      return problems.empty()
-                 ? Expected<std::variant<SpinAction, AttitudeAction>>{std::move(action)}
-                 : invalid(fmt::format("{}: {}", name, problems));
-    }
-  }
-  return invalid(
-      fmt::format("action: '{}': must be one of {}", shown(name), fmt::join(names, ", ")));
 }
 
 struct Segment {
@@ -131,7 +247,7 @@ struct Segment {
 };
 
 /// Returns empty for an action without a segment.
-std::optional<Segment> segment_in(const std::variant<SpinAction, AttitudeAction>& does) {
+std::optional<Segment> segment_in(const ActionEffect& does) {
   const auto of_one = [](const auto& what) -> std::optional<Segment> {
     if constexpr (requires { what.from; }) {
       return Segment{.from = what.from, .to = what.to};
@@ -169,15 +285,33 @@ Expected<SpacecraftKind> kind_of(const std::string& spacecraft, const KnownSpace
 
 }  // namespace
 
-Expected<std::variant<SpinAction, AttitudeAction>> what_it_does(SpacecraftKind kind,
-                                                                const std::string& action,
-                                                                const nlohmann::json& arguments) {
+std::vector<std::string_view> action_names(std::optional<SpacecraftKind> kind) {
+  std::vector<std::string_view> names;
+  for (const KnownAction& known : kActions) {
+    if (!kind || known.read_for(*kind) != nullptr) {
+      names.push_back(known.name);
+    }
+  }
+  return names;
+}
+
+Expected<ActionEffect> what_it_does(SpacecraftKind kind, const std::string& action,
+                                    const nlohmann::json& arguments) {
   if (!arguments.is_object()) {
     return invalid("an action must be a JSON object");
   }
-  return kind == SpacecraftKind::Spin
-             ? one_of(of_spinners(), action, arguments)
-             : one_of(of_channels<AttitudeAction, SampleKind>(), action, arguments);
+  const auto* const known = std::find_if(kActions.begin(), kActions.end(), [&](const auto& one) {
+    return one.name == action && one.read_for(kind) != nullptr;
+  });
+  if (known == kActions.end()) {
+    return invalid(fmt::format("action: '{}': must be one of {}", shown(action),
+                               fmt::join(action_names(kind), ", ")));
+  }
+  SaidValues said{arguments};
+  ActionEffect effect = known->read_for(kind)(said);
+  const std::string problems = said.problems();
+  return problems.empty() ? Expected<ActionEffect>{std::move(effect)}
+                          : invalid(fmt::format("{}: {}", action, problems));
 }
 
 Expected<OperatorAction> parse_action(const nlohmann::json& request, const KnownSpacecraft& known) {
@@ -208,7 +342,7 @@ Expected<OperatorAction> parse_action(const nlohmann::json& request, const Known
   }
   return kind_of(action.spacecraft, known)
       .and_then([&](SpacecraftKind kind) { return what_it_does(kind, action.action, arguments); })
-      .and_then([&](const std::variant<SpinAction, AttitudeAction>& does) {
+      .and_then([&](const ActionEffect& does) {
         action.does = does;
         return with_time(action);
       });

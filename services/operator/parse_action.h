@@ -1,17 +1,20 @@
 /// @file
-/// Parses an operator's action from JSON.
+/// Interprets an operator's action: which there are, and what each with its arguments does.
 ///
-/// A new action needs a type in spin_action.h or attitude_action.h, its effect on the pass (`act`),
-/// its name and arguments in parse_action.cpp, and its name in schemas/tables.sql. Arguments are
-/// stored as JSON and parsed by the same function again, so that what is repeated after a restart
-/// is what was done.
+/// An action is interpreted here, whether it comes from the page, a command line or the archive. A
+/// new one needs a type in spin_action.h or attitude_action.h, its effect on the pass (`act`), a row
+/// of `kActions` in parse_action.cpp, its name in schemas/tables.sql and its form in
+/// console/web/page/actions.js. Arguments are stored as JSON and parsed by the same function again,
+/// so that what is repeated after a restart is what was done.
 
 #pragma once
 
 #include <map>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
-#include <variant>
+#include <string_view>
+#include <vector>
 
 #include "pipelines/core/expected.h"
 #include "services/mission/spacecraft_kind.h"
@@ -28,10 +31,15 @@ using KnownSpacecraft = std::map<std::string, SpacecraftKind>;
 ///         what is allowed.
 Expected<OperatorAction> parse_action(const nlohmann::json& request, const KnownSpacecraft& known);
 
+/// What an action does, by the kind of spacecraft.
+using ActionEffect = decltype(OperatorAction::does);
+
 /// Parses the arguments of an action, also of one from an archive.
 /// @return InvalidInput with all problems.
-Expected<std::variant<SpinAction, AttitudeAction>> what_it_does(SpacecraftKind kind,
-                                                                const std::string& action,
-                                                                const nlohmann::json& arguments);
+Expected<ActionEffect> what_it_does(SpacecraftKind kind, const std::string& action,
+                                    const nlohmann::json& arguments);
+
+/// Returns the names of all actions; of those of one kind of spacecraft where that is given.
+std::vector<std::string_view> action_names(std::optional<SpacecraftKind> kind = {});
 
 }  // namespace spindrift

@@ -1,14 +1,17 @@
 /// @file
-/// A local socket in the file system, and the exchange of lines over it.
+/// A local socket in the file system, the exchange of lines over it, and the side that asks.
 ///
 /// The kernel takes paths of at most 107 bytes. The folder is therefore opened, and the socket is
-/// named by the folder's descriptor.
+/// named by the folder's descriptor. Nobody answers on the socket of a killed program. The caller
+/// then does the work itself, and the next holder of the archive removes the socket.
 
 #pragma once
 
 #include <sys/un.h>
 
 #include <filesystem>
+#include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -53,5 +56,10 @@ Expected<std::string> receive_line(const Descriptor& from, std::size_t most);
 
 /// Makes an error with the text for errno.
 Unexpected socket_failure(std::string_view what, const std::filesystem::path& socket);
+
+/// Sends a request to the program that holds an archive and waits for the answer. @return Empty
+/// when no program holds the archive; Unavailable when the holder fails while answering.
+Expected<std::optional<nlohmann::json>> ask_holder(const std::filesystem::path& archive,
+                                                   const nlohmann::json& request);
 
 }  // namespace spindrift

@@ -1,12 +1,13 @@
-#include "services/program/act.h"
-
 #include <fmt/format.h>
 
 #include "pipelines/core/shown.h"
 #include "pipelines/time/utc.h"
 #include "services/base/json_line.h"
 #include "services/base/warning.h"
-#include "services/operator/request_client.h"
+#include "services/operator/request_socket.h"
+#include "services/program/commands.h"
+#include "services/program/outcome.h"
+#include "services/program/requests.h"
 
 namespace spindrift {
 namespace {
@@ -32,7 +33,7 @@ Expected<nlohmann::json> request_of(const ActOptions& options) {
     if (utc) {
       const auto t = parse_utc(*utc);
       if (!t) {
-        return Unexpected{{ErrorCode::InvalidConfiguration, t.error().message}};
+        return refused(t.error().message);
       }
       request[key] = tai_ns(*t);
     }
@@ -60,7 +61,7 @@ Expected<void> act(const ActOptions& options) {
              shown(options.db.string()))}};
   }
   if (const auto error = (**answer).find("error"); error != (**answer).end()) {
-    return Unexpected{{ErrorCode::InvalidConfiguration, error->get<std::string>()}};
+    return refused(error->get<std::string>());
   }
   fmt::print("{}", options.json ? json_line(with_warnings(**answer))
                                 : fmt::format("{}\n", (**answer).value("action_id", "")));

@@ -1,5 +1,3 @@
-#include "services/program/alerts.h"
-
 #include <fmt/format.h>
 
 #include <atomic>
@@ -15,16 +13,18 @@
 #include <vector>
 
 #include "pipelines/time/utc.h"
+#include "services/alerts/alert_desk.h"
 #include "services/alerts/alert_json.h"
-#include "services/alerts/operator_word.h"
 #include "services/alerts/stored_alerts.h"
 #include "services/archive/connection.h"
 #include "services/base/json_line.h"
 #include "services/base/wall_clock.h"
 #include "services/base/warning.h"
-#include "services/operator/request_client.h"
+#include "services/operator/request_socket.h"
 #include "services/products/products.h"
+#include "services/program/commands.h"
 #include "services/program/outcome.h"
+#include "services/program/requests.h"
 #include "services/serving/stop_signal.h"
 
 namespace spindrift {
@@ -108,7 +108,7 @@ Expected<nlohmann::json> changed_here(const AlertsOptions& options) {
                                 .minutes = options.minutes},
                                desk, **archive);
   if (!taken && taken.error().code == ErrorCode::InvalidInput) {
-    return Unexpected{{ErrorCode::InvalidConfiguration, taken.error().message}};
+    return refused(taken.error().message);
   }
   const auto stored_word = taken.map([](const ArchiveBatch& /*stored*/) {});
   return outcome_of(stored_word, (*archive)->close()).map([&] { return changed_json(*taken); });
@@ -167,7 +167,7 @@ Expected<void> change_alert(const AlertsOptions& options) {
         [&](const nlohmann::json& alert) { print_changed(alert, options.json); });
   }
   if ((**answer).contains("error")) {
-    return Unexpected{{ErrorCode::InvalidConfiguration, why_refused(options, **answer)}};
+    return refused(why_refused(options, **answer));
   }
   print_changed((**answer).at("alert"), options.json);
   return {};

@@ -1,5 +1,3 @@
-#include "services/program/batch.h"
-
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
@@ -11,6 +9,7 @@
 #include "services/base/warning.h"
 #include "services/mission/mission.h"
 #include "services/program/batch_text.h"
+#include "services/program/commands.h"
 #include "services/program/orbit_notice.h"
 #include "services/program/summary_text.h"
 

@@ -13,6 +13,8 @@
 #include <thread>
 #include <vector>
 
+#include "services/operator/parse_action.h"
+
 namespace spindrift {
 namespace {
 
@@ -70,9 +72,18 @@ void add_bus_options(CLI::App& command, std::uint32_t& domain, std::string& part
       ->capture_default_str();
 }
 
+void add_mission_option(CLI::App& command, std::filesystem::path& mission) {
+  command.add_option("--mission", mission, "Mission file")->check(check_path)->required();
+}
+
+void add_plot_option(CLI::App& command, std::filesystem::path& plot) {
+  command.add_option("--plot", plot, "SVG file to write, its name ending in .svg")
+      ->check(check_svg);
+}
+
 void add_recording_options(CLI::App& command, std::filesystem::path& mission,
                            std::vector<std::filesystem::path>& telemetry) {
-  command.add_option("--mission", mission, "Mission file")->check(check_path)->required();
+  add_mission_option(command, mission);
   command.add_option("--telemetry", telemetry, "CSV files, or directories of them")
       ->check(check_path)
       ->required();
@@ -100,7 +111,7 @@ void add_batch(CLI::App& app, Request& request) {
   BatchOptions& options = request.batch;
   CLI::App& command =
       *app.add_subcommand("batch", "Solve a stored run as a whole, with biases and bound");
-  command.add_option("--mission", options.mission, "Mission file")->check(check_path)->required();
+  add_mission_option(command, options.mission);
   command.add_option("--db", options.db, "Archive; it is only read")->check(check_path)->required();
   command.add_option("--run", options.run, "Run; without, the newest of the spacecraft");
   command.add_option("--last", options.last_revolutions, "Only so many of the last revolutions")
@@ -230,15 +241,14 @@ void add_geometry(CLI::App& app, Request& request) {
   GeometryOptions& options = request.geometry;
   CLI::App& command = *app.add_subcommand(
       "geometry", "Plan a coming pass: what each sensor will see, and the accuracy to expect");
-  command.add_option("--mission", options.mission, "Mission file")->check(check_path)->required();
+  add_mission_option(command, options.mission);
   command.add_option("--from", options.from, "Beginning, UTC: 2026-11-20T03:00:00Z")->required();
   command.add_option("--to", options.to, "End, UTC")->required();
   command.add_option("--attitude", options.attitude, "Spin axis RA,DEC in deg, ICRF: 100,-55")
       ->required();
   command.add_option("--rpm", options.rate_rpm, "Spin rate, 5 to 200; without it 60 is assumed");
   command.add_option("--step", options.step_s, "Seconds between rows; without it about 60 rows");
-  command.add_option("--plot", options.plot, "SVG file to write, its name ending in .svg")
-      ->check(check_svg);
+  add_plot_option(command, options.plot);
   command.add_flag("--json", options.json, "Print one JSON object");
   command.callback([&] { request.run = [&] { return geometry(request.geometry); }; });
 }
@@ -261,8 +271,7 @@ void add_reconstruct(CLI::App& app, Request& request) {
                                                       {"sequential", Method::Sequential}};
   command.add_option("--method", options.method, "batch or sequential; without, both")
       ->transform(CLI::CheckedTransformer(kMethods));
-  command.add_option("--plot", options.plot, "SVG file to write, its name ending in .svg")
-      ->check(check_svg);
+  add_plot_option(command, options.plot);
   command.add_flag("--json", options.json, "Print one JSON object");
   command.callback([&] {
     request.run = [&] { return with_status(reconstruct(request.reconstruct), request); };
@@ -273,7 +282,7 @@ void add_compare(CLI::App& app, Request& request) {
   CompareOptions& options = request.compare;
   CLI::App& command = *app.add_subcommand(
       "compare", "Hold flight against the ground model, and say since when it is away");
-  command.add_option("--mission", options.mission, "Mission file")->check(check_path)->required();
+  add_mission_option(command, options.mission);
   CLI::Option_group& flight = *command.add_option_group("Flight", "One of these is needed");
   flight.add_option("--telemetry", options.telemetry, "CSV files, or directories of them")
       ->check(check_path);
@@ -285,8 +294,7 @@ void add_compare(CLI::App& app, Request& request) {
   command.add_option("--model", options.model, "Scenario file, by which flight should go")
       ->check(check_path)
       ->required();
-  command.add_option("--plot", options.plot, "SVG file to write, its name ending in .svg")
-      ->check(check_svg);
+  add_plot_option(command, options.plot);
   command.add_flag("--json", options.json, "Print one JSON object");
   command.callback([&] { request.run = [&] { return compare(request.compare); }; });
 }
@@ -330,17 +338,21 @@ void add_alerts(CLI::App& app, Request& request) {
   });
 }
 
+/// Returns for example "exclude_channel, choose_root or set_target".
+std::string any_action() {
+  std::vector<std::string_view> names = action_names();
+  const std::string_view last = names.back();
+  names.pop_back();
+  return fmt::format("{} or {}", fmt::join(names, ", "), last);
+}
+
 void add_act(CLI::App& app, Request& request) {
   ActOptions& options = request.act;
   CLI::App& command = *app.add_subcommand(
       "act", "Tell the running service what to make of a spacecraft's telemetry");
   command.add_option("--db", options.db, "Archive of the service")->check(check_path)->required();
   command.add_option("--spacecraft", options.spacecraft, "Whose telemetry")->required();
-  command
-      .add_option("--action", options.action,
-                  "exclude_channel, include_channel, exclude_segment, choose_root, set_prior, "
-                  "mark_manoeuvre or set_target")
-      ->required();
+  command.add_option("--action", options.action, any_action())->required();
   command.add_option("--by", options.by, "Who says so")->required();
   command.add_option("--note", options.note, "Why");
   command.add_option("--at", options.at,

@@ -9,18 +9,7 @@
 #include <string>
 
 #include "pipelines/core/expected.h"
-#include "services/program/act.h"
-#include "services/program/alerts.h"
-#include "services/program/batch.h"
-#include "services/program/compare.h"
-#include "services/program/doctor.h"
-#include "services/program/geomag.h"
-#include "services/program/geometry.h"
-#include "services/program/process.h"
-#include "services/program/reconstruct.h"
-#include "services/program/replay.h"
-#include "services/program/serve.h"
-#include "services/program/simulate.h"
+#include "services/program/commands.h"
 
 namespace spindrift {
 

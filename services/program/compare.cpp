@@ -1,5 +1,3 @@
-#include "services/program/compare.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -19,11 +17,11 @@
 #include "services/base/wall_clock.h"
 #include "services/base/warning.h"
 #include "services/processor/processor.h"
+#include "services/program/commands.h"
 #include "services/program/orbit_notice.h"
 #include "services/program/outcome.h"
 #include "services/program/telemetry_input.h"
-#include "services/simulation/comparison_plot.h"
-#include "services/simulation/comparison_text.h"
+#include "services/simulation/comparison_report.h"
 #include "services/simulation/ground_model.h"
 #include "services/simulation/output_file.h"
 

@@ -3,11 +3,19 @@
 #include <fmt/format.h>
 
 #include "services/archive/submit_all.h"
-#include "services/archive/verdict.h"
+#include "services/base/decimals.h"
 #include "services/processor/told.h"
-#include "services/program/disagreement_words.h"
 
 namespace spindrift {
+
+std::string sentence_of(const Disagreement& disagreement) {
+  constexpr int kLeast = 3;
+  const double sigma_deg = disagreement.apart_deg / disagreement.apart_sigmas;
+  return fmt::format(
+      "{} and {} disagree: their axes are {:.{}f} deg apart, {:.1f} times the larger sigma",
+      disagreement.one, disagreement.other, disagreement.apart_deg, decimals_for(sigma_deg, kLeast),
+      disagreement.apart_sigmas);
+}
 
 std::vector<RunNotice> told_disagreements(const std::filesystem::path& db,
                                           const std::string& spacecraft_id,

@@ -12,9 +12,14 @@
 
 #include "pipelines/core/expected.h"
 #include "services/archive/archive.h"
+#include "services/archive/verdict.h"
 #include "services/products/run_notice.h"
 
 namespace spindrift {
+
+/// Returns for example "mean and batch disagree: their axes are 0.310 deg apart, 4.2 times the
+/// larger sigma".
+std::string sentence_of(const Disagreement& disagreement);
 
 /// Warns of every pair of estimators in the stored run that disagree, and returns the notices.
 std::vector<RunNotice> told_disagreements(const std::filesystem::path& db,

@@ -1,5 +1,3 @@
-#include "services/program/doctor.h"
-
 #include <fmt/format.h>
 
 #include <iterator>
@@ -10,12 +8,13 @@
 #include "services/doctor/archive.h"
 #include "services/doctor/disk.h"
 #include "services/doctor/host.h"
-#include "services/doctor/leap_seconds.h"
 #include "services/doctor/missions.h"
 #include "services/doctor/network.h"
 #include "services/doctor/presence.h"
 #include "services/doctor/report.h"
 #include "services/mission/mission.h"
+#include "services/program/commands.h"
+#include "services/program/outcome.h"
 #include "services/program/utc_option.h"
 
 namespace spindrift {
@@ -39,8 +38,7 @@ Expected<doctor::ComingPass> coming_pass(const DoctorOptions& options) {
     return Unexpected{from ? to.error() : from.error()};
   }
   if (*from >= *to) {
-    return Unexpected{{ErrorCode::InvalidConfiguration,
-                       fmt::format("--from {} must lie before --to {}", options.from, options.to)}};
+    return refused(fmt::format("--from {} must lie before --to {}", options.from, options.to));
   }
   return doctor::ComingPass{.from = *from, .to = *to};
 }
@@ -57,7 +55,7 @@ Expected<std::vector<doctor::MissionFacts>> look_at_missions(
     }
   }
   if (!problems.empty()) {
-    return Unexpected{{ErrorCode::InvalidConfiguration, problems}};
+    return refused(problems);
   }
   return missions;
 }

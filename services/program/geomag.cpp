@@ -1,5 +1,3 @@
-#include "services/program/geomag.h"
-
 #include <fmt/format.h>
 
 #include <Eigen/Core>
@@ -20,6 +18,7 @@
 #include "services/base/json_line.h"
 #include "services/base/warning.h"
 #include "services/mission/igrf.h"
+#include "services/program/commands.h"
 #include "services/program/outcome.h"
 #include "services/telemetry/csv.h"
 #include "services/telemetry/parse_row.h"

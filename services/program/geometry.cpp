@@ -1,5 +1,3 @@
-#include "services/program/geometry.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -19,11 +17,11 @@
 #include "services/base/json_line.h"
 #include "services/base/warning.h"
 #include "services/mission/mission.h"
+#include "services/program/commands.h"
 #include "services/program/orbit_notice.h"
 #include "services/program/outcome.h"
 #include "services/program/utc_option.h"
-#include "services/reports/geometry_plot.h"
-#include "services/reports/geometry_text.h"
+#include "services/reports/planned_pass.h"
 #include "services/reports/scale.h"
 #include "services/simulation/output_file.h"
 

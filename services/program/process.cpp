@@ -1,5 +1,3 @@
-#include "services/program/process.h"
-
 #include <fmt/format.h>
 
 #include <csignal>
@@ -17,6 +15,7 @@
 #include "services/mission/mission.h"
 #include "services/processor/processor.h"
 #include "services/processor/told.h"
+#include "services/program/commands.h"
 #include "services/program/comparison_notice.h"
 #include "services/program/orbit_notice.h"
 #include "services/program/outcome.h"

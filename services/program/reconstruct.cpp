@@ -1,5 +1,3 @@
-#include "services/program/reconstruct.h"
-
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
@@ -20,16 +18,16 @@
 #include "services/base/wall_clock.h"
 #include "services/base/warning.h"
 #include "services/mission/mission.h"
-#include "services/operator/request_client.h"
+#include "services/operator/request_socket.h"
 #include "services/processor/pass_computing.h"
 #include "services/processor/processor.h"
 #include "services/processor/separation_solving.h"
+#include "services/program/commands.h"
 #include "services/program/orbit_notice.h"
 #include "services/program/outcome.h"
+#include "services/program/requests.h"
 #include "services/program/telemetry_input.h"
-#include "services/reports/separation_json.h"
-#include "services/reports/separation_plot.h"
-#include "services/reports/separation_text.h"
+#include "services/reports/separation_report.h"
 #include "services/simulation/output_file.h"
 
 namespace spindrift {

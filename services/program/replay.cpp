@@ -1,5 +1,3 @@
-#include "services/program/replay.h"
-
 #include <fmt/format.h>
 
 #include <cstdint>
@@ -13,6 +11,7 @@
 #include "services/base/progress_bar.h"
 #include "services/base/warning.h"
 #include "services/mission/mission.h"
+#include "services/program/commands.h"
 #include "services/program/telemetry_input.h"
 #include "services/program/telemetry_output.h"
 #include "services/telemetry/stray_rows.h"

@@ -1,5 +1,3 @@
-#include "services/program/serve.h"
-
 #include <fmt/format.h>
 #include <poll.h>
 #include <spdlog/spdlog.h>
@@ -34,14 +32,12 @@
 #include "services/operator/request_server.h"
 #include "services/processor/problems.h"
 #include "services/processor/processor.h"
-#include "services/program/act.h"
-#include "services/program/alerts.h"
 #include "services/program/announcer.h"
+#include "services/program/commands.h"
 #include "services/program/comparison_notice.h"
-#include "services/program/json_log.h"
 #include "services/program/orbit_notice.h"
 #include "services/program/outcome.h"
-#include "services/program/reconstruct.h"
+#include "services/program/requests.h"
 #include "services/program/serve_console.h"
 #include "services/program/service_terminal.h"
 #include "services/program/summary_text.h"
@@ -74,7 +70,7 @@ Expected<std::vector<Mission>> load_missions(const std::vector<std::filesystem::
     }
   }
   if (!problems.empty()) {
-    return Unexpected{{ErrorCode::InvalidConfiguration, problems}};
+    return refused(problems);
   }
   return missions;
 }

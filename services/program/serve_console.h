@@ -13,7 +13,7 @@
 #include "services/console/console_feed.h"
 #include "services/console/console_server.h"
 #include "services/mission/mission.h"
-#include "services/program/serve.h"
+#include "services/program/commands.h"
 #include "services/serving/action_inbox.h"
 
 namespace spindrift {

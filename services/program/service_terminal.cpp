@@ -1,6 +1,8 @@
 #include "services/program/service_terminal.h"
 
+#include <fmt/chrono.h>
 #include <fmt/format.h>
+#include <spdlog/formatter.h>
 #include <spdlog/spdlog.h>
 #include <sys/ioctl.h>
 #include <unistd.h>
@@ -8,6 +10,8 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <memory>
+#include <string_view>
 
 #include "pipelines/core/shown.h"
 #include "services/alerts/alert_json.h"
@@ -50,6 +54,26 @@ void log_change(const std::string& spacecraft, const Alert& alert) {
               shown(alert.key), what_changed(alert));
 }
 
+class JsonFormatter : public spdlog::formatter {
+ public:
+  void format(const spdlog::details::log_msg& message, spdlog::memory_buf_t& line) override {
+    using std::chrono::milliseconds;
+    const auto ms =
+        std::chrono::duration_cast<milliseconds>(message.time.time_since_epoch()) % 1000;
+    const std::string_view text{message.payload.data(), message.payload.size()};
+    const auto level = spdlog::level::to_string_view(message.level);
+    const std::string json = json_line(
+        {{"utc", fmt::format("{:%Y-%m-%dT%H:%M:%S}.{:03}Z",
+                             fmt::gmtime(spdlog::log_clock::to_time_t(message.time)), ms.count())},
+         {"level", std::string_view{level.data(), level.size()}},
+         {"text", text}});
+    line.append(json.data(), json.data() + json.size());
+  }
+  std::unique_ptr<spdlog::formatter> clone() const override {
+    return std::make_unique<JsonFormatter>();
+  }
+};
+
 /// Leaves the last column free, since some terminals wrap when it is filled.
 std::size_t columns_of_line() {
   winsize size{};
@@ -64,6 +88,8 @@ TellAs how_to_tell(bool json) {
          : json                       ? TellAs::JsonLines
                                       : TellAs::Lines;
 }
+
+void log_as_json() { spdlog::set_formatter(std::make_unique<JsonFormatter>()); }
 
 ServiceTerminal::ServiceTerminal(const std::vector<Mission>& missions, TellAs as)
     : missions_{missions}, as_{as} {}

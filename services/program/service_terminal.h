@@ -29,6 +29,9 @@ enum class TellAs {
 /// Chooses by the type of standard error. @param json Selects JSON lines if it is no terminal.
 TellAs how_to_tell(bool json);
 
+/// Makes each later log message a JSON object on one line with `utc`, `level` and `text`.
+void log_as_json();
+
 /// Safe to use from any thread; no call blocks for long.
 class ServiceTerminal {
  public:

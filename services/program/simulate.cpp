@@ -1,5 +1,3 @@
-#include "services/program/simulate.h"
-
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
@@ -19,10 +17,10 @@
 #include "services/base/progress_bar.h"
 #include "services/base/wall_clock.h"
 #include "services/base/warning.h"
+#include "services/program/commands.h"
 #include "services/program/outcome.h"
 #include "services/program/telemetry_output.h"
 #include "services/simulation/flight_plot.h"
-#include "services/simulation/loop_plot.h"
 #include "services/simulation/monte_carlo_text.h"
 #include "services/simulation/output_file.h"
 #include "services/simulation/pass_files.h"

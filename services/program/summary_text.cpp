@@ -24,8 +24,8 @@
 #include "services/base/warning.h"
 #include "services/products/to_json.h"
 #include "services/program/batch_text.h"
-#include "services/program/disagreement_words.h"
-#include "services/reports/separation_json.h"
+#include "services/program/comparison_notice.h"
+#include "services/reports/separation_report.h"
 
 namespace spindrift {
 namespace {
@@ -286,6 +286,21 @@ nlohmann::json to_json(const AttitudeEstimate& attitude) {
   return object;
 }
 
+template <class Value>
+Expected<void> put(Expected<Value>&& found, Value& place) {
+  return std::move(found).map([&](Value&& value) { place = std::move(value); });
+}
+
+/// Adds to the summary what only the archive knows.
+Expected<void> complete(RunSummary& summary, const std::filesystem::path& db) {
+  const std::string& run_id = summary.run_id;
+  return put(count_stored_edges(db, run_id), summary.edges_stored)
+      .and_then([&] { return put(find_verdict(db, run_id), summary.verdict); })
+      .and_then([&] { return put(find_faults(db, run_id), summary.faults); })
+      .and_then([&] { return put(count_contradictions(db, run_id), summary.contradictions); })
+      .and_then([&] { return put(find_disagreements(db, run_id), summary.disagreements); });
+}
+
 }  // namespace
 
 nlohmann::json to_json(const SpinEstimate& estimate) { return estimate_json(estimate); }
@@ -406,31 +421,9 @@ Expected<std::string> report(const Processor& processor, const std::filesystem::
   const auto& other_spacecraft = processor.other_spacecraft();
   std::vector<RunSummary> summaries = processor.summaries();
   for (RunSummary& summary : summaries) {
-    const auto stored = count_stored_edges(db, summary.run_id);
-    if (!stored) {
-      return Unexpected{stored.error()};
+    if (const auto completed = complete(summary, db); !completed) {
+      return Unexpected{completed.error()};
     }
-    summary.edges_stored = *stored;
-    auto verdict = find_verdict(db, summary.run_id);
-    if (!verdict) {
-      return Unexpected{verdict.error()};
-    }
-    summary.verdict = *std::move(verdict);
-    auto faults = find_faults(db, summary.run_id);
-    if (!faults) {
-      return Unexpected{faults.error()};
-    }
-    summary.faults = *std::move(faults);
-    auto contradictions = count_contradictions(db, summary.run_id);
-    if (!contradictions) {
-      return Unexpected{contradictions.error()};
-    }
-    summary.contradictions = *std::move(contradictions);
-    auto disagreements = find_disagreements(db, summary.run_id);
-    if (!disagreements) {
-      return Unexpected{disagreements.error()};
-    }
-    summary.disagreements = *std::move(disagreements);
   }
   if (json) {
     nlohmann::json object{{"db", db.string()},

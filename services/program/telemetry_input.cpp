@@ -12,6 +12,7 @@
 #include "services/base/counted.h"
 #include "services/base/sha256.h"
 #include "services/processor/told.h"
+#include "services/program/outcome.h"
 #include "services/telemetry/telemetry_rows.h"
 
 namespace spindrift {
@@ -46,13 +47,13 @@ RejectedInput empty_file(const TelemetryFile& file) {
           .reason = "the file is empty: must begin with a header line"};
 }
 
-Error nothing_in(std::span<const TelemetryFile> files) {
+Unexpected nothing_in(std::span<const TelemetryFile> files) {
   std::string text = "no row of telemetry: files with a header line and rows are needed";
   for (const TelemetryFile& file : files) {
     text += fmt::format("\n  {}: {}", shown(file.path.string()),
                         file.kind ? "no rows" : "empty, without a header");
   }
-  return {ErrorCode::InvalidConfiguration, text};
+  return refused(text);
 }
 
 }  // namespace
@@ -115,7 +116,7 @@ Expected<TelemetryInput> TelemetryInput::open(std::span<const std::filesystem::p
       return Unexpected{bad.error()};
     }
     if (bad->count > 0) {
-      return Unexpected{{ErrorCode::InvalidConfiguration, bad->text()}};
+      return refused(bad->text());
     }
   }
   auto stream = TelemetryStream::open(*files, spacecraft);
@@ -127,7 +128,7 @@ Expected<TelemetryInput> TelemetryInput::open(std::span<const std::filesystem::p
     return Unexpected{std::move(first.error())};
   }
   if (is_empty(*first)) {
-    return Unexpected{nothing_in(*files)};
+    return nothing_in(*files);
   }
   for (const TelemetryFile& file : *files) {
     if (!file.kind) {

@@ -1,5 +1,3 @@
-#include "services/reports/geometry_plot.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -13,7 +11,7 @@
 #include "pipelines/spin/sensor_model/geometry.h"
 #include "services/base/degrees.h"
 #include "services/reports/colours.h"
-#include "services/reports/geometry_text.h"
+#include "services/reports/planned_pass.h"
 #include "services/reports/time_page.h"
 
 namespace spindrift {
@@ -21,6 +19,7 @@ namespace {
 
 using plot::Bar;
 using plot::Curve;
+using plot::curve_of;
 using plot::State;
 using plot::TimePage;
 
@@ -33,24 +32,13 @@ constexpr std::string_view kHalf = "#f5d58a";
 constexpr std::string_view kSpoilt = "#e58f7b";
 constexpr std::string_view kNothing = "#eeeeee";
 
-using Value = std::function<std::optional<double>(const PassStep&)>;
-
-Curve curve_of(const PlannedPass& pass, std::string name, std::string_view colour,
-               const Value& value) {
-  Curve curve{.name = std::move(name), .colour = colour, .values = {}};
-  for (const PassStep& step : pass.plan.steps) {
-    curve.values.push_back(value(step));
-  }
-  return curve;
-}
-
 std::optional<double> deg(const std::optional<double>& angle_rad) {
   return angle_rad ? std::optional{*angle_rad * kDegPerRad} : std::nullopt;
 }
 
 void add_angles(TimePage& page, const PlannedPass& pass) {
-  const auto angle = [&](const char* name, std::string_view colour, const Value& value) {
-    return curve_of(pass, name, colour, value);
+  const auto angle = [&](const char* name, std::string_view colour, const auto& value) {
+    return curve_of(name, colour, pass.plan.steps, value);
   };
   std::vector<Curve> curves = {
       angle("sun angle", kSun, [](const auto& s) { return deg(s.geometry.angles.sun_angle_rad); }),
@@ -70,23 +58,6 @@ void add_angles(TimePage& page, const PlannedPass& pass) {
              curves);
 }
 
-struct Range {
-  double low;
-  double high;
-};
-
-/// Returns the range of all values, which contains at least `low` to `high`.
-Range range_of(const std::vector<Curve>& curves, double low, double high) {
-  Range range{.low = low, .high = high};
-  for (const Curve& curve : curves) {
-    for (const auto& value : curve.values) {
-      range.low = std::min(range.low, value.value_or(low));
-      range.high = std::max(range.high, value.value_or(high));
-    }
-  }
-  return range;
-}
-
 std::vector<Curve> of_both_beams(
     const PlannedPass& pass,
     const std::function<std::optional<double>(const BeamGeometry&)>& value) {
@@ -94,7 +65,8 @@ std::vector<Curve> of_both_beams(
   for (const Side side : kSides) {
     if (sensor_of(pass.config, side)) {
       curves.push_back(curve_of(
-          pass, side == Side::North ? "north" : "south", side == Side::North ? kNorth : kSouth,
+          side == Side::North ? "north" : "south", side == Side::North ? kNorth : kSouth,
+          pass.plan.steps,
           [&](const PassStep& step) { return value(step.geometry.beams.at(index_of(side))); }));
     }
   }
@@ -105,24 +77,12 @@ void add_chords(TimePage& page, const PlannedPass& pass) {
   const std::vector<Curve> curves =
       of_both_beams(pass, [](const BeamGeometry& beam) { return deg(beam.chord_rad); });
   const double high = 1.05 * range_of(curves, 0.0, 1.0).high;
-  page.panel(130.0,
-             {.title = "Chord across the Earth, deg",
-              .is_logarithmic = false,
-              .low = 0.0,
-              .high = high,
-              .ticks = plot::linear_ticks(0.0, high, 5)},
-             curves);
+  page.panel(130.0, plot::linear_axis("Chord across the Earth, deg", 0.0, high, 5), curves);
 }
 
 void add_delta(TimePage& page, const PlannedPass& pass) {
   const SpinGeometry& limits = pass.config.geometry;
-  constexpr double kLeast = 1e-3;
-  page.panel(130.0,
-             {.title = "|Delta|, of a fix by one chord",
-              .is_logarithmic = true,
-              .low = kLeast,
-              .high = 1.0,
-              .ticks = plot::decades(kLeast, 1.0)},
+  page.panel(130.0, plot::logarithmic_axis("|Delta|, of a fix by one chord", 1e-3, 1.0),
              of_both_beams(pass,
                            [](const BeamGeometry& beam) {
                              return beam.delta ? std::optional{std::abs(*beam.delta)}
@@ -138,19 +98,16 @@ void add_delta(TimePage& page, const PlannedPass& pass) {
 
 void add_sigma(TimePage& page, const PlannedPass& pass) {
   const std::vector<Curve> curves = {
-      curve_of(pass, "fix of one turn", plot::kGrey,
+      curve_of("fix of one turn", plot::kGrey, pass.plan.steps,
                [](const PassStep& step) { return deg(step.geometry.fix.sigma_rad); }),
-      curve_of(pass, "all edges so far", kNorth,
+      curve_of("all edges so far", kNorth, pass.plan.steps,
                [](const PassStep& step) { return deg(step.sigma_rad); })};
   const auto [least, most] = range_of(curves, 0.1, 1.0);
   const double low = std::pow(10.0, std::floor(std::log10(least)));
   const double high = std::pow(10.0, std::ceil(std::log10(most)));
   page.panel(180.0,
-             {.title = "Sigma of the axis to expect (both directions together), deg",
-              .is_logarithmic = true,
-              .low = low,
-              .high = high,
-              .ticks = plot::decades(low, high)},
+             plot::logarithmic_axis("Sigma of the axis to expect (both directions together), deg",
+                                    low, high),
              curves);
 }
 

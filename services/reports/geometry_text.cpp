@@ -1,7 +1,6 @@
-#include "services/reports/geometry_text.h"
-
 #include <fmt/format.h>
 
+#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -11,7 +10,8 @@
 #include "pipelines/time/utc.h"
 #include "services/base/decimals.h"
 #include "services/base/degrees.h"
-#include "services/reports/condition_words.h"
+#include "services/base/filled.h"
+#include "services/reports/planned_pass.h"
 
 namespace spindrift {
 namespace {
@@ -23,6 +23,35 @@ constexpr std::string_view kLegend =
     "Delta: ? two roots to tell apart, ! ambiguous; edges: sun 1 2, in and out of north N n and\n"
     "south S s, x spoilt by interference; case: * several axes; sigma: both directions together,\n"
     "1 turn: of the fix that one turn gives, all: the least that all edges so far allow\n";
+
+using enum PassConditionCode;
+constexpr std::array<Pattern<PassConditionCode>, kPassConditionCodes> kConditionPatterns{{
+    {OneAxis, "fix by case {geometry_case}: one axis"},
+    {SeveralAxes, "fix by case {geometry_case}: several axes, for a prior or time to tell apart"},
+    {NoFixInLine, "no fix (case {geometry_case}): Sun and Earth in line"},
+    {NoFixNoise, "no fix (case {geometry_case}): the noise leaves the axis open"},
+    {NoFixBothChords,
+     "no fix (case {geometry_case}): both chords without the Sun give a cone about the Earth"},
+    {NoFixSunAngle,
+     "no fix (case {geometry_case}): the sun angle alone gives a cone about the Sun"},
+    {NoFixOneChord, "no fix (case {geometry_case}): a chord alone gives cones about the Earth"},
+    {NoFixNothing, "no fix (case {geometry_case}): nothing that tells of the axis"},
+    {SunHidden, "the Earth hides the Sun: no sun pulses"},
+    {SunNearAxis, "the Sun stands too near the spin axis for either slit"},
+    {SunOutsideSlit2, "slit 2 cannot see the Sun"},
+    {InLine, "Sun and Earth in line, within 3 deg"},
+    {BeamMisses, "{beam} beam misses the Earth"},
+    {BeamNearTangent, "{beam} beam only grazes the Earth: no edge to rely on"},
+    {BeamCrosses, "{beam} beam sees the Earth"},
+    {BeamInside, "{beam} beam stays on the Earth all the turn: no edge"},
+    {ChordTwoRoots,
+     "|Delta| < {determinant_usable} ({beam}): a fix by its chord alone has two roots to tell "
+     "apart"},
+    {ChordAmbiguous,
+     "|Delta| <= {determinant_ambiguous} ({beam}): a fix by its chord alone is ambiguous"},
+    {ChannelsMeet, "interference: {one} and {other} meet"},
+}};
+static_assert(are_by_code(kConditionPatterns));
 
 std::string_view name_of(BeamSight view) {
   switch (view) {
@@ -181,6 +210,10 @@ nlohmann::json to_json(const PassEvent& event) {
 }
 
 }  // namespace
+
+std::string sentence_of(const PassCondition& condition) {
+  return filled(pattern_of(kConditionPatterns, condition.code), condition.values, 0);
+}
 
 std::string title_of(const PlannedPass& pass) {
   const auto [ra_deg, dec_deg] = place_deg(pass.request.axis_icrf);

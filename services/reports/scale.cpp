@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 namespace spindrift::plot {
 
@@ -63,6 +64,22 @@ double time_step_s(double least_s) {
   const auto* const step = std::find_if(kSteps.begin(), kSteps.end(),
                                         [least_s](double each) { return each >= least_s; });
   return step != kSteps.end() ? *step : kDay * std::ceil(least_s / kDay);
+}
+
+ValueAxis linear_axis(std::string title, double low, double high, int most_ticks) {
+  return {.title = std::move(title),
+          .is_logarithmic = false,
+          .low = low,
+          .high = high,
+          .ticks = linear_ticks(low, high, most_ticks)};
+}
+
+ValueAxis logarithmic_axis(std::string title, double low, double high) {
+  return {.title = std::move(title),
+          .is_logarithmic = true,
+          .low = low,
+          .high = high,
+          .ticks = decades(low, high)};
 }
 
 }  // namespace spindrift::plot

@@ -1,5 +1,3 @@
-#include "services/reports/separation_json.h"
-
 #include <cstddef>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -8,6 +6,7 @@
 #include "services/base/assessment_words.h"
 #include "services/base/degrees.h"
 #include "services/base/reasons_json.h"
+#include "services/reports/separation_report.h"
 
 namespace spindrift {
 namespace {

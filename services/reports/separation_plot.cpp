@@ -1,5 +1,3 @@
-#include "services/reports/separation_plot.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -13,6 +11,7 @@
 #include "pipelines/frames/rotation_vector.h"
 #include "services/base/degrees.h"
 #include "services/reports/colours.h"
+#include "services/reports/separation_report.h"
 #include "services/reports/time_page.h"
 
 namespace spindrift {
@@ -108,21 +107,10 @@ Curve curve_beside(const History& history, const History& other, std::string nam
 }
 
 plot::ValueAxis decades_of(std::string title, const std::vector<Curve>& curves) {
-  double least = 1.0;
-  double most = 0.01;
-  for (const Curve& curve : curves) {
-    for (const auto& deg : curve.values) {
-      least = std::min(least, deg.value_or(least));
-      most = std::max(most, deg.value_or(most));
-    }
-  }
+  const auto [least, most] = range_of(curves, 1.0, 0.01);
   const double low = std::max(1e-4, std::pow(10.0, std::floor(std::log10(least))));
   const double high = std::pow(10.0, std::ceil(std::log10(most)));
-  return {.title = std::move(title),
-          .is_logarithmic = true,
-          .low = low,
-          .high = high,
-          .ticks = plot::decades(low, high)};
+  return plot::logarithmic_axis(std::move(title), low, high);
 }
 
 void add_errors(TimePage& page, const SeparationReport& report) {

@@ -1,5 +1,3 @@
-#include "services/reports/separation_text.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -14,6 +12,7 @@
 #include "services/base/counted.h"
 #include "services/base/decimals.h"
 #include "services/base/degrees.h"
+#include "services/reports/separation_report.h"
 
 namespace spindrift {
 namespace {

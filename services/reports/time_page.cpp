@@ -57,6 +57,17 @@ void spread(std::vector<double>& heights, double lowest) {
 
 }  // namespace
 
+Range range_of(const std::vector<Curve>& curves, double low, double high) {
+  Range range{.low = low, .high = high};
+  for (const Curve& curve : curves) {
+    for (const auto& value : curve.values) {
+      range.low = std::min(range.low, value.value_or(low));
+      range.high = std::max(range.high, value.value_or(high));
+    }
+  }
+  return range;
+}
+
 TimePage::TimePage(std::string title, std::string_view subtitle, std::vector<TaiTime> times,
                    std::vector<Mark> marks)
     : title_{std::move(title)},

@@ -6,10 +6,10 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "pipelines/time/tai_time.h"
-#include "services/reports/axis.h"
 #include "services/reports/scale.h"
 #include "services/reports/svg.h"
 
@@ -23,6 +23,23 @@ struct Curve {
   /// Half-widths of a band about the curve at each time of the page; empty: there is no band.
   std::vector<double> half_widths = {};
 };
+
+/// Returns a curve with `value(each)` at each of `all`, which stand for the times of the page.
+template <class All, class Value>
+Curve curve_of(std::string name, std::string_view colour, const All& all, const Value& value) {
+  Curve curve{.name = std::move(name), .colour = colour, .values = {}};
+  for (const auto& each : all) {
+    curve.values.push_back(value(each));
+  }
+  return curve;
+}
+
+struct Range {
+  double low;
+  double high;
+};
+/// Returns the range of all values, which contains at least `low` and `high`.
+Range range_of(const std::vector<Curve>& curves, double low, double high);
 
 /// An instant that is shown in all panels.
 struct Mark {

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "services/reports/axis.h"
+#include "services/reports/scale.h"
 #include "services/reports/svg.h"
 
 namespace spindrift::plot {

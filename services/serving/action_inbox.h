@@ -3,18 +3,48 @@
 
 #pragma once
 
+#include <chrono>
+#include <condition_variable>
+#include <cstddef>
+#include <mutex>
 #include <nlohmann/json.hpp>
+#include <set>
+#include <span>
 #include <string>
 #include <utility>
 
 #include "pipelines/core/expected.h"
 #include "services/archive/archive.h"
+#include "services/archive/records.h"
 #include "services/base/bounded_queue.h"
 #include "services/operator/parse_action.h"
-#include "services/serving/stored_actions.h"
 #include "services/telemetry/sample_batch.h"
 
 namespace spindrift {
+
+/// Lets callers wait until their actions are stored. May be used by any thread.
+class StoredActions {
+ public:
+  /// More waiting actions are not entered by people, or the archive does not store.
+  static constexpr std::size_t kMostAwaited = 64;
+
+  /// Registers an action before it is queued.
+  /// @return False when kMostAwaited actions are not stored yet.
+  bool expect(const std::string& action_id);
+  void forget(const std::string& action_id);
+
+  /// Notes the actions stored by a commit.
+  void note(std::span<const ArchiveBatch> stored);
+
+  /// Waits until a registered action is stored.
+  /// @return False when it is not stored within `at_most`.
+  bool wait(const std::string& action_id, std::chrono::seconds at_most);
+
+ private:
+  std::mutex mutex_;
+  std::condition_variable stored_;
+  std::set<std::string> awaited_;
+};
 
 /// Accepts operators' actions. May be used by any thread.
 class ActionInbox {

@@ -4,15 +4,21 @@
 #pragma once
 
 #include <algorithm>
+#include <atomic>
 #include <cstddef>
 #include <utility>
 
 #include "services/archive/archive.h"
 #include "services/base/bounded_queue.h"
 #include "services/processor/background_task.h"
-#include "services/serving/patience.h"
 
 namespace spindrift {
+
+/// Tells the threads of `serve` how long they may go on.
+struct Patience {
+  std::atomic<bool> stopping = false;
+  std::atomic<bool> ended = false;  ///< Stored samples are no longer computed.
+};
 
 /// Limit of waiting tasks: enough for a minute of many spacecraft, or for hours of a replay.
 inline constexpr std::size_t kMostBackgroundTasks = 256;

@@ -11,7 +11,6 @@
 #include "services/base/bounded_queue.h"
 #include "services/processor/processor.h"
 #include "services/serving/background_solving.h"
-#include "services/serving/patience.h"
 
 namespace spindrift {
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
+#include <systemd/sd-daemon.h>
 
 #include <algorithm>
 #include <chrono>
@@ -11,7 +12,6 @@
 #include "services/base/contained.h"
 #include "services/base/every.h"
 #include "services/base/wall_clock.h"
-#include "services/serving/service_manager.h"
 
 namespace spindrift {
 namespace {
@@ -31,11 +31,44 @@ SequenceCounts total(const TelemetrySubscriberStatus& status) {
 
 }  // namespace
 
-Heartbeat::Heartbeat(Watched watched, ThreadFailures& failures)
-    : watched_{std::move(watched)},
-      failures_{failures},
+// A refusal of the archive is not reported here: whoever closes the archive gets the error.
+AlertOutbox::AlertOutbox(const ServiceParts& parts)
+    : parts_{parts}, thread_{[this] {
+        parts_.failures.note(contained("storing alerts", [this] {
+          while (auto batch = waiting_.take()) {
+            if (!parts_.archive.submit(*std::move(batch))) {
+              return;
+            }
+          }
+        }));
+      }} {}
+
+AlertOutbox::~AlertOutbox() {
+  waiting_.close();
+  thread_.join();
+}
+
+void AlertOutbox::push(ArchiveBatch batch) {
+  parts_.announce(batch);
+  if (waiting_.size() < kMostWaiting) {
+    waiting_.push(std::move(batch));
+  } else {
+    parts_.desk.take_back(batch);
+  }
+}
+
+Heartbeat::Heartbeat(const ServiceParts& parts, const Heard& heard,
+                     const TelemetrySubscriber& subscriber, const BoundedQueue<PassInput>& work)
+    : parts_{parts},
+      heard_{heard},
+      subscriber_{subscriber},
+      work_{work},
+      outbox_{parts},
+      service_{parts, heard},
+      verdicts_{parts.db, parts.processor.spacecraft(), parts.desk, parts.on_verdict,
+                parts.failures},
       thread_{[this](const std::stop_token& stop) {
-        failures_.note(contained("heartbeat", [&] { run(stop); }));
+        parts_.failures.note(contained("heartbeat", [&] { run(stop); }));
       }} {}
 
 Heartbeat::~Heartbeat() = default;
@@ -45,7 +78,7 @@ void Heartbeat::run(const std::stop_token& stop) {
 }
 
 void Heartbeat::beat() {
-  const auto status = watched_.subscriber.status();
+  const auto status = subscriber_.status();
   if (!status) {
     say_once(status.error().message);
     return;
@@ -53,20 +86,21 @@ void Heartbeat::beat() {
   for (const std::string& writer : status->reader.incompatible_writers) {
     say_once(writer);
   }
-  if (const auto readers = watched_.publisher.incompatible_readers()) {
+  if (const auto readers = parts_.publisher.incompatible_readers()) {
     for (const std::string& reader : *readers) {
       say_once(reader);
     }
   }
   note_losses(*status);
-  note_storing(watched_.archive.statistics().failure);
+  note_storing(parts_.archive.statistics().failure);
   publish_health(*status);
   if (status->taking) {
-    tell_manager_alive();
+    static_cast<void>(sd_notify(0, "WATCHDOG=1"));  // Feeds the watchdog, if there is systemd.
     supervise(*status);
   }
   if (!status->taking && !status->failure.empty() && !std::exchange(failed_, true)) {
-    failures_.note(Unexpected{{ErrorCode::Unavailable, "not taking samples: " + status->failure}});
+    parts_.failures.note(
+        Unexpected{{ErrorCode::Unavailable, "not taking samples: " + status->failure}});
   }
 }
 
@@ -110,7 +144,7 @@ std::vector<std::string> Heartbeat::problems(const TelemetrySubscriberStatus& st
   const auto& writers = status.reader.incompatible_writers;
   found.insert(found.end(), writers.begin(), writers.end());
   const auto others =
-      watched_.problems.since(std::chrono::steady_clock::now() - LinkWatch::kStaleAfter);
+      parts_.problems.since(std::chrono::steady_clock::now() - LinkWatch::kStaleAfter);
   found.insert(found.end(), others.begin(), others.end());
   if (!gaps_.empty()) {
     found.push_back("samples missing: " + to_text(gaps_));
@@ -119,44 +153,43 @@ std::vector<std::string> Heartbeat::problems(const TelemetrySubscriberStatus& st
 }
 
 std::vector<SpacecraftHealth> Heartbeat::spacecraft() const {
-  auto all = watched_.links.report(std::chrono::steady_clock::now());
+  auto all = heard_.links.report(std::chrono::steady_clock::now());
   for (SpacecraftHealth& one : all) {
-    one.verdict = watched_.verdicts.of(one.spacecraft);
+    one.verdict = verdicts_.of(one.spacecraft);
   }
   return all;
 }
 
 void Heartbeat::publish_health(const TelemetrySubscriberStatus& status) {
   const SequenceCounts counts = total(status);
-  const ArchiveStatistics archive = watched_.archive.statistics();
+  const ArchiveStatistics archive = parts_.archive.statistics();
   const std::vector<std::string> found = problems(status, archive.failure);
-  const Health health{
-      .t = tai_now(),
-      .samples_received = counts.received,
-      .samples_committed = archive.samples_committed,
-      .gaps = counts.missing,
-      .duplicates = counts.duplicates,
-      .queue_depth = watched_.taken.size() + watched_.work.size() + archive.queued_batches,
-      .commit_p99_ms = archive.commit_p99_ms.value_or(0.0),
-      .status = found.empty() ? "ok" : found.front(),
-      .message = fmt::format("{}", fmt::join(found, "\n")),
-      .spacecraft = spacecraft(),
-      .works = (status.taking || status.failure.empty()) && !archive.failure};
-  watched_.on_health(health);
-  const auto published = watched_.publisher.publish(health);
+  const Health health{.t = tai_now(),
+                      .samples_received = counts.received,
+                      .samples_committed = archive.samples_committed,
+                      .gaps = counts.missing,
+                      .duplicates = counts.duplicates,
+                      .queue_depth = parts_.taken.size() + work_.size() + archive.queued_batches,
+                      .commit_p99_ms = archive.commit_p99_ms.value_or(0.0),
+                      .status = found.empty() ? "ok" : found.front(),
+                      .message = fmt::format("{}", fmt::join(found, "\n")),
+                      .spacecraft = spacecraft(),
+                      .works = (status.taking || status.failure.empty()) && !archive.failure};
+  parts_.on_health(health);
+  const auto published = parts_.publisher.publish(health);
   if (!published) {
     say_once(published.error().message);
   }
 }
 
 void Heartbeat::supervise(const TelemetrySubscriberStatus& status) {
-  const auto states = watched_.service.look(status, gaps_);
+  const auto states = service_.look(status, gaps_);
   if (!states) {
     say_once(states.error().message);
     return;
   }
-  for (ArchiveBatch& batch : watched_.desk.see(*states, watched_.service.t())) {
-    watched_.outbox.push(std::move(batch));
+  for (ArchiveBatch& batch : parts_.desk.see(*states, service_.t())) {
+    outbox_.push(std::move(batch));
   }
 }
 

@@ -3,8 +3,8 @@
 
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <map>
 #include <optional>
 #include <set>
@@ -12,40 +12,44 @@
 #include <thread>
 #include <vector>
 
-#include "services/archive/archive.h"
+#include "services/archive/records.h"
+#include "services/base/bounded_queue.h"
 #include "services/ingest/telemetry_subscriber.h"
 #include "services/processor/pass_input.h"
-#include "services/processor/problems.h"
-#include "services/publisher/result_publisher.h"
-#include "services/serving/alert_outbox.h"
-#include "services/serving/gap_watch.h"
-#include "services/serving/link_watch.h"
+#include "services/serving/routing.h"
+#include "services/serving/service_run.h"
 #include "services/serving/service_watch.h"
-#include "services/serving/thread_failures.h"
 #include "services/serving/verdict_watch.h"
 
 namespace spindrift {
 
+/// Passes on alerts of the service itself: announced at once, stored as soon as the archive works.
+/// Used by one thread, which never waits for the archive.
+class AlertOutbox {
+ public:
+  /// @param parts Must outlive this object.
+  explicit AlertOutbox(const ServiceParts& parts);
+  ~AlertOutbox();
+  AlertOutbox(const AlertOutbox&) = delete;
+  AlertOutbox& operator=(const AlertOutbox&) = delete;
+  AlertOutbox(AlertOutbox&&) = delete;
+  AlertOutbox& operator=(AlertOutbox&&) = delete;
+
+  void push(ArchiveBatch batch);
+
+ private:
+  static constexpr std::size_t kMostWaiting = 1024;
+
+  const ServiceParts& parts_;
+  BoundedQueue<ArchiveBatch> waiting_{kMostWaiting};
+  std::thread thread_;  // Declared last because it uses the other members.
+};
+
 class Heartbeat {
  public:
-  /// The parts of the service to report on. All must outlive the heartbeat.
-  struct Watched {
-    const TelemetrySubscriber& subscriber;
-    const BoundedQueue<SampleBatch>& taken;
-    const BoundedQueue<PassInput>& work;
-    const Archive& archive;
-    const ResultPublisher& publisher;
-    const LinkWatch& links;
-    const VerdictWatch& verdicts;
-    const Problems& problems;
-    ServiceWatch& service;
-    AlertDesk& desk;
-    AlertOutbox& outbox;
-    std::function<void(const Health&)> on_health;  ///< Must not wait.
-  };
-
-  /// @param failures Is told when taking samples fails; must outlive the heartbeat.
-  Heartbeat(Watched watched, ThreadFailures& failures);
+  /// All arguments must outlive the heartbeat.
+  Heartbeat(const ServiceParts& parts, const Heard& heard, const TelemetrySubscriber& subscriber,
+            const BoundedQueue<PassInput>& work);
   ~Heartbeat();
   Heartbeat(const Heartbeat&) = delete;
   Heartbeat& operator=(const Heartbeat&) = delete;
@@ -64,8 +68,13 @@ class Heartbeat {
   void supervise(const TelemetrySubscriberStatus& status);
   void say_once(const std::string& problem);
 
-  Watched watched_;
-  ThreadFailures& failures_;
+  const ServiceParts& parts_;
+  const Heard& heard_;
+  const TelemetrySubscriber& subscriber_;
+  const BoundedQueue<PassInput>& work_;
+  AlertOutbox outbox_;
+  ServiceWatch service_;
+  VerdictWatch verdicts_;
   std::set<std::string> said_;
   GapWatch gap_watch_;
   std::map<std::string, std::uint64_t> gaps_;  ///< Lasting gaps as last reported.

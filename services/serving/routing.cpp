@@ -7,7 +7,6 @@
 
 #include "services/archive/submit_all.h"
 #include "services/base/wall_clock.h"
-#include "services/serving/silence_watch.h"
 
 namespace spindrift {
 namespace {

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
+#include <systemd/sd-daemon.h>
 
 #include <algorithm>
 #include <atomic>
@@ -18,14 +19,10 @@
 #include "services/base/contained.h"
 #include "services/base/warning.h"
 #include "services/ingest/telemetry_subscriber.h"
-#include "services/serving/alert_outbox.h"
 #include "services/serving/background_solving.h"
 #include "services/serving/computing.h"
 #include "services/serving/heartbeat.h"
-#include "services/serving/patience.h"
 #include "services/serving/routing.h"
-#include "services/serving/service_manager.h"
-#include "services/serving/service_watch.h"
 
 namespace spindrift {
 namespace {
@@ -179,7 +176,7 @@ Expected<void> run_service(GoneOn gone_on, const ServiceParts& parts) {
   note_stored(gone_on, parts.processor, heard, parts.desk);
   Patience patience;
   parts.stop_signal.on_stop([&] {
-    tell_manager_stopping();
+    static_cast<void>(sd_notify(0, "STOPPING=1"));
     spdlog::info("stopping");
     patience.stopping = true;
     parts.failures.note(contained("stopping", [&] { subscriber.stop(); }));
@@ -190,31 +187,9 @@ Expected<void> run_service(GoneOn gone_on, const ServiceParts& parts) {
         "watching the stop", [&] { lose_patience(done, patience, parts.taken, parts.archive); }));
   }};
   {
-    AlertOutbox outbox{parts.archive, parts.desk, parts.announce, parts.failures};
-    ServiceWatch service{{.missions = parts.missions,
-                          .mode = parts.mode,
-                          .db = parts.db,
-                          .archive = parts.archive,
-                          .taken = parts.taken,
-                          .links = heard.links,
-                          .sessions = heard.sessions,
-                          .others = parts.told.others,
-                          .clocks = parts.told.clocks}};
-    const VerdictWatch verdicts{parts.db, spacecraft, parts.desk, parts.on_verdict, parts.failures};
-    const Heartbeat heartbeat{{.subscriber = subscriber,
-                               .taken = parts.taken,
-                               .work = work,
-                               .archive = parts.archive,
-                               .publisher = parts.publisher,
-                               .links = heard.links,
-                               .verdicts = verdicts,
-                               .problems = parts.problems,
-                               .service = service,
-                               .desk = parts.desk,
-                               .outbox = outbox,
-                               .on_health = parts.on_health},
-                              parts.failures};
-    tell_manager_ready();
+    const Heartbeat heartbeat{parts, heard, subscriber, work};
+    // Without systemd there is nobody to notify, which is no error.
+    static_cast<void>(sd_notify(0, "READY=1"));
     spdlog::info("ready");
     route_and_compute(std::move(gone_on.routed.work), work, patience, heard, parts);
   }

@@ -36,9 +36,10 @@ std::optional<double> free_gib(const std::filesystem::path& db) {
 
 }  // namespace
 
-ServiceWatch::ServiceWatch(const Watched& watched) : watched_{watched} {
+ServiceWatch::ServiceWatch(const ServiceParts& parts, const Heard& heard)
+    : parts_{parts}, heard_{heard} {
   const auto leap_seconds = leap_seconds_until();
-  for (const Mission& mission : watched.missions) {
+  for (const Mission& mission : parts.missions) {
     auto& until = data_until_[mission.spacecraft_id];
     if (leap_seconds) {
       until.emplace("leap_seconds", *leap_seconds);
@@ -56,13 +57,14 @@ Expected<ServiceWatch::States> ServiceWatch::look(
     const TelemetrySubscriberStatus& status, const std::map<std::string, std::uint64_t>& gaps) {
   const Instant now = std::chrono::steady_clock::now();
   note_time(now);
-  const auto others = watched_.clocks.look().and_then([&] { return watched_.others.look(now); });
+  const auto others =
+      parts_.told.clocks.look().and_then([&] { return parts_.told.others.look(now); });
   if (!others) {
     return Unexpected{others.error()};
   }
   const ServiceState of_service = state_of_service(now);
   States states;
-  for (const SpacecraftHealth& link : watched_.links.report(now)) {
+  for (const SpacecraftHealth& link : heard_.links.report(now)) {
     if (!link.data_age_s) {
       continue;
     }
@@ -71,7 +73,7 @@ Expected<ServiceWatch::States> ServiceWatch::look(
     if (const auto other = others->find(link.spacecraft); other != others->end()) {
       state.other_service = other->second;
     }
-    state.sources = watched_.sessions.report(link.spacecraft, gaps);
+    state.sources = heard_.sessions.report(link.spacecraft, gaps);
     const SpacecraftCounts& counts = status.by_spacecraft.at(link.spacecraft);
     state.received = static_cast<std::int64_t>(counts.received);
     state.rejected = static_cast<std::int64_t>(counts.rejected);
@@ -96,16 +98,16 @@ void ServiceWatch::note_time(Instant now) {
 }
 
 ServiceState ServiceWatch::state_of_service(Instant now) {
-  const ArchiveStatistics archive = watched_.archive.statistics();
+  const ArchiveStatistics archive = parts_.archive.statistics();
   const bool failed =
       archive.failure || archive.failures > std::exchange(failures_, archive.failures);
   return {.t = t_,
           .pass_t = t_,
           .silent_s = std::nullopt,
           .late_s = std::nullopt,
-          .backlog_s = backlog_.see(now, watched_.sessions.samples(), archive.samples_committed),
+          .backlog_s = backlog_.see(now, heard_.sessions.samples(), archive.samples_committed),
           .write_failed = failed,
-          .free_gib = free_gib(watched_.db),
+          .free_gib = free_gib(parts_.db),
           .clock_step_s = clock_step_s_};
 }
 
@@ -114,12 +116,12 @@ ServiceState ServiceWatch::state_of_service(Instant now) {
 /// the clock that the rehearsal announces, and that of another replay its own, for which nobody
 /// updates auxiliary data.
 void ServiceWatch::note_link(const SpacecraftHealth& link, ServiceState& state) const {
-  if (watched_.taken.size() == 0 || link.link == LinkState::Live) {
+  if (parts_.taken.size() == 0 || link.link == LinkState::Live) {
     state.silent_s = link.data_age_s;
   }
   const TaiTime heard = later_by_s(*link.last_sample, *link.data_age_s);
-  const auto rehearsal = watched_.clocks.offset(link.spacecraft);
-  if (rehearsal || watched_.mode == RunMode::Live) {
+  const auto rehearsal = parts_.told.clocks.offset(link.spacecraft);
+  if (rehearsal || parts_.mode == RunMode::Live) {
     const auto offset = rehearsal.value_or(std::chrono::nanoseconds{0});
     state.late_s = elapsed_s(heard, later_by(wall_, -offset));
     state.pass_t = later_by(t_, -offset);

@@ -5,40 +5,49 @@
 
 #include <chrono>
 #include <cstdint>
-#include <filesystem>
+#include <deque>
 #include <map>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "pipelines/supervision/service_conditions.h"
-#include "services/archive/archive.h"
-#include "services/ingest/other_services.h"
-#include "services/ingest/rehearsal_clocks.h"
 #include "services/ingest/telemetry_subscriber.h"
-#include "services/mission/mission.h"
-#include "services/serving/backlog_watch.h"
-#include "services/serving/link_watch.h"
-#include "services/serving/session_watch.h"
+#include "services/serving/routing.h"
+#include "services/serving/service_run.h"
 
 namespace spindrift {
 
+/// Measures the age of the oldest sample that is not committed, at the times when it is asked.
+class BacklogWatch {
+ public:
+  using Instant = std::chrono::steady_clock::time_point;
+
+  /// @param come Number of all samples so far.
+  /// @param committed Number of committed samples.
+  /// @return Age of the oldest sample that is not committed, s, counted from the call that first
+  /// saw it.
+  double see(Instant now, std::uint64_t come, std::uint64_t committed) {
+    if (looks_.empty() || looks_.back().come != come) {
+      looks_.push_back({.at = now, .come = come});
+    }
+    while (!looks_.empty() && looks_.front().come <= committed) {
+      looks_.pop_front();
+    }
+    return looks_.empty() ? 0.0 : std::chrono::duration<double>{now - looks_.front().at}.count();
+  }
+
+ private:
+  struct Look {
+    Instant at;
+    std::uint64_t come;
+  };
+  std::deque<Look> looks_;  ///< Calls whose samples are not all committed.
+};
+
 class ServiceWatch {
  public:
-  /// The parts to look at. All but the missions must outlive the watch.
-  struct Watched {
-    const std::vector<Mission>& missions;
-    RunMode mode;
-    std::filesystem::path db;
-    const Archive& archive;
-    const BoundedQueue<SampleBatch>& taken;
-    const LinkWatch& links;
-    const SessionWatch& sessions;
-    OtherServices& others;
-    RehearsalClocks& clocks;
-  };
-
-  explicit ServiceWatch(const Watched& watched);
+  /// All arguments must outlive the watch.
+  ServiceWatch(const ServiceParts& parts, const Heard& heard);
 
   using States = std::map<std::string, ServiceState>;
   /// @param gaps Lasting gaps by source.
@@ -56,7 +65,8 @@ class ServiceWatch {
   ServiceState state_of_service(Instant now);
   void note_link(const SpacecraftHealth& link, ServiceState& state) const;
 
-  Watched watched_;
+  const ServiceParts& parts_;
+  const Heard& heard_;
   BacklogWatch backlog_;
   /// End of validity of auxiliary data, by spacecraft and kind of data.
   std::map<std::string, std::map<std::string, TaiTime>> data_until_;

@@ -1,5 +1,5 @@
 /// @file
-/// Tracks the sessions that the sources of telemetry begin, and the samples that they repeat.
+/// Tracks the sources of telemetry: the sessions they begin, what they repeat, and what is missing.
 
 #pragma once
 
@@ -14,6 +14,7 @@
 #include "pipelines/supervision/service_conditions.h"
 #include "services/archive/records.h"
 #include "services/telemetry/last_origins.h"
+#include "services/telemetry/sequence_counts.h"
 
 namespace spindrift {
 
@@ -58,5 +59,19 @@ class SessionWatch {
   std::map<std::string, Spacecraft> spacecraft_;
   std::uint64_t samples_ = 0;
 };
+
+/// Finds gaps that last: samples that are merely under way leave gaps for a moment, too.
+class GapWatch {
+ public:
+  /// Compares the gaps with those of the previous call. To be called at a steady rate.
+  /// @return Sources that missed samples at the previous call too, with the number still missing.
+  std::map<std::string, std::uint64_t> beat(const std::map<std::string, SequenceCounts>& by_source);
+
+ private:
+  std::map<std::string, std::uint64_t> before_;
+};
+
+/// Returns text such as "front-end 3, replay 1".
+std::string to_text(const std::map<std::string, std::uint64_t>& gaps);
 
 }  // namespace spindrift

@@ -1,5 +1,3 @@
-#include "services/simulation/comparison_plot.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -11,12 +9,16 @@
 #include "pipelines/core/shown.h"
 #include "services/reports/colours.h"
 #include "services/reports/time_page.h"
+#include "services/simulation/comparison_report.h"
 
 namespace spindrift {
 namespace {
 
 using plot::Curve;
+using plot::curve_of;
 using plot::TimePage;
+
+constexpr int kTicks = 5;
 
 /// Samples of a channel between two instants of the page.
 struct Bin {
@@ -77,22 +79,13 @@ std::vector<Bins> bins_of(const ComparisonReport& report,
   return all;
 }
 
+/// Returns a curve of `value(bin)`, with gaps where bins are empty.
 template <class Value>
-Curve curve_of(std::string name, std::string_view colour, const Bins& bins, const Value& value) {
-  Curve curve{.name = std::move(name), .colour = colour, .values = {}};
-  for (const auto& bin : bins) {
-    curve.values.push_back(bin ? std::optional<double>{value(*bin)} : std::nullopt);
-  }
-  return curve;
-}
-
-plot::ValueAxis axis_of(std::string title, double low, double high) {
-  constexpr int kTicks = 5;
-  return {.title = std::move(title),
-          .is_logarithmic = false,
-          .low = low,
-          .high = high,
-          .ticks = plot::linear_ticks(low, high, kTicks)};
+Curve curve_of_bins(const std::string& name, std::string_view colour, const Bins& bins,
+                    const Value& value) {
+  return curve_of(name, colour, bins, [&](const std::optional<Bin>& bin) {
+    return bin ? std::optional<double>{value(*bin)} : std::nullopt;
+  });
 }
 
 std::vector<double> values_of(const std::vector<Curve>& curves) {
@@ -118,7 +111,7 @@ plot::ValueAxis axis_of(std::string title, const std::vector<Curve>& flight,
   const double low = std::min(of_model.front(), of_flight.at(cut));
   const double high = std::max(of_model.back(), of_flight.at(of_flight.size() - 1 - cut));
   const double room = 0.08 * (high - low) + 0.5 * std::max(0.0, least_width - (high - low));
-  return axis_of(std::move(title), low - room, high + room);
+  return plot::linear_axis(std::move(title), low - room, high + room, kTicks);
 }
 
 /// Consecutive channels with values that one sensor gives.
@@ -163,10 +156,10 @@ void add_values(TimePage& page, const ComparisonReport& report, const Group& gro
   double width = 0.0;
   bool is_relative = true;
   for (std::size_t i = group.first; i < group.end; ++i) {
-    flight.push_back(curve_of(report.channels[i].channel.name, colour_of(group, i), bins[i],
-                              [](const Bin& bin) { return bin.last.flight; }));
-    model.push_back(curve_of(i == group.first ? "model" : "", plot::kInk, bins[i],
-                             [](const Bin& bin) { return bin.last.model; }));
+    flight.push_back(curve_of_bins(report.channels[i].channel.name, colour_of(group, i), bins[i],
+                                   [](const Bin& bin) { return bin.last.flight; }));
+    model.push_back(curve_of_bins(i == group.first ? "model" : "", plot::kInk, bins[i],
+                                  [](const Bin& bin) { return bin.last.model; }));
     model.back().dashes = "3 5";
     for (const auto& bin : bins[i]) {
       width = bin ? std::max(width, 2.0 * report.band_sigmas * bin->last.sigma) : width;
@@ -191,20 +184,21 @@ void add_residuals(TimePage& page, const ComparisonReport& report, const Group& 
   std::vector<Curve> curves;
   double most = 0.0;
   for (std::size_t i = group.first; i < group.end; ++i) {
-    curves.push_back(curve_of(report.channels[i].channel.name, colour_of(group, i), bins[i],
-                              [](const Bin& bin) { return bin.most_sigmas; }));
+    curves.push_back(curve_of_bins(report.channels[i].channel.name, colour_of(group, i), bins[i],
+                                   [](const Bin& bin) { return bin.most_sigmas; }));
     for (const auto& bin : bins[i]) {
       most = bin ? std::max(most, std::abs(bin->most_sigmas)) : most;
     }
   }
   const double high = std::clamp(1.1 * most, 1.4 * band, 4.0 * band);
-  page.panel(kHeight,
-             axis_of(fmt::format("{}: flight minus model, in sigma{}", names_of(report, group),
-                                 most > high ? " (what is beyond stands at the end)" : ""),
-                     -high, high),
-             curves,
-             {{.name = "band", .colour = plot::kGrey, .value = band},
-              {.name = "", .colour = plot::kGrey, .value = -band}});
+  page.panel(
+      kHeight,
+      plot::linear_axis(fmt::format("{}: flight minus model, in sigma{}", names_of(report, group),
+                                    most > high ? " (what is beyond stands at the end)" : ""),
+                        -high, high, kTicks),
+      curves,
+      {{.name = "band", .colour = plot::kGrey, .value = band},
+       {.name = "", .colour = plot::kGrey, .value = -band}});
 }
 
 std::vector<plot::Mark> marks_of(const ComparisonReport& report) {

@@ -1,9 +1,10 @@
 /// @file
-/// Result of comparing the flight data of a pass with the ground model.
+/// Result of comparing the flight data of a pass with the ground model, as text, JSON and SVG.
 
 #pragma once
 
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -19,16 +20,15 @@ struct ComparisonReport {
   std::vector<ChannelComparison> channels;
 };
 
-/// Returns the channel that departs first; null where none does.
-inline const ChannelComparison* first_departure(const ComparisonReport& report) {
-  const ChannelComparison* first = nullptr;
-  for (const ChannelComparison& channel : report.channels) {
-    if (channel.departure &&
-        (first == nullptr || channel.departure->since < first->departure->since)) {
-      first = &channel;
-    }
-  }
-  return first;
-}
+/// Returns a table with a row per channel, and a line per departure.
+std::string to_text(const ComparisonReport& report);
+
+/// Returns the object described in services/program/json.md.
+nlohmann::json to_json(const ComparisonReport& report);
+
+/// Returns an SVG: for each sensor the values of flight over those of the model, and the residuals
+/// in sigma with the band. Starts of departures are marked.
+/// @param samples In the order in which they were compared; at least one has a value.
+std::string plot_of(const ComparisonReport& report, const std::vector<ComparedSample>& samples);
 
 }  // namespace spindrift

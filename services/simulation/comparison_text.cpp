@@ -1,10 +1,9 @@
-#include "services/simulation/comparison_text.h"
-
 #include <fmt/format.h>
 
 #include "pipelines/core/shown.h"
 #include "pipelines/time/utc.h"
 #include "services/base/counted.h"
+#include "services/simulation/comparison_report.h"
 
 namespace spindrift {
 namespace {
@@ -27,6 +26,18 @@ std::string departure_text(const ChannelComparison& compared) {
                                        departure.value, departure.unit, departure.limit)
                          : fmt::format("  {:<16}silent since {}, where the model sends\n",
                                        compared.channel.name, format_utc(departure.since));
+}
+
+/// Returns the channel that departs first; null where none does.
+const ChannelComparison* first_departure(const ComparisonReport& report) {
+  const ChannelComparison* first = nullptr;
+  for (const ChannelComparison& channel : report.channels) {
+    if (channel.departure &&
+        (first == nullptr || channel.departure->since < first->departure->since)) {
+      first = &channel;
+    }
+  }
+  return first;
 }
 
 nlohmann::json json_of(const ChannelComparison& compared) {

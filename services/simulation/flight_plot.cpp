@@ -19,6 +19,7 @@ namespace spindrift {
 namespace {
 
 using plot::Curve;
+using plot::curve_of;
 using plot::TimePage;
 
 // More points than there are pixels.
@@ -34,34 +35,11 @@ std::vector<double> times_s(const SimulatedPass& pass) {
   return times;
 }
 
-Curve curve_of(std::string name, std::string_view colour, const std::vector<double>& times,
-               const std::function<double(double)>& value_at) {
-  Curve curve{.name = std::move(name), .colour = colour, .values = {}};
-  for (const double t_s : times) {
-    curve.values.emplace_back(value_at(t_s));
-  }
-  return curve;
-}
-
 /// Returns an axis that covers all values with a margin, and at least +-`least`.
 plot::ValueAxis axis_of(std::string title, const std::vector<Curve>& curves, double least) {
-  constexpr int kTicks = 5;
-  double low = -least;
-  double high = least;
-  for (const Curve& curve : curves) {
-    for (const auto& value : curve.values) {
-      low = std::min(low, *value);
-      high = std::max(high, *value);
-    }
-  }
+  const auto [low, high] = range_of(curves, -least, least);
   const double room = 0.05 * (high - low);
-  low -= room;
-  high += room;
-  return {.title = std::move(title),
-          .is_logarithmic = false,
-          .low = low,
-          .high = high,
-          .ticks = plot::linear_ticks(low, high, kTicks)};
+  return plot::linear_axis(std::move(title), low - room, high + room, 5);
 }
 
 void add_panel(TimePage& page, std::string title, const std::vector<Curve>& curves, double least) {
@@ -91,13 +69,9 @@ void add_attitude(TimePage& page, const BodyMotion& motion, const std::vector<do
   std::vector<Curve> curves;
   for (std::size_t i = 0; i < kElements.size(); ++i) {
     const auto& [name, element] = kElements.at(i);
-    Curve curve{.name = std::string{name},
-                .colour = i == 0 ? plot::kInk : plot::kCurves.at(i - 1),
-                .values = {}};
-    for (const Eigen::Quaterniond& q : all) {
-      curve.values.emplace_back(q.coeffs()[element]);
-    }
-    curves.push_back(std::move(curve));
+    curves.push_back(
+        curve_of(std::string{name}, i == 0 ? plot::kInk : plot::kCurves.at(i - 1), all,
+                 [&, at = element](const Eigen::Quaterniond& q) { return q.coeffs()[at]; }));
   }
   add_panel(page, "Attitude seen from the start, quaternion", curves, 1.0);
 }

@@ -1,5 +1,3 @@
-#include "services/simulation/loop_plot.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -12,6 +10,7 @@
 #include "services/base/degrees.h"
 #include "services/reports/colours.h"
 #include "services/reports/xy_panel.h"
+#include "services/simulation/flight_plot.h"
 
 namespace spindrift {
 namespace {
@@ -56,22 +55,6 @@ Series series_of(const std::vector<BodePoint>& points, std::string_view colour,
 double gain_db(const BodePoint& point) { return decibel(point.gain); }
 double phase_deg(const BodePoint& point) { return kDegPerRad * point.phase_rad; }
 
-ValueAxis linear_axis(std::string title, double low, double high, int ticks) {
-  return {.title = std::move(title),
-          .is_logarithmic = false,
-          .low = low,
-          .high = high,
-          .ticks = plot::linear_ticks(low, high, ticks)};
-}
-
-ValueAxis frequency_axis(std::pair<double, double> range_rad_s) {
-  return {.title = "frequency, rad/s",
-          .is_logarithmic = true,
-          .low = range_rad_s.first,
-          .high = range_rad_s.second,
-          .ticks = plot::decades(range_rad_s.first, range_rad_s.second)};
-}
-
 ValueAxis phase_axis() {
   return {.title = "phase, deg",
           .is_logarithmic = false,
@@ -93,7 +76,7 @@ plot::XyPanel bode_panel(const ChannelMargins& channel, std::string title, std::
   plot::XyPanel panel{
       .title = std::move(title),
       .note = std::move(note),
-      .x = frequency_axis(range_rad_s),
+      .x = plot::logarithmic_axis("frequency, rad/s", range_rad_s.first, range_rad_s.second),
       .y = std::move(y),
       .series = {series_of(bode_of(channel.designed, range_rad_s), kDesigned, value),
                  series_of(bode_of(channel.flown, range_rad_s), kFlown, value)},
@@ -141,8 +124,8 @@ plot::XyPanel locus_panel(const ChannelMargins& channel) {
   plot::XyPanel panel{
       .title = "Root locus",
       .note = fmt::format("gain by {} to {}; black: inertia 120, 100, 80 %", kLeast, kMost),
-      .x = linear_axis("real part, 1/s", -1.6 * size, 0.4 * size, 5),
-      .y = linear_axis("imaginary part, rad/s", -size, size, 5),
+      .x = plot::linear_axis("real part, 1/s", -1.6 * size, 0.4 * size, 5),
+      .y = plot::linear_axis("imaginary part, rad/s", -size, size, 5),
       .series = {locus_of(channel.designed, factors, kDesigned, 2.4),
                  locus_of(channel.flown, factors, kFlown, 1.0),
                  locus_of(channel.flown, bodies, plot::kInk, 3.0)}};
@@ -185,10 +168,11 @@ std::string loop_plot(const std::string& spacecraft_id,
            {.colour = kFlown});
   for (int row = 0; row < 3; ++row) {
     const ChannelMargins& channel = channels.at(static_cast<std::size_t>(row));
-    draw(bode_panel(channel, fmt::format("{}: gain", channel_name(row)),
-                    "designed: " + margins_text(channel.designed_margins),
-                    linear_axis("gain, dB", -40.0, 60.0, 5), {"", plot::kFaint, 0.0}, gain_db),
-         box_of(row, 0), svg);
+    draw(
+        bode_panel(channel, fmt::format("{}: gain", channel_name(row)),
+                   "designed: " + margins_text(channel.designed_margins),
+                   plot::linear_axis("gain, dB", -40.0, 60.0, 5), {"", plot::kFaint, 0.0}, gain_db),
+        box_of(row, 0), svg);
     draw(bode_panel(channel, "Phase", "flown: " + margins_text(channel.flown_margins), phase_axis(),
                     {"", plot::kFaint, -180.0}, phase_deg),
          box_of(row, 1), svg);

@@ -5,13 +5,19 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "pipelines/core/expected.h"
-#include "services/simulation/run_outcome.h"
 
 namespace spindrift {
+
+/// Result of a run in one number.
+struct Measure {
+  std::string name;             ///< Name with its unit, e.g. "batch_error_deg".
+  std::optional<double> value;  ///< Value; empty where the run has no such result.
+};
 
 struct MonteCarloPlan {
   std::filesystem::path scenario;

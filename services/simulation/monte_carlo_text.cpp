@@ -42,16 +42,8 @@ plot::XyPanel histogram(const std::string& name, const std::vector<double>& valu
   }
   const double highest = 1.1 * *std::max_element(counts.begin(), counts.end());
   plot::XyPanel panel{.title = name,
-                      .x = {.title = "",
-                            .is_logarithmic = false,
-                            .low = low,
-                            .high = high,
-                            .ticks = plot::linear_ticks(low, high, 4)},
-                      .y = {.title = "runs",
-                            .is_logarithmic = false,
-                            .low = 0.0,
-                            .high = highest,
-                            .ticks = plot::linear_ticks(0.0, highest, 4)}};
+                      .x = plot::linear_axis("", low, high, 4),
+                      .y = plot::linear_axis("runs", 0.0, highest, 4)};
   for (std::size_t i = 0; i < counts.size(); ++i) {
     const double left = low + width * static_cast<double>(i);
     panel.bars.push_back({.left = left, .top = counts[i], .right = left + width, .bottom = 0.0});

@@ -1,5 +1,3 @@
-#include "services/simulation/orientation_scenario.h"
-
 #include <fmt/format.h>
 
 #include <cstdint>

@@ -1,8 +1,11 @@
 #include "services/simulation/scenario.h"
 
 #include <fmt/format.h>
+#include <toml++/toml.h>
 
+#include <sstream>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -14,8 +17,8 @@
 #include "services/mission/spacecraft_kind.h"
 #include "services/mission/values.h"
 #include "services/simulation/dispersions.h"
-#include "services/simulation/mission_text.h"
 #include "services/simulation/scenario_schema.h"
+#include "services/simulation/three_axis_scenario.h"
 
 namespace spindrift {
 namespace {
@@ -136,6 +139,54 @@ decltype(Scenario::flight) flight_of(const TomlDocument& document, TaiTime start
       break;
   }
   return spin_scenario(document.values, start);
+}
+
+/// Formats a value here, as the TOML library would write a number with 17 digits.
+std::string value_text(const toml::node& value) {
+  if (const auto number = value.value_exact<double>()) {
+    return fmt::format("{}", *number);
+  }
+  if (const toml::array* const array = value.as_array()) {
+    std::vector<std::string> elements;
+    for (const toml::node& element : *array) {
+      elements.push_back(value_text(element));
+    }
+    return fmt::format("[{}]", fmt::join(elements, ", "));
+  }
+  std::ostringstream text;
+  value.visit([&](const auto& node) { text << node; });
+  return text.str();
+}
+
+void append_table(const toml::table& table, const std::string& path, std::string& text) {
+  std::string values;
+  for (const auto& [key, node] : table) {
+    if (!node.is_table()) {
+      values += fmt::format("{} = {}\n", key.str(), value_text(node));
+    }
+  }
+  if (!values.empty()) {
+    text += fmt::format("\n[{}]\n{}", path, values);
+  }
+  for (const auto& [key, node] : table) {
+    if (const toml::table* const inner = node.as_table()) {
+      append_table(*inner, fmt::format("{}.{}", path, key.str()), text);
+    }
+  }
+}
+
+/// Returns the tables that a valid scenario shares with a mission file, unchanged; the orbit is the
+/// simulated one, in orbit.oem beside it.
+std::string mission_text(const toml::table& scenario) {
+  std::string text = "# Written by spindrift simulate for the pass beside it.\n";
+  append_table(*scenario.get_as<toml::table>("spacecraft"), "spacecraft", text);
+  text += "\n[orbit]\noem = \"orbit.oem\"\n";
+  for (const char* const sensors : {"spin", "three_axis"}) {
+    if (const toml::table* const table = scenario.get_as<toml::table>(sensors)) {
+      append_table(*table, sensors, text);
+    }
+  }
+  return text;
 }
 
 }  // namespace

@@ -10,12 +10,10 @@
 
 #include "pipelines/core/expected.h"
 #include "pipelines/ephemeris/orbit.h"
+#include "pipelines/ground_model/flights/three_axis_flights.h"
 #include "pipelines/time/tai_time.h"
 #include "services/mission/document.h"
-#include "services/simulation/orientation_scenario.h"
-#include "services/simulation/separation_scenario.h"
 #include "services/simulation/spin_scenario.h"
-#include "services/simulation/tumbling_scenario.h"
 
 namespace spindrift {
 

@@ -1,5 +1,3 @@
-#include "services/simulation/separation_scenario.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -3,10 +3,8 @@
 #include <type_traits>
 #include <utility>
 
-#include "services/simulation/orientation_pass.h"
-#include "services/simulation/separation_pass.h"
 #include "services/simulation/spin_pass.h"
-#include "services/simulation/tumbling_pass.h"
+#include "services/simulation/three_axis_pass.h"
 
 namespace spindrift {
 

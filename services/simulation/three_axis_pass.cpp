@@ -1,10 +1,16 @@
 #include "services/simulation/three_axis_pass.h"
 
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <nlohmann/json.hpp>
 #include <utility>
 
 #include "pipelines/ephemeris/sun.h"
 #include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
+#include "pipelines/ground_model/flights/channel_margins.h"
 #include "services/telemetry/time_order.h"
 
 namespace spindrift {
@@ -39,8 +45,8 @@ ordered_json true_history(const Scenario& scenario, const BodyMotion& motion) {
   return history;
 }
 
-}  // namespace
-
+/// Returns the truth at `t_s` since the start: t_tai_ns, q_icrf_body_xyzw, w_body_deg_s and
+/// sun_off_deg (from -Z to the Sun). @return NoCoverage where the orbit does not reach.
 Expected<ordered_json> true_state(const Scenario& scenario, const BodyMotion& motion, double t_s) {
   const TaiTime t = shifted(scenario.start, t_s);
   return scenario.orbit.at(t).map([&](const OrbitState& spacecraft) {
@@ -55,6 +61,8 @@ Expected<ordered_json> true_state(const Scenario& scenario, const BodyMotion& mo
   });
 }
 
+/// Returns the truth at start and end and, every ten seconds between them, `history`: t_tai_ns; x,
+/// y, z, w of q_icrf_body; body rates in deg/s. @return NoCoverage as for `true_state`.
 Expected<ordered_json> start_and_end(const Scenario& scenario, const BodyMotion& motion) {
   return true_state(scenario, motion, 0.0).and_then([&](ordered_json&& start) {
     return true_state(scenario, motion, scenario.duration_s).map([&](ordered_json&& end) {
@@ -65,6 +73,7 @@ Expected<ordered_json> start_and_end(const Scenario& scenario, const BodyMotion&
   });
 }
 
+/// @param truth Truth to which gyro_bias_deg_s, missing and sun_outliers are added.
 SimulatedPass three_axis_pass(const ThreeAxisSensors& sensors, FlownBody flown, ordered_json truth,
                               std::string mission_toml) {
   const ThreeAxisTelemetry& received = flown.telemetry;
@@ -97,6 +106,105 @@ SimulatedPass three_axis_pass(const ThreeAxisSensors& sensors, FlownBody flown, 
   put_in_order(pass.telemetry);
   pass.motion = std::move(flown.motion);
   return pass;
+}
+
+/// Returns T1 to T4, in seconds since the start.
+std::array<double, 4> events_s(const SeparationScenario& flight) {
+  return {0.0, flight.truth.control_on_s, flight.truth.acquisition_s, flight.first_star_fix_s};
+}
+
+Expected<ordered_json> truth_of(const Scenario& scenario, const SeparationScenario& flight,
+                                const BodyMotion& motion) {
+  ordered_json truth;
+  int number = 1;
+  for (const double t_s : events_s(flight)) {
+    auto event = true_state(scenario, motion, t_s);
+    if (!event) {
+      return Unexpected{std::move(event.error())};
+    }
+    truth[fmt::format("T{}", number++)] = std::move(*event);
+  }
+  return truth;
+}
+
+std::string reconstruction_text(const Scenario& scenario, const SeparationScenario& flight,
+                                const std::optional<Euler312>& told) {
+  std::string text = "\n[reconstruction]\n";
+  if (!disturbs(flight.truth.body.disturbances)) {
+    text += "disturbance_deg_s2 = 0\n";
+  }
+  int number = 1;
+  for (const double t_s : events_s(flight)) {
+    text += fmt::format("t{}_tai_ns = {}\n", number++, tai_ns(shifted(scenario.start, t_s)));
+  }
+  if (told) {
+    text +=
+        fmt::format("\n[reconstruction.launcher]\neuler312_deg = [{}, {}, {}]\nsigma_deg = {}\n",
+                    told->phi_rad * kDegPerRad, told->theta_rad * kDegPerRad,
+                    told->psi_rad * kDegPerRad, flight.launcher->sigma_rad * kDegPerRad);
+  }
+  return text;
+}
+
+ordered_json number_or_null(const std::optional<double>& number) {
+  return number ? ordered_json(*number) : ordered_json(nullptr);
+}
+
+void add_outcome(const OrientationOutcome& outcome, ordered_json& truth) {
+  truth["pointing_s"] = number_or_null(outcome.pointing_s);
+  truth["settled_s"] = number_or_null(outcome.settled_s);
+  truth["last_off_deg"] = kDegPerRad * outcome.last_off_rad;
+  truth["wheel_nms_most"] = outcome.most_nms;
+  truth["wheel_rpm_most"] = kRpmPerRad_s * outcome.most_rad_s;
+}
+
+/// Adds the margins of the loops as flown, about X, Y and Z.
+Expected<void> add_margins(const OrientationTruth& flight, ordered_json& truth) {
+  return channel_margins(flight).map([&](const std::array<ChannelMargins, 3>& channels) {
+    for (const ChannelMargins& channel : channels) {
+      const LoopMargins& margins = channel.flown_margins;
+      truth["phase_margin_deg"].push_back(kDegPerRad * margins.phase_rad);
+      truth["gain_margin_db"].push_back(20.0 * std::log10(*margins.gain));
+      truth["crossover_rad_s"].push_back(margins.crossover_rad_s);
+    }
+  });
+}
+
+}  // namespace
+
+Expected<SimulatedPass> played_pass(const Scenario& scenario, const SeparationScenario& flight) {
+  return flown(flight, scenario.orbit).and_then([&](FlownSeparation&& separation) {
+    return truth_of(scenario, flight, separation.body.motion).map([&](ordered_json&& truth) {
+      return three_axis_pass(
+          flight.view.sensors, std::move(separation.body), std::move(truth),
+          scenario.mission_toml + reconstruction_text(scenario, flight, separation.told));
+    });
+  });
+}
+
+Expected<SimulatedPass> played_pass(const Scenario& scenario, const TumblingScenario& flight) {
+  return flown(flight, scenario.orbit).and_then([&](FlownBody&& body) {
+    return start_and_end(scenario, body.motion).map([&](ordered_json&& truth) {
+      return three_axis_pass(flight.view.sensors, std::move(body), std::move(truth),
+                             scenario.mission_toml);
+    });
+  });
+}
+
+Expected<SimulatedPass> played_pass(const Scenario& scenario, const OrientationScenario& flight) {
+  return flown(flight, scenario.orbit).and_then([&](FlownOrientation&& orientation) {
+    auto truth = start_and_end(scenario, orientation.body.motion);
+    if (!truth) {
+      return Expected<SimulatedPass>{Unexpected{std::move(truth.error())}};
+    }
+    add_outcome(orientation.outcome, *truth);
+    return add_margins(flight.truth, *truth).map([&] {
+      SimulatedPass pass = three_axis_pass(flight.view.sensors, std::move(orientation.body),
+                                           *std::move(truth), scenario.mission_toml);
+      pass.control = std::move(orientation.record);
+      return pass;
+    });
+  });
 }
 
 }  // namespace spindrift

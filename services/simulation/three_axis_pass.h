@@ -1,29 +1,33 @@
 /// @file
-/// Functions shared by the simulations of all flights of a three-axis spacecraft.
+/// Simulations of the flights of a three-axis spacecraft.
 
 #pragma once
 
-#include <nlohmann/json.hpp>
-
 #include "pipelines/core/expected.h"
-#include "pipelines/ephemeris/orbit.h"
-#include "pipelines/ground_model/flights/three_axis_flights.h"
 #include "services/simulation/scenario.h"
 #include "services/simulation/simulated_pass.h"
 
 namespace spindrift {
 
-/// Returns the truth at `t_s` since the start: t_tai_ns, q_icrf_body_xyzw, w_body_deg_s and
-/// sun_off_deg (from -Z to the Sun). @return NoCoverage where the orbit does not reach.
-Expected<nlohmann::ordered_json> true_state(const Scenario& scenario, const BodyMotion& motion,
-                                            double t_s);
+/// @name Simulate the pass, as simulated_pass
+/// The truth of each has gyro_bias_deg_s, missing (a number) and t_tai_ns of sun_outliers. A state
+/// is t_tai_ns, q_icrf_body_xyzw, w_body_deg_s and sun_off_deg (from -Z to the Sun).
+/// @{
 
-/// Returns the truth at start and end and, every ten seconds between them, `history`: t_tai_ns; x,
-/// y, z, w of q_icrf_body; body rates in deg/s. @return NoCoverage as for `true_state`.
-Expected<nlohmann::ordered_json> start_and_end(const Scenario& scenario, const BodyMotion& motion);
+/// Simulates a separation. Its truth: the states at T1 to T4.
+/// @return NoCoverage or Unobservable where the orbit ends too early, or has no orbit frame.
+Expected<SimulatedPass> played_pass(const Scenario& scenario, const SeparationScenario& flight);
 
-/// @param truth Truth to which gyro_bias_deg_s, missing and sun_outliers are added.
-SimulatedPass three_axis_pass(const ThreeAxisSensors& sensors, FlownBody flown,
-                              nlohmann::ordered_json truth, std::string mission_toml);
+/// Simulates a lost satellite. Its truth: the states at start and end, and every ten seconds
+/// between them `history`: t_tai_ns; x, y, z, w of q_icrf_body; body rates in deg/s.
+/// @return NoCoverage where the orbit or the field ends too early.
+Expected<SimulatedPass> played_pass(const Scenario& scenario, const TumblingScenario& flight);
+
+/// Simulates a satellite that turns to an attitude by its wheels. Its truth is that of a tumbling
+/// satellite with, of the control, pointing_s and settled_s (null: never), last_off_deg,
+/// wheel_nms_most and wheel_rpm_most; of its loops phase_margin_deg, gain_margin_db and
+/// crossover_rad_s. @return NoCoverage where the orbit or the field ends too early.
+Expected<SimulatedPass> played_pass(const Scenario& scenario, const OrientationScenario& flight);
+/// @}
 
 }  // namespace spindrift

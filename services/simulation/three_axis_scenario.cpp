@@ -12,6 +12,7 @@
 #include "pipelines/frames/rotation_vector.h"
 #include "pipelines/ground_model/control/actuators.h"
 #include "services/mission/igrf.h"
+#include "services/mission/mission_three_axis.h"
 #include "services/mission/values.h"
 #include "services/simulation/silences.h"
 
@@ -207,6 +208,19 @@ void check_body_step(TomlDocument& document, std::string_view key) {
   if (const auto loop = loop_of(body, HeldMomentum{}, *period_s); !loop) {
     add_problem(document, key, fmt::format("{} = {}: {}", key, *period_s, loop.error().message));
   }
+}
+
+void check_tumbling_scenario(TomlDocument& document) {
+  check_within_pass(document, "tumbling.first_star_fix_s");
+  check_sensors_on_board(document);
+}
+
+TumblingScenario tumbling_scenario(const TomlValues& values, TaiTime start) {
+  const ThreeAxisConfig said = three_axis_config(values);
+  return {.view = three_axis_view(values, said,
+                                  {.star_s = number(values, "tumbling.first_star_fix_s")}),
+          .truth = {.body = body_truth(values, said, start),
+                    .wheels_body_nms = vector_or_zero(values, "tumbling.wheels_nms")}};
 }
 
 }  // namespace spindrift

@@ -1,5 +1,5 @@
 /// @file
-/// Functions shared by the scenarios of all flights of a three-axis spacecraft.
+/// The scenarios of all flights of a three-axis spacecraft, and what they share.
 
 #pragma once
 
@@ -43,5 +43,21 @@ void check_sensors_on_board(TomlDocument& document);
 
 /// Adds a problem where the body turns too fast at the start for steps of the period of `key`.
 void check_body_step(TomlDocument& document, std::string_view key);
+
+/// @name Scenarios by flight
+/// The checks add the problems that the schema cannot detect; values are of a scenario without any.
+/// @{
+void check_separation_scenario(TomlDocument& document);
+/// @param start Time of separation.
+SeparationScenario separation_scenario(const TomlValues& values, TaiTime start);
+
+/// A lost satellite that tumbles.
+void check_tumbling_scenario(TomlDocument& document);
+TumblingScenario tumbling_scenario(const TomlValues& values, TaiTime start);
+
+/// A satellite that turns to an attitude by its wheels.
+void check_orientation_scenario(TomlDocument& document);
+OrientationScenario orientation_scenario(const TomlValues& values, TaiTime start);
+/// @}
 
 }  // namespace spindrift

@@ -10,7 +10,7 @@
 
 #include "services/mission/mission.h"
 #include "services/processor/processor.h"
-#include "services/serving/silence_watch.h"
+#include "services/serving/link_watch.h"
 #include "services/telemetry/telemetry_files.h"
 #include "services/telemetry/telemetry_stream.h"
 #include "tests/integration/archive_fixture.h"

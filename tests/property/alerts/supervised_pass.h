@@ -17,7 +17,6 @@
 #include "services/alerts/alert_desk.h"
 #include "services/ingest/sequence_tracker.h"
 #include "services/processor/processor.h"
-#include "services/serving/gap_watch.h"
 #include "services/serving/session_watch.h"
 #include "services/simulation/pass_files.h"
 #include "services/simulation/scenario.h"

@@ -93,9 +93,10 @@ TEST(AlertDesk, EndsAShelvingWithoutTelemetry) {
   Served served;
   const auto raised = served.silent(2.0, 6.0);
   const std::string id = std::get<Alert>(raised.at(0).products.at(0)).alert_id;
-  ASSERT_TRUE(served.desk.shelve(id, at(3.0), at(10.0), "shift", "later"));
-  EXPECT_TRUE(served.desk.see({}, at(9.0)).empty());
-  EXPECT_EQ(changes_in(served.desk.see({}, at(10.0)).at(0)), Changes{"link.silent active"});
+  ASSERT_TRUE(
+      served.desk.take({.alert_id = id, .by = "shift", .note = "later", .minutes = 1}, at(3.0)));
+  EXPECT_TRUE(served.desk.see({}, at(62.0)).empty());
+  EXPECT_EQ(changes_in(served.desk.see({}, at(63.0)).at(0)), Changes{"link.silent active"});
 }
 
 TEST(AlertDesk, GoesOnWithOpenAlertsOfBefore) {

@@ -3,7 +3,6 @@
 #include "services/doctor/archive.h"
 #include "services/doctor/disk.h"
 #include "services/doctor/host.h"
-#include "services/doctor/leap_seconds.h"
 #include "services/doctor/missions.h"
 #include "services/doctor/report.h"
 #include "tests/support/doctor_checks.h"

@@ -7,10 +7,10 @@
 #include <stdexcept>
 #include <string>
 
-#include "services/operator/request_client.h"
 #include "services/operator/request_server.h"
 #include "tests/support/matchers.h"
 #include "tests/support/outcome.h"
+#include "services/operator/request_socket.h"
 #include "tests/support/temporary_folder.h"
 
 namespace spindrift::requests_test {

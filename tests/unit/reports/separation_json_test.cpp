@@ -1,9 +1,8 @@
-#include "services/reports/separation_json.h"
-
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
 
+#include "services/reports/separation_report.h"
 #include "tests/support/made_separation.h"
 
 namespace spindrift::separation_json_test {

@@ -1,6 +1,8 @@
-#include "services/reports/separation_plot.h"
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
 
 #include "pipelines/frames/rotation_vector.h"
+#include "services/reports/separation_report.h"
 #include "tests/support/made_separation.h"
 #include "tests/support/matchers.h"
 #include "tests/support/well_formed.h"

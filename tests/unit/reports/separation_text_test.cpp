@@ -1,5 +1,8 @@
-#include "services/reports/separation_text.h"
 
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "services/reports/separation_report.h"
 #include "tests/support/made_separation.h"
 #include "tests/support/matchers.h"
 

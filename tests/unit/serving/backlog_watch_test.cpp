@@ -1,6 +1,6 @@
-#include "services/serving/backlog_watch.h"
-
 #include <gtest/gtest.h>
+
+#include "services/serving/service_watch.h"
 
 namespace spindrift::backlog_watch_test {
 

@@ -1,6 +1,6 @@
-#include "services/serving/gap_watch.h"
-
 #include <gtest/gtest.h>
+
+#include "services/serving/session_watch.h"
 
 namespace spindrift::gap_watch_test {
 

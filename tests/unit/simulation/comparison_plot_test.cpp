@@ -1,7 +1,9 @@
-#include "services/simulation/comparison_plot.h"
 
-#include "services/simulation/comparison_text.h"
 #include "tests/support/matchers.h"
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "services/simulation/comparison_report.h"
 #include "tests/support/well_formed.h"
 
 namespace spindrift::comparison_plot_test {

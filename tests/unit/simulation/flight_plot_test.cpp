@@ -1,7 +1,9 @@
 #include "services/simulation/flight_plot.h"
 
-#include "services/simulation/loop_plot.h"
 #include "tests/support/matchers.h"
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
 #include "tests/support/test_paths.h"
 #include "tests/support/well_formed.h"
 

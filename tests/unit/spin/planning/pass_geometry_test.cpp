@@ -16,7 +16,7 @@
 #include "pipelines/frames/celestial.h"
 #include "pipelines/spin/measurement/measurement.h"
 #include "pipelines/spin/planning/pass_conditions.h"
-#include "services/reports/condition_words.h"
+#include "services/reports/planned_pass.h"
 #include "tests/support/observed_spin.h"
 #include "tests/support/recorded_pass.h"
 

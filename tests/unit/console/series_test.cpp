@@ -1,12 +1,17 @@
-#include "services/console/decimate.h"
+#include "services/console/series.h"
 
 #include <algorithm>
 #include <cstdint>
 #include <vector>
 
+<<<<<<< HEAD:tests/unit/console/decimate_test.cpp
 #include "tests/support/matchers.h"
 
 namespace spindrift::decimate_test {
+=======
+namespace spindrift::series_test {
+namespace {
+>>>>>>> h-s1:tests/unit/console/series_test.cpp
 
 using ::testing::Contains;
 
@@ -68,4 +73,9 @@ TEST(Decimate, LeavesHalfToWhatWasAcceptedHoweverMuchWasRejected) {
             100);
 }
 
+<<<<<<< HEAD:tests/unit/console/decimate_test.cpp
 }  // namespace spindrift::decimate_test
+=======
+}  // namespace
+}  // namespace spindrift::series_test
+>>>>>>> h-s1:tests/unit/console/series_test.cpp

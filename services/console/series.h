@@ -1,7 +1,9 @@
 /// @file
-/// Thins a series to fewer points with the same look.
+/// Series of values for the console: read from the archive, and thinned.
 
 #pragma once
+
+#include <SQLiteCpp/Database.h>
 
 #include <cstddef>
 #include <cstdint>
@@ -9,6 +11,9 @@
 #include <span>
 #include <string>
 #include <vector>
+
+#include "pipelines/core/expected.h"
+#include "services/console/quantities.h"
 
 namespace spindrift {
 
@@ -33,6 +38,18 @@ struct SeriesPoint {
 
   bool operator==(const SeriesPoint&) const = default;
 };
+
+/// Limit on the values of one series, so that a request stays bounded.
+inline constexpr std::size_t kMostValuesRead = 1'000'000;
+
+struct Span {
+  std::int64_t from_tai_ns;
+  std::int64_t to_tai_ns;
+};
+/// Returns a run's values in a span, ends included, by time. Throws SQLite::Exception.
+/// @return InvalidInput for more than kMostValuesRead.
+Expected<std::vector<SeriesPoint>> values_of(SQLite::Database& archive, const std::string& run_id,
+                                             const Quantity& quantity, const Span& span);
 
 /// Returns at most `most` of the points, which are in order of time. Accepted and left-out points
 /// are thinned apart, so that the latter, at most half of the result, stay visible. Of each it

@@ -1,6 +1,6 @@
 // Series that the console derives because the archive does not hold them in that form.
 
-#include "services/console/archive_view.h"
+#include "services/console/series.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 
 #include "tests/integration/archive_fixture.h"
 
-namespace spindrift::archive_view_test {
+namespace spindrift::series_test {
 namespace {
 
 constexpr std::int64_t kSecond_ns = 1'000'000'000;
@@ -101,4 +101,4 @@ TEST_F(ArchiveView, HasInnovationsAsNormalDeviates) {
 }
 
 }  // namespace
-}  // namespace spindrift::archive_view_test
+}  // namespace spindrift::series_test

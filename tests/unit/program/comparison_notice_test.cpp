@@ -1,8 +1,8 @@
-#include "services/program/disagreement_words.h"
+#include "services/program/comparison_notice.h"
 
 #include <gtest/gtest.h>
 
-namespace spindrift::disagreement_words_test {
+namespace spindrift::comparison_notice_test {
 
 TEST(DisagreementWords, ShowHowFarApartToTheDigitsOfTheSigma) {
   EXPECT_EQ(sentence_of(Disagreement{"mean", "batch", 0.31, 4.2}),
@@ -12,4 +12,4 @@ TEST(DisagreementWords, ShowHowFarApartToTheDigitsOfTheSigma) {
       "mean and batch disagree: their axes are 0.00042 deg apart, 4.2 times the larger sigma");
 }
 
-}  // namespace spindrift::disagreement_words_test
+}  // namespace spindrift::comparison_notice_test
