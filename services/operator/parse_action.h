@@ -2,8 +2,8 @@
 /// Interprets an operator's action: which there are, and what each with its arguments does.
 ///
 /// An action is interpreted here, whether it comes from the page, a command line or the archive. A
-/// new one needs a type in spin_action.h or attitude_action.h, its effect on the pass (`act`), a row
-/// of `kActions` in parse_action.cpp, its name in schemas/tables.sql and its form in
+/// new one needs a type in spin_action.h or attitude_action.h, its effect on the pass (`act`), a
+/// row of `kActions` in parse_action.cpp, its name in schemas/tables.sql and its form in
 /// console/web/page/actions.js. Arguments are stored as JSON and parsed by the same function again,
 /// so that what is repeated after a restart is what was done.
 

@@ -4,14 +4,9 @@
 #include <cstdint>
 #include <vector>
 
-<<<<<<< HEAD:tests/unit/console/decimate_test.cpp
 #include "tests/support/matchers.h"
 
-namespace spindrift::decimate_test {
-=======
 namespace spindrift::series_test {
-namespace {
->>>>>>> h-s1:tests/unit/console/series_test.cpp
 
 using ::testing::Contains;
 
@@ -73,9 +68,4 @@ TEST(Decimate, LeavesHalfToWhatWasAcceptedHoweverMuchWasRejected) {
             100);
 }
 
-<<<<<<< HEAD:tests/unit/console/decimate_test.cpp
-}  // namespace spindrift::decimate_test
-=======
-}  // namespace
 }  // namespace spindrift::series_test
->>>>>>> h-s1:tests/unit/console/series_test.cpp

@@ -1,11 +1,10 @@
 
-#include <Eigen/Geometry>
-
-#include "tests/support/matchers.h"
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 
 #include "pipelines/ephemeris/flight_frames.h"
+#include "tests/support/matchers.h"
 
 namespace spindrift::orbit_frame_test {
 

@@ -1,8 +1,9 @@
-#include "tests/support/matchers.h"
 #include "pipelines/ground_model/control/actuators.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include "tests/support/matchers.h"
 
 namespace spindrift::actuators_test {
 

@@ -6,8 +6,8 @@
 #include "pipelines/frames/celestial.h"
 #include "pipelines/frames/rotation_vector.h"
 #include "pipelines/ground_model/control/attitude_control.h"
-#include "tests/support/matchers.h"
 #include "pipelines/ground_model/flights/orientation_motion.h"
+#include "tests/support/matchers.h"
 #include "tests/support/stepped_body.h"
 
 namespace spindrift::closed_loop_test {

@@ -1,9 +1,9 @@
 
-#include "tests/support/matchers.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "pipelines/ground_model/dynamics/rigid_body.h"
+#include "tests/support/matchers.h"
 
 namespace spindrift::coarse_step_test {
 

@@ -5,8 +5,8 @@
 
 #include "pipelines/frames/angle.h"
 #include "pipelines/ground_model/control/control_laws.h"
-#include "tests/support/matchers.h"
 #include "pipelines/ground_model/flights/channel_margins.h"
+#include "tests/support/matchers.h"
 
 namespace spindrift::loop_margins_test {
 

@@ -8,9 +8,9 @@
 #include <string>
 
 #include "services/operator/request_server.h"
+#include "services/operator/request_socket.h"
 #include "tests/support/matchers.h"
 #include "tests/support/outcome.h"
-#include "services/operator/request_socket.h"
 #include "tests/support/temporary_folder.h"
 
 namespace spindrift::requests_test {

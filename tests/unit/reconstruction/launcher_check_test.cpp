@@ -6,9 +6,9 @@
 #include "pipelines/ephemeris/flight_frames.h"
 #include "pipelines/frames/angle.h"
 #include "pipelines/frames/rotation_vector.h"
+#include "pipelines/reconstruction/separation.h"
 #include "tests/support/matchers.h"
 #include "tests/support/outcome.h"
-#include "pipelines/reconstruction/separation.h"
 
 namespace spindrift::launcher_check_test {
 

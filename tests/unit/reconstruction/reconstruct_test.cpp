@@ -8,8 +8,8 @@
 
 #include "pipelines/frames/angle.h"
 #include "pipelines/frames/rotation_vector.h"
-#include "tests/support/outcome.h"
 #include "pipelines/reconstruction/separation.h"
+#include "tests/support/outcome.h"
 #include "tests/support/recorded_separation.h"
 #include "tests/support/separation_flight.h"
 

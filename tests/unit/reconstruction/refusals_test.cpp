@@ -3,8 +3,8 @@
 #include <optional>
 #include <vector>
 
-#include "tests/support/matchers.h"
 #include "pipelines/reconstruction/separation.h"
+#include "tests/support/matchers.h"
 #include "tests/support/separation_flight.h"
 
 namespace spindrift::refusals_test {

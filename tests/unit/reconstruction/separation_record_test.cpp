@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "pipelines/reconstruction/observations.h"
-#include "tests/support/matchers.h"
 #include "pipelines/reconstruction/separation.h"
+#include "tests/support/matchers.h"
 #include "tests/support/separation_flight.h"
 
 namespace spindrift::separation_record_test {

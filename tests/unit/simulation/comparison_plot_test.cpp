@@ -1,9 +1,9 @@
 
-#include "tests/support/matchers.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "services/simulation/comparison_report.h"
+#include "tests/support/matchers.h"
 #include "tests/support/well_formed.h"
 
 namespace spindrift::comparison_plot_test {

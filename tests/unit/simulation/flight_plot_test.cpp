@@ -1,9 +1,9 @@
 #include "services/simulation/flight_plot.h"
 
-#include "tests/support/matchers.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "tests/support/matchers.h"
 #include "tests/support/test_paths.h"
 #include "tests/support/well_formed.h"
 

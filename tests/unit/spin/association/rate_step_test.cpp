@@ -1,9 +1,9 @@
 #include <gtest/gtest.h>
 
-#include "pipelines/spin/association/period_search.h"
 #include <utility>
 #include <vector>
 
+#include "pipelines/spin/association/period_search.h"
 #include "pipelines/time/time_span.h"
 
 namespace spindrift::rate_step_test {
