@@ -21,11 +21,19 @@ using enum PulseChannel;
 
 constexpr std::array kAll = {Sun1, Sun2, NorthIn, NorthOut, SouthIn, SouthOut};
 
+/// Returns the rotation from ICRF to a frame on the tangent plane's basis, in which the covariances
+/// are given.
+Eigen::Matrix3d frame_on_tangents(const Eigen::Vector3d& axis_icrf) {
+  Eigen::Matrix3d R_spin_icrf;
+  R_spin_icrf << tangent_basis(axis_icrf).transpose(), axis_icrf.transpose();
+  return R_spin_icrf;
+}
+
 /// Holds a turn from the middle of the first hundred of the pass to which those figures refer.
 struct Turn {
   RecordedPass pass = recorded_pass("nominal");
   Sky sky = sky_at(pass.orbit, shifted(pass.pulses.front().t, 50.0));
-  Eigen::Matrix3d R_spin_icrf = spin_frame(pass.true_axis_icrf);
+  Eigen::Matrix3d R_spin_icrf = frame_on_tangents(pass.true_axis_icrf);
 
   template <class Channels>
   void add_to(EdgeInformation& information, const Channels& channels, double dt_s,
@@ -62,7 +70,7 @@ TEST(EdgeInformation, IsThatOfTheOraclesEdges) {
     for (const Edge& edge : edges_between(body, from.around, 0.0, kDuration_s)) {
       const TaiTime t = shifted(kTransferStart, edge.t_s);
       const auto predicted =
-          predict_edge(body.config, sky_at(from.orbit, t), spin_frame(body.axis_icrf),
+          predict_edge(body.config, sky_at(from.orbit, t), frame_on_tangents(body.axis_icrf),
                        {.t = t, .channel = edge.channel});
       information.add(predicted.value(), edge.t_s,
                       body.rate_rad_s * edge_sigma_s(body.config.noise, edge.channel));
