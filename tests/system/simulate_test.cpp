@@ -51,7 +51,8 @@ struct Judged {
 Judged judged_attitudes(const std::filesystem::path& pass) {
   const Processed processed{pass, {"--strict"}};
   Judged judged;
-  for (const auto& truth : truth_of(pass)["history"]) {
+  const auto told = truth_of(pass);
+  for (const auto& truth : told["history"]) {
     const std::string from =
         fmt::format("attitude WHERE t_tai_ns = {}", truth[0].get<std::int64_t>());
     const auto row = [&](const std::string& column) {
@@ -299,6 +300,7 @@ TEST_F(Simulate, PublishesTheSamplesOfAThreeAxisSatellite) {
   for (const std::string& scenario : {kSeparation, kTumbling, kUpperStage}) {
     SCOPED_TRACE(scenario);
     std::filesystem::remove(db_);
+    std::filesystem::remove_all(out_);
     const auto summary = simulated(scenario);
     served(scenario);
     for (const auto& [table, counted] :
