@@ -1,9 +1,7 @@
-#include <SQLiteCpp/Statement.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sqlite3.h>
 
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -15,7 +13,6 @@ namespace spindrift::archive_answers_test {
 
 using testing::attitude_at;
 using testing::batch_of;
-using testing::column;
 using ::testing::ElementsAre;
 using testing::estimate_at;
 using testing::start_of;
@@ -39,10 +36,8 @@ TEST_F(ArchiveAnswers, VerdictOfAPassIsThatOfBatchElseOfSequentialElseOfMean) {
   }
   ASSERT_TRUE(archive->flush());
 
-  SQLite::Database database = reader();
-  EXPECT_THAT(column(database,
-                     "SELECT format('%s %.3g %s: %s', ifnull(estimator, '-'), ifnull(dec_deg, 0),"
-                     " why, against) FROM pass_verdict ORDER BY run_id"),
+  EXPECT_THAT(texts("SELECT format('%s %.3g %s: %s', ifnull(estimator, '-'), ifnull(dec_deg, 0), "
+                    "why, against) FROM pass_verdict ORDER BY run_id"),
               ElementsAre("- 0 no estimate: no estimate",
                           "mean 30 OK: ", "sequential 30 OK: ", "batch 30 OK: "));
 }
@@ -55,9 +50,9 @@ TEST_F(ArchiveAnswers, VerdictHasTheEllipseAndHowFarTheTelemetryReaches) {
                  .contact_share = 0.75};
   batch.products = {estimate_at(1, SpinEstimator::Mean, 20.0)};
   store(batch);
-  EXPECT_EQ(text("SELECT format('%d %d %d %s %s %g', cov_east_east_deg2 > 0,"
-                 " cov_north_north_deg2 > cov_east_east_deg2, cov_xx_deg2 IS NULL, start_utc,"
-                 " end_utc, contact_share) FROM pass_verdict"),
+  EXPECT_EQ(text("SELECT format('%d %d %d %s %s %g', cov_east_east_deg2 > 0, cov_north_north_deg2 "
+                 "> cov_east_east_deg2, cov_xx_deg2 IS NULL, start_utc, end_utc, contact_share) "
+                 "FROM pass_verdict"),
             "1 1 1 2017-01-01T00:00:00.000Z 2017-01-01T00:00:01.500Z 0.75");
 }
 
@@ -76,7 +71,6 @@ int steps_to_verdict(const SQLite::Database& database) {
 }
 
 TEST_F(ArchiveAnswers, VerdictOfADayIsFoundAsFastAsThatOfAMinute) {
-  const auto archive = open();
   std::vector<int> steps;
   ArchiveBatch batch = start_of("run-1");
   int t = 0;
@@ -86,8 +80,7 @@ TEST_F(ArchiveAnswers, VerdictOfADayIsFoundAsFastAsThatOfAMinute) {
       batch.products.emplace_back(estimate_at(t, SpinEstimator::Mean, 20.0));
       batch.products.emplace_back(attitude_at(t, Quality::Ok));
     }
-    ASSERT_TRUE(archive->submit(batch));
-    ASSERT_TRUE(archive->flush());
+    store(batch);
     batch = batch_of("run-1");
     steps.push_back(steps_to_verdict(reader()));
   }
@@ -112,18 +105,14 @@ TEST_F(ArchiveAnswers, VerdictOfARunIsFoundAsFastAmongMany) {
 }
 
 TEST_F(ArchiveAnswers, VerdictOfAThreeAxisPassIsItsLastAttitude) {
-  ArchiveBatch batch = start_of("run-1");
-  batch.products = {attitude_at(7, Quality::Ok), attitude_at(8, Quality::Lost),
-                    attitude_at(9, Quality::Ok)};
-  store(batch);
+  store_run(
+      {attitude_at(7, Quality::Ok), attitude_at(8, Quality::Lost), attitude_at(9, Quality::Ok)});
   const std::string verdict =
-      "SELECT format('%s %s %d %g %g', estimator, quality, ra_deg IS NULL, qw, sigma_deg)"
-      " FROM pass_verdict";
+      "SELECT format('%s %s %d %g %g', estimator, quality, ra_deg IS NULL, qw, sigma_deg) FROM "
+      "pass_verdict";
   EXPECT_EQ(text(verdict), "mekf OK 1 0.5 6");
 
-  batch = batch_of("run-1");
-  batch.products = {RunFault{.t = tai_from_ns(10), .what = "no such sensor"}};
-  store(batch);
+  store_more({RunFault{.t = tai_from_ns(10), .what = "no such sensor"}});
   EXPECT_EQ(text(verdict), "mekf DOUBTFUL 1 0.5 6");
 }
 
@@ -142,31 +131,25 @@ TEST_F(ArchiveAnswers, VerdictOfARunThatFailedToComputeIsDoubtfulUnlessItIsLost)
   }
   ASSERT_TRUE(archive->flush());
 
-  SQLite::Database database = reader();
   EXPECT_THAT(
-      column(database,
-             "SELECT format('%s %.3g %s', quality, ifnull(dec_deg, 0), why)"
-             " FROM pass_verdict ORDER BY run_id"),
+      texts("SELECT format('%s %.3g %s', quality, ifnull(dec_deg, 0), why) FROM pass_verdict ORDER "
+            "BY run_id"),
       ElementsAre(
           "DOUBTFUL 0 computing failed at 2026-11-20T03:00:00.250Z: no such angle; no estimate",
           "DOUBTFUL 30 computing failed at 2026-11-20T03:00:00.250Z: no such angle; OK",
           "LOST 20 computing failed at 2026-11-20T03:00:00.250Z: no such angle; LOST"));
   const std::string failed = "computing failed at 2026-11-20T03:00:00.250Z: no such angle";
-  EXPECT_THAT(column(database, "SELECT against FROM pass_verdict ORDER BY run_id"),
+  EXPECT_THAT(texts("SELECT against FROM pass_verdict ORDER BY run_id"),
               ElementsAre(failed + "; no estimate", failed, failed + "; LOST"));
 }
 
 TEST_F(ArchiveAnswers, AnswerOfAPassIsTheLastEstimateOfEachEstimator) {
-  ArchiveBatch batch = start_of("run-1");
-  batch.products = {
-      estimate_at(10, SpinEstimator::Mean, 1.0), estimate_at(30, SpinEstimator::Mean, 3.0),
-      estimate_at(20, SpinEstimator::Mean, 2.0), estimate_at(15, SpinEstimator::Batch, 4.0)};
-  store(batch);
+  store_run({estimate_at(10, SpinEstimator::Mean, 1.0), estimate_at(30, SpinEstimator::Mean, 3.0),
+             estimate_at(20, SpinEstimator::Mean, 2.0),
+             estimate_at(15, SpinEstimator::Batch, 4.0)});
 
-  SQLite::Database database = reader();
-  EXPECT_THAT(column(database,
-                     "SELECT format('%s %s %d %.6f', spacecraft_id, estimator, t_tai_ns, dec_deg)"
-                     " FROM pass_answer ORDER BY estimator"),
+  EXPECT_THAT(texts("SELECT format('%s %s %d %.6f', spacecraft_id, estimator, t_tai_ns, dec_deg) "
+                    "FROM pass_answer ORDER BY estimator"),
               ElementsAre("SPINNER batch 15 4.000000", "SPINNER mean 30 3.000000"));
 }
 
@@ -179,11 +162,9 @@ TEST_F(ArchiveAnswers, EstimatorsDisagreeBeyondThreeOfTheLargerSigma) {
                     estimate_at(10, SpinEstimator::Mean, 1.0 - 3.1 * sigma_deg)};
   store(batch);
 
-  SQLite::Database database = reader();
   EXPECT_THAT(
-      column(database,
-             "SELECT format('%s %s %.4f %d', one, other, apart_sigmas, disagree)"
-             " FROM spin_comparison ORDER BY one, other"),
+      texts("SELECT format('%s %s %.4f %d', one, other, apart_sigmas, disagree) FROM "
+            "spin_comparison ORDER BY one, other"),
       ElementsAre("mean batch 3.1000 1", "mean sequential 6.0000 1", "sequential batch 2.9000 0"));
 }
 
@@ -210,8 +191,7 @@ TEST_F(ArchiveAnswers, VerdictIsNoBetterThanWhatTheEstimatorsContradictEachOther
   run_of("8", Quality::Ambiguous, 3.5, Quality::Ambiguous);
   ASSERT_TRUE(archive->flush());
 
-  SQLite::Database database = reader();
-  EXPECT_THAT(column(database, "SELECT quality FROM pass_verdict ORDER BY run_id"),
+  EXPECT_THAT(texts("SELECT quality FROM pass_verdict ORDER BY run_id"),
               ElementsAre("OK", "DOUBTFUL", "AMBIGUOUS", "DOUBTFUL", "OK", "CONVERGING", "LOST",
                           "AMBIGUOUS"));
   EXPECT_EQ(text("SELECT why FROM pass_verdict WHERE run_id = '2'"),

@@ -17,7 +17,6 @@
 #include <string>
 #include <thread>
 #include <utility>
-#include <vector>
 
 #include "services/archive/archive.h"
 #include "tests/integration/archive_fixture.h"
@@ -97,13 +96,10 @@ class ArchiveFailure : public testing::ArchiveFixture {
 
   /// Opens an archive that fulfils `failed` when writing fails.
   std::unique_ptr<Archive> open_watched(OnWriteFailure policy, std::promise<Error>& failed) const {
-    ArchiveOptions options;
-    options.on_write_failure = policy;
-    options.queue_rows = 4 * kPulsesPerBatch;
-    options.on_failure = first_into(failed);
-    auto archive = open(options);
-    EXPECT_TRUE(archive->submit(start_of("run-1")));
-    EXPECT_TRUE(archive->flush());
+    auto archive = open({.on_write_failure = policy,
+                         .queue_rows = 4 * kPulsesPerBatch,
+                         .on_failure = first_into(failed)});
+    commit(*archive, start_of("run-1"));
     return archive;
   }
 
@@ -117,7 +113,7 @@ class ArchiveFailure : public testing::ArchiveFixture {
     return accepted;
   }
 
-  std::int64_t stored_pulses() const { return number("SELECT count(*) FROM pulse"); }
+  std::int64_t stored_pulses() const { return count("pulse"); }
 };
 
 TEST_F(ArchiveFailure, StopRefusesAtOnceAndClosingStoresAllThatWasAccepted) {
@@ -188,11 +184,9 @@ TEST_F(ArchiveFailure, RetryHoldsSubmittersAndStoresEverythingOnceThereIsRoom) {
 TEST_F(ArchiveFailure, RowThatBreaksTheSchemaStopsEvenRetryAndCostsOnlyItsOwnBatch) {
   std::promise<Error> failed;
   std::promise<void> all_queued;
-  ArchiveOptions options;
-  options.on_write_failure = OnWriteFailure::Retry;
-  options.on_committed = held_until(all_queued.get_future().share());
-  options.on_failure = first_into(failed);
-  const auto archive = open(options);
+  const auto archive = open({.on_write_failure = OnWriteFailure::Retry,
+                             .on_committed = held_until(all_queued.get_future().share()),
+                             .on_failure = first_into(failed)});
   ArchiveBatch bad = batch_of("run-1");
   bad.products = {RevolutionProduct{.revolution = 1,
                                     .t_sun1 = tai_from_ns(0),
@@ -226,13 +220,12 @@ TEST_F(ArchiveFailure, StopRefusesWhenTheFileIsDeletedAndClosingWritesItAgain) {
   const auto closed = archive->close();
 
   EXPECT_TRUE(closed) << closed.error().message;
-  EXPECT_EQ(number("SELECT count(*) FROM run"), 1);
+  EXPECT_EQ(count("run"), 1);
 }
 
 TEST_F(ArchiveFailure, ClosingSaysWhereTheRowsAreWhenAnotherFileIsAtThePath) {
   const auto archive = open();
-  ASSERT_TRUE(archive->submit(start_of("run-1")));
-  ASSERT_TRUE(archive->flush());
+  commit(*archive, start_of("run-1"));
   ASSERT_TRUE(archive->submit(pulses_from(0)));
   std::ofstream{directory() / "other"} << "another file";
   std::filesystem::rename(directory() / "other", path());
@@ -252,8 +245,7 @@ TEST_F(ArchiveFailure, ClosingSaysWhereTheRowsAreWhenAnotherFileIsAtThePath) {
 
 TEST_F(ArchiveFailure, ClosingFailsWhenTheFileWasTruncatedThoughNothingIsLeftToStore) {
   const auto archive = open();
-  ASSERT_TRUE(archive->submit(start_of("run-1")));
-  ASSERT_TRUE(archive->flush());
+  commit(*archive, start_of("run-1"));
   std::filesystem::resize_file(path(), 4096);
   const auto closed = archive->close();
 
@@ -309,19 +301,15 @@ TEST_F(ArchiveFailure, KillAtAnyMomentLosesNothingThatWasReportedCommitted) {
     ASSERT_TRUE(WIFSIGNALED(status)) << "the writer ended by itself";
 
     EXPECT_EQ(text("PRAGMA integrity_check"), "ok");
-    EXPECT_EQ(
-        number("SELECT count(*) FROM pulse WHERE t_tai_ns <= " + std::to_string(last_reported)),
-        last_reported + 1);
+    EXPECT_EQ(count("pulse WHERE t_tai_ns <= " + std::to_string(last_reported)), last_reported + 1);
   }
 }
 
 TEST_F(ArchiveFailure, AnExceptionInItsThreadIsAFailure) {
   std::promise<Error> failed;
-  ArchiveOptions options;
-  options.on_write_failure = OnWriteFailure::Retry;
-  options.on_committed = [](const auto& /*stored*/) { throw std::bad_alloc{}; };
-  options.on_failure = first_into(failed);
-  const auto archive = open(options);
+  const auto archive = open({.on_write_failure = OnWriteFailure::Retry,
+                             .on_committed = [](const auto& /*stored*/) { throw std::bad_alloc{}; },
+                             .on_failure = first_into(failed)});
   ASSERT_TRUE(archive->submit(start_of("run-1")));
   EXPECT_THAT(failed.get_future().get().message, HasSubstr("out of memory"));
   EXPECT_FALSE(archive->submit(pulses_from(0)));

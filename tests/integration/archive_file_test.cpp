@@ -228,8 +228,7 @@ TEST_F(ArchiveFile, WhoseLogCannotBeReadIsRefusedAndSaysWhatToDo) {
   const std::filesystem::path copy = directory() / "copy";
   std::filesystem::create_directory(copy);
   const auto archive = open();
-  ASSERT_TRUE(archive->submit(start_of("run-1")));
-  ASSERT_TRUE(archive->flush());
+  commit(*archive, start_of("run-1"));
   std::filesystem::copy(path(), copy / "pass.db");
   std::filesystem::copy(log_of(path()), log_of(copy / "pass.db"));
   std::filesystem::permissions(directory(), std::filesystem::perms{0755});
@@ -275,8 +274,7 @@ TEST_F(ArchiveFile, FolderThatTakesNoFilesIsAnError) {
 
 TEST_F(ArchiveFile, ReaderSeesWhatIsCommittedAndCannotWrite) {
   const auto archive = open();
-  ASSERT_TRUE(archive->submit(start_of("run-1")));
-  ASSERT_TRUE(archive->flush());
+  commit(*archive, start_of("run-1"));
 
   SQLite::Database database = reader();
   EXPECT_EQ(database.execAndGet("SELECT count(*) FROM run").getInt(), 1);
@@ -302,7 +300,7 @@ short lock_of_sqlite(const std::filesystem::path& path) {
 // If a process lost its lock, the sqlite3 of another process could delete the log under it.
 TEST_F(ArchiveFile, LookingAtTheFileLeavesItsWriterTheLocks) {
   const auto archive = open();
-  EXPECT_EQ(number("SELECT count(*) FROM run"), 0);
+  EXPECT_EQ(count("run"), 0);
   EXPECT_FALSE(Archive::open(path(), {}));
   EXPECT_EQ(lock_of_sqlite(path()), F_RDLCK);
 }

@@ -43,6 +43,18 @@ inline ArchiveBatch start_of(const std::string& run_id) {
   return batch;
 }
 
+inline ArchiveBatch with_products(ArchiveBatch batch, std::vector<Product> products) {
+  batch.products = std::move(products);
+  return batch;
+}
+
+/// Returns a batch of run-1 that goes on from an instant.
+inline ArchiveBatch going_on_from(std::int64_t t_tai_ns) {
+  ArchiveBatch batch = batch_of("run-1");
+  batch.continuation = Continuation{.t = tai_from_ns(t_tai_ns)};
+  return batch;
+}
+
 inline TelemetrySample<Pulse> pulse_at(std::int64_t t_tai_ns, std::uint64_t seq = 0) {
   return {.spacecraft = "SPINNER",
           .origin = {.source = "station", .session = 7, .seq = seq},
@@ -91,16 +103,32 @@ class ArchiveFixture : public ::testing::Test {
     return std::move(*archive);
   }
 
-  /// Commits the batch through an archive that is opened for it and closed again.
-  void store(const ArchiveBatch& batch) const {
+  /// Commits the batches through an archive that is opened for them and closed again.
+  void store(const std::vector<ArchiveBatch>& batches) const {
     const auto archive = open();
-    Expected<void> done = archive->submit(batch);
-    if (done) {
-      done = archive->close();
+    for (const ArchiveBatch& batch : batches) {
+      expect(archive->submit(batch));
     }
-    if (!done) {
-      throw std::runtime_error{done.error().message};
+    expect(archive->close());
+  }
+  void store(const ArchiveBatch& batch) const { store(std::vector{batch}); }
+  /// Commits the first products of run-1.
+  void store_run(std::vector<Product> products) const {
+    store(with_products(start_of("run-1"), std::move(products)));
+  }
+  /// Commits further products of run-1.
+  void store_more(std::vector<Product> products) const {
+    store(with_products(batch_of("run-1"), std::move(products)));
+  }
+  /// Commits the batches through an open archive.
+  static void commit(Archive& archive, const std::vector<ArchiveBatch>& batches) {
+    for (const ArchiveBatch& batch : batches) {
+      expect(archive.submit(batch));
     }
+    expect(archive.flush());
+  }
+  static void commit(Archive& archive, const ArchiveBatch& batch) {
+    commit(archive, std::vector{batch});
   }
 
   SQLite::Database reader() const {
@@ -114,12 +142,27 @@ class ArchiveFixture : public ::testing::Test {
   std::int64_t number(const std::string& query) const {
     return reader().execAndGet(query).getInt64();
   }
+  /// @param from Table, with what joins and restricts its rows.
+  std::int64_t count(const std::string& from) const {
+    return number("SELECT count(*) FROM " + from);
+  }
   double real(const std::string& query) const { return reader().execAndGet(query).getDouble(); }
   std::string text(const std::string& query) const {
     return reader().execAndGet(query).getString();
   }
+  /// Returns the first column of every row.
+  std::vector<std::string> texts(const std::string& query) const {
+    SQLite::Database database = reader();
+    return column(database, query);
+  }
 
  private:
+  static void expect(const Expected<void>& done) {
+    if (!done) {
+      throw std::runtime_error{done.error().message};
+    }
+  }
+
   TemporaryFolder folder_;
 };
 

@@ -1,4 +1,3 @@
-#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <sys/syscall.h>
 #include <unistd.h>
@@ -83,10 +82,10 @@ TEST_F(ArchiveLog, IsCarriedOverWhileTheArchiveIsOpenAndBeginsAnew) {
   write_long_log(*archive);
   // Without a restart from its beginning the log would grow further.
   EXPECT_LT(log_bytes(), 600 * kMiB);
-  EXPECT_EQ(number("SELECT count(*) FROM pulse"), pulses());
+  EXPECT_EQ(count("pulse"), pulses());
   EXPECT_EQ(text("PRAGMA integrity_check"), "ok");
   ASSERT_TRUE(archive->close());
-  EXPECT_EQ(number("SELECT count(*) FROM pulse"), pulses());
+  EXPECT_EQ(count("pulse"), pulses());
 }
 
 TEST_F(ArchiveLog, ItsPagesGoToTheDiskAFewAtATime) {
@@ -103,8 +102,7 @@ TEST_F(ArchiveLog, ItsPagesGoToTheDiskAFewAtATime) {
 
 TEST_F(ArchiveLog, GrowsAsLongAsAReaderNeedsItAndIsCarriedOverAfterwards) {
   const auto archive = open();
-  ASSERT_TRUE(archive->submit(start_of("run")));
-  ASSERT_TRUE(archive->flush());
+  commit(*archive, start_of("run"));
   {
     SQLite::Database slow = reader();
     slow.exec("BEGIN");
@@ -116,7 +114,7 @@ TEST_F(ArchiveLog, GrowsAsLongAsAReaderNeedsItAndIsCarriedOverAfterwards) {
   write_long_log(*archive);
 
   EXPECT_TRUE(file_reaches(kMiB));
-  EXPECT_EQ(number("SELECT count(*) FROM pulse"), pulses());
+  EXPECT_EQ(count("pulse"), pulses());
   EXPECT_EQ(text("PRAGMA integrity_check"), "ok");
 }
 

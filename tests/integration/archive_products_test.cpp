@@ -19,17 +19,28 @@
 namespace spindrift::archive_products_test {
 
 using testing::attitude_at;
-using testing::column;
 using ::testing::ElementsAre;
 using testing::estimate_at;
+using testing::going_on_from;
 using testing::pulse_at;
 using testing::start_of;
+using testing::with_products;
 
 // A few ulps of 360: a product of doubles near 1, converted to degrees.
 constexpr double kDegTolerance = 1e-12;
 
 class ArchiveProducts : public testing::ArchiveFixture {};
 using Archive = spindrift::Archive;
+
+constexpr std::int64_t kNewYear2017_ns = 1'483'228'837'000'000'000;
+
+SpinMeasurement period_of(std::int64_t revolution) {
+  return {.revolution = revolution,
+          .quantity = SpinQuantity::Period,
+          .value = 0.6,
+          .sigma = 1e-4,
+          .rejected_by = std::nullopt};
+}
 
 SpinFix fix_at(double ra_deg, double dec_deg) {
   const double east_sigma_rad = 0.03 * kRadPerDeg;
@@ -49,27 +60,19 @@ SpinFix fix_at(double ra_deg, double dec_deg) {
 }
 
 TEST_F(ArchiveProducts, ProductsOfTwoRunsStandSideBySide) {
-  const auto archive = open();
-  for (const std::string run_id : {"run-1", "run-2"}) {
-    ArchiveBatch batch = start_of(run_id);
-    batch.products = {fix_at(100.0, -55.0)};
-    ASSERT_TRUE(archive->submit(batch));
-  }
-  ASSERT_TRUE(archive->flush());
-
-  EXPECT_EQ(number("SELECT count(*) FROM spin_fix WHERE revolution = 12"), 2);
+  store({with_products(start_of("run-1"), {fix_at(100.0, -55.0)}),
+         with_products(start_of("run-2"), {fix_at(100.0, -55.0)})});
+  EXPECT_EQ(count("spin_fix WHERE revolution = 12"), 2);
 }
 
 TEST_F(ArchiveProducts, AttitudeIsStoredAndComesBackAsItWasButForAnEvenCovariance) {
-  ArchiveBatch batch = start_of("run-1");
   AttitudeEstimate without_rate = attitude_at(8, Quality::Ok);
   without_rate.rate_body_rad_s.reset();
-  batch.products = {attitude_at(7, Quality::Doubtful), without_rate};
-  store(batch);
+  store_run({attitude_at(7, Quality::Doubtful), without_rate});
 
-  EXPECT_EQ(text("SELECT format('%d %s %g %g %g %g', t_tai_ns, source, qx, qy, qz, qw)"
-                 " || format(' %g %g %g %.9g %s %s', rate_x_rad_s, rate_y_rad_s, rate_z_rad_s,"
-                 " sigma_deg, quality, status) FROM attitude WHERE t_tai_ns = 7"),
+  EXPECT_EQ(text("SELECT format('%d %s %g %g %g %g', t_tai_ns, source, qx, qy, qz, qw) || format(' "
+                 "%g %g %g %.9g %s %s', rate_x_rad_s, rate_y_rad_s, rate_z_rad_s, sigma_deg, "
+                 "quality, status) FROM attitude WHERE t_tai_ns = 7"),
             "7 mekf -0.5 0.1 0.7 0.5 0.25 -0.5 1 6 DOUBTFUL DOUBTFUL, many sun samples gated");
   const std::vector<Product> in_force = find_stored_results(path(), "run-1").value().in_force();
   ASSERT_EQ(in_force.size(), 1U);
@@ -82,42 +85,38 @@ TEST_F(ArchiveProducts, AttitudeIsStoredAndComesBackAsItWasButForAnEvenCovarianc
 }
 
 TEST_F(ArchiveProducts, ARejectedSampleKeepsItsFirstReasonWhenItComesAgain) {
-  ArchiveBatch batch = start_of("run-1");
-  RejectedSample fix{.t = tai_from_ns(7),
-                     .kind = SampleKind::Star,
-                     .rejected_by = Rejection::Innovation,
-                     .failed = FailedTest{.value = 40.5, .limit = 31.8}};
-  batch.products = {fix};
-  fix.rejected_by = Rejection::Late;
-  fix.failed.reset();
-  batch.products.emplace_back(fix);
-  fix.kind = SampleKind::Sun;
-  batch.products.emplace_back(fix);
-  store(batch);
+  const RejectedSample fix{.t = tai_from_ns(7),
+                           .kind = SampleKind::Star,
+                           .rejected_by = Rejection::Innovation,
+                           .failed = FailedTest{.value = 40.5, .limit = 31.8}};
+  RejectedSample late = fix;
+  late.rejected_by = Rejection::Late;
+  late.failed.reset();
+  RejectedSample sun = late;
+  sun.kind = SampleKind::Sun;
+  store_run({fix, late, sun});
 
-  EXPECT_EQ(text("SELECT group_concat(format('%d %s %s %g %g %g', t_tai_ns, kind, rejected_by,"
-                 " ifnull(squared_innovation, 0), ifnull(value, 0), ifnull(\"limit\", 0)), '; ')"
-                 " FROM rejected_sample"),
+  EXPECT_EQ(text("SELECT group_concat(format('%d %s %s %g %g %g', t_tai_ns, kind, rejected_by, "
+                 "ifnull(squared_innovation, 0), ifnull(value, 0), ifnull(\"limit\", 0)), '; ') "
+                 "FROM rejected_sample"),
             "7 star innovation 40.5 40.5 31.8; 7 sun late 0 0 0");
-  EXPECT_EQ(text("SELECT group_concat(what || ' ' || name || ' ' || rejected_by || ' ' || rejected,"
-                 " '; ') FROM rejection_summary"),
+  EXPECT_EQ(text("SELECT group_concat(what || ' ' || name || ' ' || rejected_by || ' ' || "
+                 "rejected, '; ') FROM rejection_summary"),
             "sample star innovation 1; sample sun late 1");
   EXPECT_EQ(text("SELECT says FROM rejected_sample_utc WHERE kind = 'star'"),
             "too far from where the estimator expects it, or it expects none there");
 }
 
 TEST_F(ArchiveProducts, SpinFixIsStoredInDegreesWithItsCovariance) {
-  ArchiveBatch batch = start_of("run-1");
-  batch.products = {fix_at(100.0, -55.0)};
-  store(batch);
+  store_run({fix_at(100.0, -55.0)});
 
   EXPECT_NEAR(real("SELECT ra_deg FROM spin_fix"), 100.0, kDegTolerance);
   EXPECT_NEAR(real("SELECT dec_deg FROM spin_fix"), -55.0, kDegTolerance);
   EXPECT_NEAR(real("SELECT sigma_deg FROM spin_fix"), 0.05, kDegTolerance);
   EXPECT_NEAR(real("SELECT cov_east_east_deg2 FROM spin_fix"), 0.0009, kDegTolerance);
   EXPECT_NEAR(real("SELECT cov_north_north_deg2 FROM spin_fix"), 0.0016, kDegTolerance);
-  EXPECT_EQ(text("SELECT format('%d %d %d %s %g %d', revolution, t_tai_ns, geometry_case,"
-                 " resolution, norm, accepted) FROM spin_fix"),
+  EXPECT_EQ(text("SELECT format('%d %d %d %s %g %d', revolution, t_tai_ns, geometry_case, "
+                 "resolution, norm, accepted) FROM spin_fix"),
             "12 1000000000 3 GEOMETRY 1 1");
   EXPECT_EQ(number("SELECT alternate_ra_deg IS NULL AND alternate_dec_deg IS NULL FROM spin_fix"),
             1);
@@ -127,9 +126,7 @@ TEST_F(ArchiveProducts, AmbiguousFixKeepsBothCandidates) {
   SpinFix fix = fix_at(100.0, -55.0);
   fix.alternates = {{.axis_icrf = fix_at(310.0, 20.0).axis_icrf}};
   fix.resolution = Resolution::Ambiguous;
-  ArchiveBatch batch = start_of("run-1");
-  batch.products = {fix};
-  store(batch);
+  store_run({fix});
 
   EXPECT_NEAR(real("SELECT alternate_ra_deg FROM spin_fix"), 310.0, kDegTolerance);
   EXPECT_NEAR(real("SELECT alternate_dec_deg FROM spin_fix"), 20.0, kDegTolerance);
@@ -146,28 +143,22 @@ TEST_F(ArchiveProducts, RightAscensionStaysBelowAFullTurn) {
   }
   store(batch);
 
-  EXPECT_EQ(number("SELECT count(*) FROM spin_fix WHERE ra_deg >= 0 AND ra_deg < 360"), 7);
+  EXPECT_EQ(count("spin_fix WHERE ra_deg >= 0 AND ra_deg < 360"), 7);
 }
 
 TEST_F(ArchiveProducts, MeasurementsAreStoredInDegreesAndThePeriodInSeconds) {
-  ArchiveBatch batch = start_of("run-1");
-  batch.products = {RevolutionProduct{.revolution = 4, .t_sun1 = tai_from_ns(77), .period_s = 0.6},
-                    SpinMeasurement{.revolution = 4,
-                                    .quantity = SpinQuantity::Period,
-                                    .value = 0.6,
-                                    .sigma = 1e-4,
-                                    .rejected_by = std::nullopt},
-                    SpinMeasurement{.revolution = 4,
-                                    .quantity = SpinQuantity::SunAngle,
-                                    .value = std::numbers::pi / 3.0,
-                                    .sigma = std::numbers::pi / 1800.0,
-                                    .rejected_by = Rejection::SunAngle}};
-  store(batch);
+  store_run({RevolutionProduct{.revolution = 4, .t_sun1 = tai_from_ns(77), .period_s = 0.6},
+             period_of(4),
+             SpinMeasurement{.revolution = 4,
+                             .quantity = SpinQuantity::SunAngle,
+                             .value = std::numbers::pi / 3.0,
+                             .sigma = std::numbers::pi / 1800.0,
+                             .rejected_by = Rejection::SunAngle}});
 
   EXPECT_EQ(text("SELECT format('%d %d %g', revolution, t_tai_ns, period_s) FROM revolution"),
             "4 77 0.6");
-  EXPECT_EQ(text("SELECT group_concat(format('%s %.9g %s %.9g %d %s', quantity, value, unit,"
-                 " sigma, accepted, ifnull(rejected_by, '-')), '; ') FROM spin_measurement"),
+  EXPECT_EQ(text("SELECT group_concat(format('%s %.9g %s %.9g %d %s', quantity, value, unit, "
+                 "sigma, accepted, ifnull(rejected_by, '-')), '; ') FROM spin_measurement"),
             "period 0.6 s 0.0001 1 -; sun_angle 60 deg 0.1 0 sun_angle");
 }
 
@@ -182,19 +173,17 @@ TEST_F(ArchiveProducts, WhatBecameOfEveryEdgeIsStored) {
                              .rejected_by = Rejection::Unassociated}};
   store(batch);
 
-  EXPECT_EQ(text("SELECT group_concat(format('%s %d %s %s %d %s', spacecraft_id, t_tai_ns, channel,"
-                 " ifnull(revolution, '-'), accepted, ifnull(rejected_by, '-')), '; ')"
-                 " FROM pulse_use"),
-            "SPINNER 5 sun1 3 1 -; SPINNER 6 sun1 - 0 unassociated");
+  EXPECT_EQ(
+      text("SELECT group_concat(format('%s %d %s %s %d %s', spacecraft_id, t_tai_ns, channel, "
+           "ifnull(revolution, '-'), accepted, ifnull(rejected_by, '-')), '; ') FROM pulse_use"),
+      "SPINNER 5 sun1 3 1 -; SPINNER 6 sun1 - 0 unassociated");
   EXPECT_EQ(text("SELECT rejected_by || ' ' || source || ' ' || seq FROM rejected_pulse"),
             "unassociated station 2");
 }
 
 TEST_F(ArchiveProducts, EstimateIsStoredInDegreesAndTurnsPerMinute) {
   constexpr double kDeg2PerRad2 = 1.0 / (kRadPerDeg * kRadPerDeg);
-  ArchiveBatch batch = start_of("run-1");
-  batch.products = {estimate_at(9, SpinEstimator::Mean, 30.0)};
-  store(batch);
+  store_run({estimate_at(9, SpinEstimator::Mean, 30.0)});
 
   EXPECT_NEAR(real("SELECT dec_deg FROM spin_estimate"), 30.0, kDegTolerance);
   EXPECT_NEAR(real("SELECT sigma_deg FROM spin_estimate"), 3e-4 / kRadPerDeg, kDegTolerance);
@@ -238,18 +227,10 @@ TEST_F(ArchiveProducts, UtcOfTheViewsIsThatOfFormatUtc) {
 }
 
 TEST_F(ArchiveProducts, EveryViewOfAPersonHasItsUtc) {
-  constexpr std::int64_t kNewYear2017_ns = 1'483'228'837'000'000'000;
-  ArchiveBatch batch = start_of("run-1");
   SpinFix fix = fix_at(100.0, -55.0);
   fix.t = tai_from_ns(kNewYear2017_ns);
-  batch.products = {RevolutionProduct{.revolution = 12, .t_sun1 = fix.t, .period_s = 0.6},
-                    SpinMeasurement{.revolution = 12,
-                                    .quantity = SpinQuantity::Period,
-                                    .value = 0.6,
-                                    .sigma = 1e-4,
-                                    .rejected_by = std::nullopt},
-                    fix, estimate_at(kNewYear2017_ns, SpinEstimator::Mean, 1.0)};
-  store(batch);
+  store_run({RevolutionProduct{.revolution = 12, .t_sun1 = fix.t, .period_s = 0.6}, period_of(12),
+             fix, estimate_at(kNewYear2017_ns, SpinEstimator::Mean, 1.0)});
 
   for (const std::string view : {"revolution_utc", "spin_measurement_utc", "spin_fix_utc",
                                  "spin_estimate_utc", "pass_answer"}) {
@@ -258,19 +239,12 @@ TEST_F(ArchiveProducts, EveryViewOfAPersonHasItsUtc) {
 }
 
 TEST_F(ArchiveProducts, WhatHasNoSun1OrCameInACodedFrameHasItsUtcAllTheSame) {
-  const Pulse edge{.t = tai_from_ns(1'483'228'837'000'000'000), .channel = PulseChannel::Sun2};
-  ArchiveBatch batch = start_of("run-1");
-  batch.products = {
-      PulseUse{.pulse = edge, .revolution = 12, .rejected_by = Rejection::Unassociated},
-      SpinMeasurement{.revolution = 12,
-                      .quantity = SpinQuantity::Period,
-                      .value = 0.6,
-                      .sigma = 1e-4,
-                      .rejected_by = std::nullopt}};
-  store(batch);
+  const Pulse edge{.t = tai_from_ns(kNewYear2017_ns), .channel = PulseChannel::Sun2};
+  store_run({PulseUse{.pulse = edge, .revolution = 12, .rejected_by = Rejection::Unassociated},
+             period_of(12)});
 
-  EXPECT_EQ(number("SELECT count(*) FROM revolution"), 0);
-  EXPECT_EQ(number("SELECT count(*) FROM pulse"), 0);
+  EXPECT_EQ(count("revolution"), 0);
+  EXPECT_EQ(count("pulse"), 0);
   for (const std::string view : {"spin_measurement_utc", "rejected_pulse"}) {
     EXPECT_EQ(text("SELECT utc FROM " + view), "2017-01-01T00:00:00.000Z") << view;
   }
@@ -281,11 +255,9 @@ TEST_F(ArchiveProducts, EstimatesOfALiveRunSayWhenTheyWereStoredAndNoOthers) {
        {std::pair{"live", RunMode::Live}, std::pair{"replay", RunMode::Replay}}) {
     ArchiveBatch batch = start_of(run_id);
     batch.start->mode = mode;
-    store(batch);
-    batch = testing::batch_of(run_id);
-    batch.products = {estimate_at(1, SpinEstimator::Mean, 1.0),
-                      testing::attitude_at(1, Quality::Ok)};
-    store(batch);
+    store({batch,
+           with_products(testing::batch_of(run_id),
+                         {estimate_at(1, SpinEstimator::Mean, 1.0), attitude_at(1, Quality::Ok)})});
   }
   for (const std::string table : {"spin_estimate", "attitude"}) {
     EXPECT_EQ(text("SELECT announced_utc LIKE '20__-__-__T__:__:__.___Z' FROM " + table +
@@ -315,8 +287,7 @@ TEST_F(ArchiveProducts, ResidualsAreLeftOutWhereARunStoresNone) {
     store(batch);
   }
   const auto rows_of = [&](const std::string& table) {
-    SQLite::Database database = reader();
-    return column(database, "SELECT run_id FROM " + table + " ORDER BY run_id");
+    return texts("SELECT run_id FROM " + table + " ORDER BY run_id");
   };
   EXPECT_THAT(rows_of("sample_residual"), ElementsAre("all", "all"));
   EXPECT_THAT(rows_of("edge_residual"), ElementsAre("all"));
@@ -325,38 +296,33 @@ TEST_F(ArchiveProducts, ResidualsAreLeftOutWhereARunStoresNone) {
 }
 
 TEST_F(ArchiveProducts, NoticeIsStoredOnceHoweverOftenItIsTold) {
-  ArchiveBatch batch = start_of("run-1");
-  const RunNotice of_then{.t = tai_from_ns(1'483'228'837'000'000'000),
+  const RunNotice of_then{.t = tai_from_ns(kNewYear2017_ns),
                           .code = "late_edges",
                           .arguments = R"({"edges":3})",
                           .says = "3 edges are late"};
-  batch.products = {of_then, RunNotice{.code = "bad_rows", .arguments = "{}", .says = "bad"},
-                    of_then};
-  store(batch);
+  store_run({of_then, RunNotice{.code = "bad_rows", .arguments = "{}", .says = "bad"}, of_then});
 
-  EXPECT_EQ(text("SELECT group_concat(format('%s %s %s: %s', ifnull(utc, '-'), code, arguments,"
-                 " says), '; ') FROM notice_utc"),
+  EXPECT_EQ(text("SELECT group_concat(format('%s %s %s: %s', ifnull(utc, '-'), code, arguments, "
+                 "says), '; ') FROM notice_utc"),
             "- bad_rows {}: bad; "
             R"(2017-01-01T00:00:00.000Z late_edges {"edges":3}: 3 edges are late)");
 }
 
 TEST_F(ArchiveProducts, CovarianceOfAnAttitudeAndTheBiasOfItsGyroAreInDegrees) {
-  AttitudeEstimate estimate = testing::attitude_at(1, Quality::Ok);
+  AttitudeEstimate estimate = attitude_at(1, Quality::Ok);
   estimate.covariance_rad2(0, 1) = estimate.covariance_rad2(1, 0) = -kRadPerDeg * kRadPerDeg;
-  ArchiveBatch batch = start_of("run-1");
-  batch.products = {estimate};
-  estimate.t = tai_from_ns(2);
-  estimate.gyro_bias = {
+  AttitudeEstimate with_bias = estimate;
+  with_bias.t = tai_from_ns(2);
+  with_bias.gyro_bias = {
       .rad_s = Eigen::Vector3d{1.0, -2.0, 3.0} * kRadPerDeg,
       .covariance_rad2_s2 = 0.25 * kRadPerDeg * kRadPerDeg * Eigen::Matrix3d::Identity()};
-  batch.products.emplace_back(estimate);
-  store(batch);
+  store_run({estimate, with_bias});
 
-  EXPECT_EQ(text("SELECT format('%g %g %g %g %g %g', cov_xx_deg2, cov_xy_deg2, cov_xz_deg2,"
-                 " cov_yy_deg2, cov_yz_deg2, cov_zz_deg2) FROM attitude WHERE t_tai_ns = 1"),
+  EXPECT_EQ(text("SELECT format('%g %g %g %g %g %g', cov_xx_deg2, cov_xy_deg2, cov_xz_deg2, "
+                 "cov_yy_deg2, cov_yz_deg2, cov_zz_deg2) FROM attitude WHERE t_tai_ns = 1"),
             "4 -1 0 16 0 16");
-  EXPECT_EQ(text("SELECT group_concat(format('%d %s %g %g %g %g', t_tai_ns, estimator, bx_deg_s,"
-                 " by_deg_s, bz_deg_s, sigma_bz_deg_s)) FROM gyro_bias"),
+  EXPECT_EQ(text("SELECT group_concat(format('%d %s %g %g %g %g', t_tai_ns, estimator, bx_deg_s, "
+                 "by_deg_s, bz_deg_s, sigma_bz_deg_s)) FROM gyro_bias"),
             "2 mekf 1 -2 3 0.5");
 }
 
@@ -380,8 +346,8 @@ TEST_F(ArchiveProducts, TwoArchivesMergeByNaturalKey) {
   for (const std::string table : {"spacecraft", "run", "pulse", "spin_fix"}) {
     database.exec(fmt::format("INSERT OR IGNORE INTO {0} SELECT * FROM other.{0}", table));
   }
-  EXPECT_EQ(number("SELECT count(*) FROM pulse"), 15);
-  EXPECT_EQ(number("SELECT count(*) FROM spin_fix"), 2);
+  EXPECT_EQ(count("pulse"), 15);
+  EXPECT_EQ(count("spin_fix"), 2);
 }
 
 /// Returns a batch with the solution of a pass that ends at `t_tai_ns`.
@@ -413,21 +379,16 @@ TEST_F(ArchiveProducts, BiasesAreThoseOfTheLastSolutionAndSayWhetherTheyAreInThe
   const BiasEstimate chord{NorthChordBias, 0.01, 0.001, true, true};
   const BiasEstimate dihedral{DihedralBias, 0.01, 0.001, true, false};
   const auto archive = open();
-  ASSERT_TRUE(archive->submit(start_of("run-1")));
-  const auto after = [&](ArchiveBatch batch) {
-    EXPECT_TRUE(archive->submit(std::move(batch)));
-    EXPECT_TRUE(archive->flush());
+  commit(*archive, start_of("run-1"));
+  const auto after = [&](const ArchiveBatch& batch) {
+    commit(*archive, batch);
     return text(stored);
   };
   EXPECT_EQ(after(solution_with(100, {chord, dihedral})), "dihedral 0; north_chord 1");
   EXPECT_EQ(after(solution_with(200, {dihedral})), "dihedral 0");
   EXPECT_EQ(after(solution_with(150, {chord})), "dihedral 0");
-
-  ArchiveBatch again = testing::batch_of("run-1");
-  again.continuation = Continuation{.t = tai_from_ns(201)};
-  EXPECT_EQ(after(again), "dihedral 0");
-  again.continuation = Continuation{.t = tai_from_ns(200)};
-  EXPECT_EQ(after(again), "");
+  EXPECT_EQ(after(going_on_from(201)), "dihedral 0");
+  EXPECT_EQ(after(going_on_from(200)), "");
 }
 
 TEST_F(ArchiveProducts, ResidualsOfBatchGoWithTheirSolutionAllTogether) {
@@ -444,59 +405,46 @@ TEST_F(ArchiveProducts, ResidualsOfBatchGoWithTheirSolutionAllTogether) {
     return batch;
   };
   const auto archive = open();
-  ASSERT_TRUE(archive->submit(start_of("run-1")));
-  const auto after = [&](ArchiveBatch batch) {
-    EXPECT_TRUE(archive->submit(std::move(batch)));
-    EXPECT_TRUE(archive->flush());
-    return number("SELECT count(*) FROM batch_residual");
+  commit(*archive, start_of("run-1"));
+  const auto after = [&](const ArchiveBatch& batch) {
+    commit(*archive, batch);
+    return count("batch_residual");
   };
   EXPECT_EQ(after(with_residuals(100)), 10);
-  ArchiveBatch again = testing::batch_of("run-1");
-  again.continuation = Continuation{.t = tai_from_ns(101)};
-  EXPECT_EQ(after(again), 10);
-  again.continuation = Continuation{.t = tai_from_ns(50)};
-  EXPECT_EQ(after(again), 0);
+  EXPECT_EQ(after(going_on_from(101)), 10);
+  EXPECT_EQ(after(going_on_from(50)), 0);
   EXPECT_EQ(after(with_residuals(60)), 6);
   // A solution during the pass has no residuals to store.
   EXPECT_EQ(after(solution_with(120, {})), 0);
 }
 
-AxisChoice choice_at(std::int64_t t_tai_ns, SpinEstimator estimator) {
-  return {.t = tai_from_ns(t_tai_ns),
-          .estimator = estimator,
-          .axis_icrf = Eigen::Vector3d::UnitX(),
-          .other_icrf = {},
-          .delta_chi_square = {},
-          .settled_by = SettledBy::Geometry};
-}
-
 TEST_F(ArchiveProducts, TheChoiceOfARunIsThatOfBatchUntilItIsMadeAgain) {
   const auto archive = open();
-  ASSERT_TRUE(archive->submit(start_of("run-1")));
-  const auto after = [&](ArchiveBatch batch) {
-    EXPECT_TRUE(archive->submit(std::move(batch)));
-    EXPECT_TRUE(archive->flush());
+  commit(*archive, start_of("run-1"));
+  const auto after = [&](const ArchiveBatch& batch) {
+    commit(*archive, batch);
     return text(
         "SELECT ifnull(group_concat(format('%s %d', estimator, t_tai_ns)), '') FROM axis_choice");
   };
   const auto made = [](std::int64_t t_tai_ns, SpinEstimator estimator) {
-    ArchiveBatch batch = testing::batch_of("run-1");
-    batch.products = {choice_at(t_tai_ns, estimator)};
-    return batch;
+    return with_products(testing::batch_of("run-1"),
+                         {AxisChoice{.t = tai_from_ns(t_tai_ns),
+                                     .estimator = estimator,
+                                     .axis_icrf = Eigen::Vector3d::UnitX(),
+                                     .other_icrf = {},
+                                     .delta_chi_square = {},
+                                     .settled_by = SettledBy::Geometry}});
   };
   EXPECT_EQ(after(made(90, SpinEstimator::Mean)), "mean 90");
   EXPECT_EQ(after(made(100, SpinEstimator::Batch)), "batch 100");
   EXPECT_EQ(after(made(200, SpinEstimator::Sequential)), "batch 100");
   EXPECT_EQ(after(made(300, SpinEstimator::Batch)), "batch 300");
-  ArchiveBatch again = testing::batch_of("run-1");
-  again.continuation = Continuation{.t = tai_from_ns(200)};
-  EXPECT_EQ(after(again), "");
+  EXPECT_EQ(after(going_on_from(200)), "");
   EXPECT_EQ(after(made(200, SpinEstimator::Sequential)), "sequential 200");
 }
 
 TEST_F(ArchiveProducts, BiasThatIsNotObservableHasNoValue) {
-  store(start_of("run-1"));
-  store(solution_with(100, {{NorthChordBias, 0.0, 0.001, false, true}}));
+  store({start_of("run-1"), solution_with(100, {{NorthChordBias, 0.0, 0.001, false, true}})});
   EXPECT_EQ(text("SELECT ifnull(value, 'none') FROM spin_bias"), "none");
 }
 

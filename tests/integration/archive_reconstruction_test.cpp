@@ -13,7 +13,6 @@
 namespace spindrift::archive_reconstruction_test {
 
 using testing::batch_of;
-using testing::column;
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
 using testing::start_of;
@@ -84,10 +83,7 @@ class ArchiveReconstruction : public testing::ArchiveFixture {
     batch.products = std::move(products);
     store(batch);
   }
-  std::vector<std::string> rows(const std::string& query) const {
-    SQLite::Database database = reader();
-    return column(database, query);
-  }
+  std::vector<std::string> rows(const std::string& query) const { return texts(query); }
 };
 
 TEST_F(ArchiveReconstruction, ALaterSolutionTakesThePlaceOfAllOfTheEarlier) {
@@ -116,8 +112,8 @@ TEST_F(ArchiveReconstruction, ReconstructedAttitudesDoNotPoseAsThatOfThePass) {
   store_products({filtered_at(4), early_solution()});
   EXPECT_EQ(text("SELECT source || (t_tai_ns / 1000000000) FROM attitude_answer"), "mekf4");
   EXPECT_EQ(text("SELECT estimator FROM pass_verdict"), "mekf");
-  EXPECT_EQ(text("SELECT format('%s %s %d %g %.3f %.3f', method, quality, t1_tai_ns / 1000000000,"
-                 " qw, sigma_deg, cov_zz_deg2) FROM separation_verdict"),
+  EXPECT_EQ(text("SELECT format('%s %s %d %g %.3f %.3f', method, quality, t1_tai_ns / 1000000000, "
+                 "qw, sigma_deg, cov_zz_deg2) FROM separation_verdict"),
             "batch OK 1 0.5 2.000 1.333");
 
   const auto stored = find_stored_results(path(), "run-1").value();
@@ -133,8 +129,8 @@ TEST_F(ArchiveReconstruction, ReconstructedAttitudesDoNotPoseAsThatOfThePass) {
 TEST_F(ArchiveReconstruction, TheVerdictOfARunThatOnlyReconstructsIsItsT1) {
   store(start_of("run-1"));
   store_products({product(Sequential, 10, {{Separation, 1}}, {1}), early_solution()});
-  EXPECT_EQ(text("SELECT format('%s %s %g %.3f %s', estimator, quality, qw, sigma_deg, why)"
-                 " FROM pass_verdict"),
+  EXPECT_EQ(text("SELECT format('%s %s %g %.3f %s', estimator, quality, qw, sigma_deg, why) FROM "
+                 "pass_verdict"),
             "batch OK 0.5 2.000 OK");
   EXPECT_THAT(rows("SELECT source FROM attitude_answer"), IsEmpty());
 }
@@ -169,8 +165,8 @@ TEST_F(ArchiveReconstruction, StaysWhenProductsOfARunThatGoesOnAreWithdrawn) {
   store(going_on);
   EXPECT_THAT(rows("SELECT source || (t_tai_ns / 1000000000) FROM attitude ORDER BY 1"),
               ElementsAre("batch1", "batch2", "batch3", "batch4", "batch5", "mekf2"));
-  EXPECT_EQ(number("SELECT count(*) FROM reconstruction_event"), 4);
-  EXPECT_EQ(number("SELECT count(*) FROM reconstruction"), 1);
+  EXPECT_EQ(count("reconstruction_event"), 4);
+  EXPECT_EQ(count("reconstruction"), 1);
 }
 
 }  // namespace spindrift::archive_reconstruction_test

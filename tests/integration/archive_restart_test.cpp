@@ -19,9 +19,11 @@ namespace spindrift::archive_restart_test {
 
 using testing::batch_of;
 using ::testing::ElementsAre;
+using testing::going_on_from;
 using testing::kRunStart;
 using testing::pulse_at;
 using testing::start_of;
+using testing::with_products;
 
 class ArchiveRestart : public testing::ArchiveFixture {
  protected:
@@ -77,23 +79,18 @@ TEST_F(ArchiveRestart, CodedFrameThatArrivesTwiceIsStoredOnceWithItsFirstOrigin)
   const auto archive = open();
   ArchiveBatch batch = start_of("run-1");
   batch.samples.of<CodedFrame>() = {frame_at(5, 1), frame_at(6, 2), frame_at(5, 3)};
-  ASSERT_TRUE(archive->submit(batch));
-  ASSERT_TRUE(archive->flush());
+  commit(*archive, batch);
 
-  EXPECT_EQ(text("SELECT group_concat(format('%d %.2f %s %.2f %s %d', t_tai_ns, period_s,"
-                 " ifnull(sun2_s, '-'), south_out_s, source, seq), '; ') FROM coded_frame"),
+  EXPECT_EQ(text("SELECT group_concat(format('%d %.2f %s %.2f %s %d', t_tai_ns, period_s, "
+                 "ifnull(sun2_s, '-'), south_out_s, source, seq), '; ') FROM coded_frame"),
             "5 0.60 - 0.25 station 1; 6 0.60 - 0.25 station 2");
   EXPECT_EQ(archive->statistics().samples_committed, 3U);
 }
 
 TEST_F(ArchiveRestart, SamplesComeBackInTheOrderTheyArrivedIn) {
-  const auto archive = open();
-  ASSERT_TRUE(archive->submit(begun("run-1", 100)));
-  ASSERT_TRUE(archive->submit(arrived("run-1", 100, {pulse_at(50), pulse_at(70)})));
   ArchiveBatch late = arrived("run-1", 102, {pulse_at(40)});
   late.samples.of<CodedFrame>() = {frame_at(60, 9, 103)};
-  ASSERT_TRUE(archive->submit(late));
-  ASSERT_TRUE(archive->flush());
+  store({begun("run-1", 100), arrived("run-1", 100, {pulse_at(50), pulse_at(70)}), late});
 
   const auto pass = stored();
   ASSERT_TRUE(pass);
@@ -108,13 +105,9 @@ TEST_F(ArchiveRestart, SamplesComeBackInTheOrderTheyArrivedIn) {
 }
 
 TEST_F(ArchiveRestart, SamplesOfARunThatAnEarlierOneHasStoredAreItsOwnToo) {
-  const auto archive = open();
-  ASSERT_TRUE(archive->submit(begun("run-1", 100)));
-  ASSERT_TRUE(archive->submit(arrived("run-1", 100, {pulse_at(10), pulse_at(20), pulse_at(30)})));
-  ASSERT_TRUE(archive->submit(begun("run-2", 200)));
-  ASSERT_TRUE(archive->submit(arrived("run-2", 200, {pulse_at(30), pulse_at(20), pulse_at(40)})));
-  ASSERT_TRUE(archive->submit(arrived("run-2", 203, {pulse_at(30)})));
-  ASSERT_TRUE(archive->flush());
+  store({begun("run-1", 100), arrived("run-1", 100, {pulse_at(10), pulse_at(20), pulse_at(30)}),
+         begun("run-2", 200), arrived("run-2", 200, {pulse_at(30), pulse_at(20), pulse_at(40)}),
+         arrived("run-2", 203, {pulse_at(30)})});
 
   const auto pass = stored();
   ASSERT_TRUE(pass);
@@ -123,14 +116,10 @@ TEST_F(ArchiveRestart, SamplesOfARunThatAnEarlierOneHasStoredAreItsOwnToo) {
 }
 
 TEST_F(ArchiveRestart, ARunEndsWhereOneOfAnotherModeBegins) {
-  const auto archive = open();
-  ASSERT_TRUE(archive->submit(begun("run-1", 100)));
-  ASSERT_TRUE(archive->submit(arrived("run-1", 100, {pulse_at(10), pulse_at(20)})));
   ArchiveBatch processed = begun("run-2", 200);
   processed.start->mode = RunMode::Live;
-  ASSERT_TRUE(archive->submit(processed));
-  ASSERT_TRUE(archive->submit(arrived("run-2", 200, {pulse_at(30)})));
-  ASSERT_TRUE(archive->flush());
+  store({begun("run-1", 100), arrived("run-1", 100, {pulse_at(10), pulse_at(20)}), processed,
+         arrived("run-2", 200, {pulse_at(30)})});
   const auto pass = stored();
   ASSERT_TRUE(pass);
   EXPECT_EQ(pass->run_id, "run-1");
@@ -159,11 +148,9 @@ TEST_F(ArchiveRestart, WhatWasLeftOutMakesWayForASampleOfItsTime) {
   EXPECT_EQ(text(rows), "0.1 right 102");
 
   // A later run that leaves out a repeated sample does not take it from the run that has it.
-  ASSERT_TRUE(archive->submit(begun("run-2", 200)));
   ArchiveBatch again = batch_of("run-2");
   again.samples.of<GyroSample>() = {gyro(0.1, -201, "right")};
-  ASSERT_TRUE(archive->submit(again));
-  ASSERT_TRUE(archive->flush());
+  commit(*archive, {begun("run-2", 200), again});
   EXPECT_EQ(text(rows), "0.1 right 102");
 }
 
@@ -175,8 +162,7 @@ TEST_F(ArchiveRestart, WhatARunLeftOutComesBackApartUntilARunTakesIt) {
   left_out.samples.of<Pulse>() = {pulse_at(20, 8), pulse_at(10, 7)};
   left_out.samples.of<Pulse>()[0].arrival = -101;
   left_out.samples.of<Pulse>()[1].arrival = -102;
-  ASSERT_TRUE(archive->submit(left_out));
-  ASSERT_TRUE(archive->flush());
+  commit(*archive, left_out);
 
   auto pass = stored();
   ASSERT_TRUE(pass);
@@ -195,8 +181,7 @@ TEST_F(ArchiveRestart, WhatARunLeftOutComesBackApartUntilARunTakesIt) {
   taken.reach = {.first = tai_from_ns(10), .last = tai_from_ns(20)};
   taken.moved.of<Pulse>() = {{.arrival = 200, .value = pulses[0].value},
                              {.arrival = 201, .value = pulses[1].value}};
-  ASSERT_TRUE(archive->submit(taken));
-  ASSERT_TRUE(archive->flush());
+  commit(*archive, taken);
   pass = stored();
   ASSERT_TRUE(pass);
   EXPECT_THAT(times_of(*pass), ElementsAre(20, 10));
@@ -208,14 +193,11 @@ TEST_F(ArchiveRestart, WhatARunLeftOutComesBackApartUntilARunTakesIt) {
 }
 
 TEST_F(ArchiveRestart, TheLastSampleOfEachSessionComesBack) {
-  const auto archive = open();
-  ASSERT_TRUE(archive->submit(begun("run-1", 100)));
   TelemetrySample<Pulse> other = pulse_at(30, 2);
   other.origin.session = ~std::uint64_t{0};
   ArchiveBatch batch = arrived("run-1", 100, {pulse_at(10, 41), pulse_at(40, 42), other});
   batch.samples.of<CodedFrame>() = {frame_at(50, 9, 103)};
-  ASSERT_TRUE(archive->submit(batch));
-  ASSERT_TRUE(archive->flush());
+  store({begun("run-1", 100), batch});
 
   const auto text_of = [](const std::vector<Origin>& origins) {
     std::string text;
@@ -230,25 +212,20 @@ TEST_F(ArchiveRestart, TheLastSampleOfEachSessionComesBack) {
 }
 
 TEST_F(ArchiveRestart, OnlyARunThatWasMadeTheSameWayIsContinued) {
-  const auto archive = open();
-  ASSERT_TRUE(archive->submit(begun("run-1", 100)));
-  ASSERT_TRUE(archive->flush());
+  store(begun("run-1", 100));
   ASSERT_TRUE(stored());
   EXPECT_FALSE(stored()->earliest);
-  for (std::string RunStart::*part : {&RunStart::software_version, &RunStart::config_sha256}) {
+  const std::vector<void (*)(RunStart&)> changes{
+      [](RunStart& start) { start.mode = RunMode::Live; },
+      [](RunStart& start) { start.orbit_sha256.reset(); },
+      [](RunStart& start) { start.telemetry.pop_back(); },
+      [](RunStart& start) { start.software_version += "x"; },
+      [](RunStart& start) { start.config_sha256 += "x"; }};
+  for (const auto& change : changes) {
     RunStart other = kRunStart;
-    other.*part += "x";
+    change(other);
     EXPECT_FALSE(stored(other));
   }
-  RunStart other = kRunStart;
-  other.mode = RunMode::Live;
-  EXPECT_FALSE(stored(other));
-  other = kRunStart;
-  other.orbit_sha256.reset();
-  EXPECT_FALSE(stored(other));
-  other = kRunStart;
-  other.telemetry.pop_back();
-  EXPECT_FALSE(stored(other));
   EXPECT_TRUE(find_stored_passes(path(), "OTHER", kRunStart, senders_).value().empty());
 }
 
@@ -271,21 +248,15 @@ Product use_at(std::int64_t t_tai_ns) {
 }
 
 TEST_F(ArchiveRestart, RunThatGoesOnIsNotFinishedAndItsLastProductsAreWithdrawn) {
-  const auto archive = open();
   ArchiveBatch whole = start_of("run-1");
   for (std::int64_t number = 0; number < 5; ++number) {
     whole.products.insert(whole.products.end(),
                           {revolution_at(number), period_of(number), use_at(10 * number)});
   }
   whole.finished_utc = "2026-11-20T04:00:00Z";
-  ASSERT_TRUE(archive->submit(whole));
-  ArchiveBatch again = batch_of("run-1");
-  again.continuation = Continuation{.t = tai_from_ns(30)};
-  again.products = {revolution_at(3)};
-  ASSERT_TRUE(archive->submit(again));
-  ASSERT_TRUE(archive->flush());
+  store({whole, with_products(going_on_from(30), {revolution_at(3)})});
 
-  EXPECT_EQ(number("SELECT count(*) FROM run WHERE finished_utc IS NULL"), 1);
+  EXPECT_EQ(count("run WHERE finished_utc IS NULL"), 1);
   EXPECT_EQ(text("SELECT group_concat(revolution, ' ') FROM revolution"), "0 1 2 3");
   EXPECT_EQ(text("SELECT group_concat(revolution, ' ') FROM spin_measurement"), "0 1 2");
   EXPECT_EQ(text("SELECT group_concat(revolution, ' ') FROM pulse_use"), "0 1 2");
@@ -294,10 +265,7 @@ TEST_F(ArchiveRestart, RunThatGoesOnIsNotFinishedAndItsLastProductsAreWithdrawn)
 TEST_F(ArchiveRestart, LastRevolutionIsTheOneThatNoTableIsBehind) {
   const auto archive = open();
   const auto after = [&](std::vector<Product> products) {
-    ArchiveBatch batch = batch_of("run-1");
-    batch.products = std::move(products);
-    EXPECT_TRUE(archive->submit(std::move(batch)));
-    EXPECT_TRUE(archive->flush());
+    commit(*archive, with_products(batch_of("run-1"), std::move(products)));
     return stored()->last_made;
   };
   ASSERT_TRUE(archive->submit(start_of("run-1")));
@@ -315,7 +283,6 @@ TEST_F(ArchiveRestart, LastRevolutionIsTheOneThatNoTableIsBehind) {
 }
 
 TEST_F(ArchiveRestart, MeasurementsOfRevolutionsWithoutSun1AreWithdrawnToo) {
-  const auto archive = open();
   ArchiveBatch whole = start_of("run-1");
   for (std::int64_t number = 0; number < 5; ++number) {
     whole.products.emplace_back(
@@ -328,11 +295,7 @@ TEST_F(ArchiveRestart, MeasurementsOfRevolutionsWithoutSun1AreWithdrawnToo) {
                                                 .sigma = 0.1,
                                                 .rejected_by = std::nullopt});
   }
-  ASSERT_TRUE(archive->submit(whole));
-  ArchiveBatch again = batch_of("run-1");
-  again.continuation = Continuation{.t = tai_from_ns(30)};
-  ASSERT_TRUE(archive->submit(again));
-  ASSERT_TRUE(archive->flush());
+  store({whole, going_on_from(30)});
 
   EXPECT_EQ(text("SELECT group_concat(revolution, ' ') FROM spin_measurement"), "0 1 2");
   EXPECT_EQ(text("SELECT group_concat(revolution, ' ') FROM pulse_use"), "0 1 2");
@@ -411,9 +374,7 @@ TEST_F(ArchiveRestart, ResultsInForceComeBackAsTheyWereGiven) {
 
 TEST_F(ArchiveRestart, ResultsThatWereGivenBeforeAreKnownButNotAFixThatIsDecidedNow) {
   using enum SpinEstimator;
-  ArchiveBatch batch = start_of("run-1");
-  batch.products = {accepted_fix(6), fix_with_alternates(2), estimate_at(70, Mean)};
-  store(batch);
+  store_run({accepted_fix(6), fix_with_alternates(2), estimate_at(70, Mean)});
 
   const StoredResults stored = find_stored_results(path(), "run-1").value();
   EXPECT_TRUE(stored.hold(accepted_fix(6)));
@@ -429,40 +390,25 @@ TEST_F(ArchiveRestart, ResultsThatWereGivenBeforeAreKnownButNotAFixThatIsDecided
 
 TEST_F(ArchiveRestart, AllAxesOfAnAmbiguousFixAreStoredUntilItIsGivenAgainOrWithdrawn) {
   const std::string stored_axes =
-      "SELECT group_concat(format('%d %d %.0f', revolution, candidate, ra_deg), '; ')"
-      " FROM spin_fix_candidate WHERE candidate > 0";
+      "SELECT group_concat(format('%d %d %.0f', revolution, candidate, ra_deg), '; ') FROM "
+      "spin_fix_candidate WHERE candidate > 0";
   const auto archive = open();
-  ArchiveBatch batch = start_of("run-1");
-  batch.products = {fix_with_alternates(3)};
-  ASSERT_TRUE(archive->submit(batch));
-  ASSERT_TRUE(archive->flush());
+  commit(*archive, with_products(start_of("run-1"), {fix_with_alternates(3)}));
   EXPECT_EQ(text(stored_axes), "7 1 90; 7 2 180; 7 3 270");
 
-  ArchiveBatch decided = batch_of("run-1");
-  decided.products = {fix_with_alternates(1)};
-  ASSERT_TRUE(archive->submit(decided));
-  ASSERT_TRUE(archive->flush());
+  commit(*archive, with_products(batch_of("run-1"), {fix_with_alternates(1)}));
   EXPECT_EQ(text(stored_axes), "7 1 90");
   EXPECT_EQ(real("SELECT alternate_ra_deg FROM spin_fix"), 90.0);
 
-  ArchiveBatch again = batch_of("run-1");
-  again.products = {fix_with_alternates(2)};
-  ASSERT_TRUE(archive->submit(again));
-  ArchiveBatch withdrawn = batch_of("run-1");
-  withdrawn.continuation = Continuation{.t = tai_from_ns(70)};
-  ASSERT_TRUE(archive->submit(withdrawn));
-  ASSERT_TRUE(archive->flush());
-  EXPECT_EQ(number("SELECT count(*) FROM spin_fix_candidate"), 0);
+  commit(*archive, {with_products(batch_of("run-1"), {fix_with_alternates(2)}), going_on_from(70)});
+  EXPECT_EQ(count("spin_fix_candidate"), 0);
 }
 
 TEST_F(ArchiveRestart, WhatBecomesOfAnEdgeLaterStandsButNotThatItIsLate) {
   const Pulse pulse = pulse_at(5).value;
-  ArchiveBatch batch = start_of("run-1");
-  batch.products = {
-      PulseUse{.pulse = pulse, .revolution = {}, .rejected_by = Rejection::Unassociated},
-      PulseUse{.pulse = pulse, .revolution = 3, .rejected_by = std::nullopt},
-      PulseUse{.pulse = pulse, .revolution = {}, .rejected_by = Rejection::Late}};
-  store(batch);
+  store_run({PulseUse{.pulse = pulse, .revolution = {}, .rejected_by = Rejection::Unassociated},
+             PulseUse{.pulse = pulse, .revolution = 3, .rejected_by = std::nullopt},
+             PulseUse{.pulse = pulse, .revolution = {}, .rejected_by = Rejection::Late}});
   EXPECT_EQ(text("SELECT revolution || ' ' || accepted || ifnull(rejected_by, '') FROM pulse_use"),
             "3 1");
 }

@@ -13,17 +13,18 @@
 #include "pipelines/time/utc.h"
 #include "services/archive/schema.h"
 #include "tests/integration/archive_fixture.h"
+#include "tests/support/lines.h"
 
 namespace spindrift::archive_test {
 
 using testing::batch_of;
-using testing::column;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsSupersetOf;
 using testing::pulse_at;
 using testing::start_of;
 using ::testing::UnorderedElementsAreArray;
+using testing::with_products;
 
 class ArchiveTest : public testing::ArchiveFixture {};
 using Archive = spindrift::Archive;
@@ -36,93 +37,63 @@ std::string plan_of(SQLite::Database& database, const std::string& query) {
 }
 
 TEST_F(ArchiveTest, ANewFileHasTheTablesAndColumnsOfTheContract) {
-  const std::map<std::string, std::vector<std::string>> contract = {
-      {"spacecraft", {"spacecraft_id", "name", "kind"}},
+  const std::map<std::string, std::string> contract = {
+      {"spacecraft", "spacecraft_id name kind"},
       {"run",
-       {"run_id", "spacecraft_id", "mode", "software_version", "config_toml", "config_sha256",
-        "orbit_sha256", "started_utc", "finished_utc", "label", "last_tai_ns", "telemetry_sha256"}},
-      {"pulse", {"spacecraft_id", "t_tai_ns", "channel"}},
+       "run_id spacecraft_id mode software_version config_toml config_sha256 orbit_sha256 "
+       "started_utc finished_utc label last_tai_ns telemetry_sha256"},
+      {"pulse", "spacecraft_id t_tai_ns channel"},
       {"coded_frame",
-       {"spacecraft_id", "t_tai_ns", "period_s", "sun2_s", "north_in_s", "north_out_s",
-        "south_in_s", "south_out_s"}},
-      {"gyro_sample", {"spacecraft_id", "t_tai_ns", "wx_rad_s", "wy_rad_s", "wz_rad_s"}},
-      {"star_sample", {"spacecraft_id", "t_tai_ns", "qx", "qy", "qz", "qw"}},
-      {"sun_sample", {"spacecraft_id", "t_tai_ns", "sx", "sy", "sz"}},
-      {"magnetometer_sample", {"spacecraft_id", "t_tai_ns", "bx_nt", "by_nt", "bz_nt"}},
-      {"orbit_state_sample",
-       {"spacecraft_id", "t_tai_ns", "x_km", "y_km", "z_km", "vx_km_s", "vy_km_s", "vz_km_s"}},
-      {"rejected_input", {"run_id", "source", "session", "line", "reason", "samples"}},
-      {"pulse_use",
-       {"run_id", "spacecraft_id", "t_tai_ns", "channel", "revolution", "accepted", "rejected_by"}},
-      {"revolution", {"run_id", "revolution", "t_tai_ns", "period_s"}},
-      {"spin_measurement",
-       {"run_id", "revolution", "quantity", "value", "unit", "sigma", "accepted", "rejected_by"}},
+       "spacecraft_id t_tai_ns period_s sun2_s north_in_s north_out_s south_in_s south_out_s"},
+      {"gyro_sample", "spacecraft_id t_tai_ns wx_rad_s wy_rad_s wz_rad_s"},
+      {"star_sample", "spacecraft_id t_tai_ns qx qy qz qw"},
+      {"sun_sample", "spacecraft_id t_tai_ns sx sy sz"},
+      {"magnetometer_sample", "spacecraft_id t_tai_ns bx_nt by_nt bz_nt"},
+      {"orbit_state_sample", "spacecraft_id t_tai_ns x_km y_km z_km vx_km_s vy_km_s vz_km_s"},
+      {"rejected_input", "run_id source session line reason samples"},
+      {"pulse_use", "run_id spacecraft_id t_tai_ns channel revolution accepted rejected_by"},
+      {"revolution", "run_id revolution t_tai_ns period_s"},
+      {"spin_measurement", "run_id revolution quantity value unit sigma accepted rejected_by"},
       {"spin_fix",
-       {"run_id", "revolution", "t_tai_ns", "geometry_case", "ra_deg", "dec_deg", "sigma_deg",
-        "alternate_ra_deg", "alternate_dec_deg", "resolution", "accepted"}},
+       "run_id revolution t_tai_ns geometry_case ra_deg dec_deg sigma_deg alternate_ra_deg "
+       "alternate_dec_deg resolution accepted"},
       {"spin_estimate",
-       {"run_id", "t_tai_ns", "estimator", "ra_deg", "dec_deg", "sigma_deg", "spin_rate_rpm",
-        "sigma_rpm", "quality", "reasons", "status", "announced_utc"}},
-      {"spin_bias",
-       {"run_id", "estimator", "name", "value", "unit", "sigma", "observable", "estimated"}},
+       "run_id t_tai_ns estimator ra_deg dec_deg sigma_deg spin_rate_rpm sigma_rpm quality reasons "
+       "status announced_utc"},
+      {"spin_bias", "run_id estimator name value unit sigma observable estimated"},
       {"attitude",
-       {"run_id",      "t_tai_ns",     "source",       "qx",           "qy",          "qz",
-        "qw",          "rate_x_rad_s", "rate_y_rad_s", "rate_z_rad_s", "sigma_deg",   "quality",
-        "reasons",     "status",       "cov_xx_deg2",  "cov_xy_deg2",  "cov_xz_deg2", "cov_yy_deg2",
-        "cov_yz_deg2", "cov_zz_deg2",  "announced_utc"}},
-      {"gyro_bias", {"run_id", "t_tai_ns", "estimator", "bx_deg_s", "by_deg_s", "bz_deg_s"}},
-      {"notice", {"run_id", "t_tai_ns", "code", "arguments", "says"}},
+       "run_id t_tai_ns source qx qy qz qw rate_x_rad_s rate_y_rad_s rate_z_rad_s sigma_deg "
+       "quality reasons status cov_xx_deg2 cov_xy_deg2 cov_xz_deg2 cov_yy_deg2 cov_yz_deg2 "
+       "cov_zz_deg2 announced_utc"},
+      {"gyro_bias", "run_id t_tai_ns estimator bx_deg_s by_deg_s bz_deg_s"},
+      {"notice", "run_id t_tai_ns code arguments says"},
       {"reconstruction_event",
-       {"run_id",
-        "method",
-        "event",
-        "t_tai_ns",
-        "qx",
-        "qy",
-        "qz",
-        "qw",
-        "euler312_icrf_deg_1",
-        "euler312_icrf_deg_2",
-        "euler312_icrf_deg_3",
-        "euler312_orbit_deg_1",
-        "euler312_orbit_deg_2",
-        "euler312_orbit_deg_3",
-        "sigma_deg",
-        "cov_xx_deg2",
-        "cov_xy_deg2",
-        "cov_xz_deg2",
-        "cov_yy_deg2",
-        "cov_yz_deg2",
-        "cov_zz_deg2"}},
+       "run_id method event t_tai_ns qx qy qz qw euler312_icrf_deg_1 euler312_icrf_deg_2 "
+       "euler312_icrf_deg_3 euler312_orbit_deg_1 euler312_orbit_deg_2 euler312_orbit_deg_3 "
+       "sigma_deg cov_xx_deg2 cov_xy_deg2 cov_xz_deg2 cov_yy_deg2 cov_yz_deg2 cov_zz_deg2"},
       {"alert",
-       {"alert_id", "spacecraft_id", "key", "severity", "state", "raised_tai_ns", "updated_tai_ns",
-        "cleared_tai_ns", "count", "message", "evidence"}},
-      {"alert_transition", {"alert_id", "t_tai_ns", "from_state", "to_state", "by", "note"}},
-      {"operator_action",
-       {"action_id", "spacecraft_id", "t_tai_ns", "made_utc", "by", "action", "arguments"}},
+       "alert_id spacecraft_id key severity state raised_tai_ns updated_tai_ns cleared_tai_ns "
+       "count message evidence"},
+      {"alert_transition", "alert_id t_tai_ns from_state to_state by note"},
+      {"operator_action", "action_id spacecraft_id t_tai_ns made_utc by action arguments"},
       {"pass_verdict",
-       {"run_id", "spacecraft_id", "started_utc", "finished", "estimator", "quality", "ra_deg",
-        "dec_deg", "qx", "qy", "qz", "qw", "sigma_deg", "consider_sigma_deg", "start_utc",
-        "end_utc", "contact_share", "why", "against"}},
+       "run_id spacecraft_id started_utc finished estimator quality ra_deg dec_deg qx qy qz qw "
+       "sigma_deg consider_sigma_deg start_utc end_utc contact_share why against"},
       {"separation_verdict",
-       {"run_id", "method", "quality", "t1_tai_ns", "qx", "qy", "qz", "qw", "sigma_deg",
-        "launcher_angle_deg", "why"}}};
+       "run_id method quality t1_tai_ns qx qy qz qw sigma_deg launcher_angle_deg why"}};
   const auto archive = open();
 
-  SQLite::Database database = reader();
   for (const auto& [table, columns] : contract) {
-    EXPECT_THAT(column(database, "SELECT name FROM pragma_table_info('" + table + "')"),
-                IsSupersetOf(columns))
+    EXPECT_THAT(texts("SELECT name FROM pragma_table_info('" + table + "')"),
+                IsSupersetOf(lines_of(columns, ' ')))
         << table;
   }
-  EXPECT_THAT(column(database,
-                     "SELECT name FROM pragma_table_list"
-                     " WHERE type = 'table' AND NOT strict AND name NOT LIKE 'sqlite_%'"),
+  EXPECT_THAT(texts("SELECT name FROM pragma_table_list WHERE type = 'table' AND NOT strict AND "
+                    "name NOT LIKE 'sqlite_%'"),
               ElementsAre());
   EXPECT_EQ(number("PRAGMA user_version"), kArchiveSchemaVersion);
   EXPECT_EQ(text("PRAGMA journal_mode"), "wal");
-  EXPECT_EQ(static_cast<std::size_t>(number("SELECT count(*) FROM leap_second")),
-            leap_seconds().size());
+  EXPECT_EQ(static_cast<std::size_t>(count("leap_second")), leap_seconds().size());
 }
 
 TEST_F(ArchiveTest, SamplesOfEveryKindSayWhereTheyCameFromAndLieBySpacecraftAndTime) {
@@ -130,7 +101,7 @@ TEST_F(ArchiveTest, SamplesOfEveryKindSayWhereTheyCameFromAndLieBySpacecraftAndT
   SQLite::Database database = reader();
   for (const std::string table : {"pulse", "coded_frame", "gyro_sample", "star_sample",
                                   "sun_sample", "magnetometer_sample", "orbit_state_sample"}) {
-    EXPECT_THAT(column(database, "SELECT name FROM pragma_table_info('" + table + "')"),
+    EXPECT_THAT(texts("SELECT name FROM pragma_table_info('" + table + "')"),
                 IsSupersetOf({"source", "session", "seq", "arrival"}))
         << table;
     EXPECT_THAT(plan_of(database, "SELECT * FROM " + table +
@@ -152,9 +123,7 @@ TEST_F(ArchiveTest, TheVocabularyOfRejectionsIsThatOfThePipelines) {
   for (int i = 0; i < kRejections; ++i) {
     names.emplace(name_of(static_cast<Rejection>(i)));
   }
-  SQLite::Database database = reader();
-  EXPECT_THAT(column(database, "SELECT rejected_by FROM rejection"),
-              UnorderedElementsAreArray(names));
+  EXPECT_THAT(texts("SELECT rejected_by FROM rejection"), UnorderedElementsAreArray(names));
 }
 
 TEST_F(ArchiveTest, RunIsKeptWithItsProvenance) {
@@ -162,20 +131,17 @@ TEST_F(ArchiveTest, RunIsKeptWithItsProvenance) {
   ArchiveBatch end = batch_of("run-1");
   end.finished_utc = "2026-11-20T04:00:00Z";
 
-  ASSERT_TRUE(archive->submit(start_of("run-1")));
-  ASSERT_TRUE(archive->flush());
+  commit(*archive, start_of("run-1"));
   EXPECT_EQ(number("SELECT finished_utc IS NULL FROM run"), 1);
-  ASSERT_TRUE(archive->submit(end));
-  ASSERT_TRUE(archive->flush());
+  commit(*archive, end);
 
-  EXPECT_EQ(text("SELECT format('%s|%s|%s|%s|%s|%s|%s|%s', run_id, spacecraft_id, kind, mode,"
-                 " software_version, config_sha256, started_utc, finished_utc)"
-                 " FROM run JOIN spacecraft USING (spacecraft_id)"),
+  EXPECT_EQ(text("SELECT format('%s|%s|%s|%s|%s|%s|%s|%s', run_id, spacecraft_id, kind, mode, "
+                 "software_version, config_sha256, started_utc, finished_utc) FROM run JOIN "
+                 "spacecraft USING (spacecraft_id)"),
             "run-1|SPINNER|spin|process|0.1.0|00ff|2026-11-20T03:00:00Z|2026-11-20T04:00:00Z");
   EXPECT_EQ(text("SELECT config_toml FROM run"), testing::kRunStart.config_toml);
   EXPECT_EQ(text("SELECT orbit_sha256 FROM run"), testing::kRunStart.orbit_sha256);
-  SQLite::Database database = reader();
-  EXPECT_EQ(column(database, "SELECT telemetry FROM run_telemetry ORDER BY position"),
+  EXPECT_EQ(texts("SELECT telemetry FROM run_telemetry ORDER BY position"),
             testing::kRunStart.telemetry);
 }
 
@@ -183,22 +149,15 @@ TEST_F(ArchiveTest, RunHasItsLabelTheDigestOfItsTelemetryAndHowFarItReaches) {
   ArchiveBatch batch = start_of("run-1");
   batch.start->label = "second try";
   batch.start->telemetry_sha256 = "f00f";
-  batch.reach = {.first = tai_from_ns(5), .last = tai_from_ns(7), .contact_share = 0.25};
-  store(batch);
-  batch = batch_of("run-1");
-  batch.reach = {.first = tai_from_ns(6), .last = tai_from_ns(9), .contact_share = 0.5};
-  store(batch);
-
-  EXPECT_EQ(text("SELECT format('%s %s %d %d %g', label, telemetry_sha256, first_tai_ns,"
-                 " last_tai_ns, contact_share) FROM run"),
-            "second try f00f 5 9 0.5");
-}
-
-TEST_F(ArchiveTest, RunWithoutAnOrbitFileHasNoDigestOfOne) {
-  ArchiveBatch batch = start_of("run-1");
   batch.start->orbit_sha256 = std::nullopt;
-  store(batch);
+  batch.reach = {.first = tai_from_ns(5), .last = tai_from_ns(7), .contact_share = 0.25};
+  ArchiveBatch later = batch_of("run-1");
+  later.reach = {.first = tai_from_ns(6), .last = tai_from_ns(9), .contact_share = 0.5};
+  store({batch, later});
 
+  EXPECT_EQ(text("SELECT format('%s %s %d %d %g', label, telemetry_sha256, first_tai_ns, "
+                 "last_tai_ns, contact_share) FROM run"),
+            "second try f00f 5 9 0.5");
   EXPECT_EQ(number("SELECT orbit_sha256 IS NULL FROM run"), 1);
 }
 
@@ -209,12 +168,10 @@ TEST_F(ArchiveTest, PulseThatArrivesTwiceIsStoredOnceWithItsFirstOrigin) {
   ArchiveBatch again = batch_of("run-1");
   again.samples.of<Pulse>() = {pulse_at(6, 4)};
 
-  ASSERT_TRUE(archive->submit(batch));
-  ASSERT_TRUE(archive->submit(again));
-  ASSERT_TRUE(archive->flush());
+  commit(*archive, {batch, again});
 
-  EXPECT_EQ(text("SELECT group_concat(t_tai_ns || ':' || channel || ':' || source || ':' ||"
-                 " session || ':' || seq, ' ') FROM pulse"),
+  EXPECT_EQ(text("SELECT group_concat(t_tai_ns || ':' || channel || ':' || source || ':' || "
+                 "session || ':' || seq, ' ') FROM pulse"),
             "5:sun1:station:7:1 6:sun1:station:7:2");
   EXPECT_EQ(archive->statistics().rows_committed, 5U);
 }
@@ -226,15 +183,10 @@ TEST_F(ArchiveTest, EdgeThatBreaksARuleIsNotPassedOverAsIfItWereStored) {
   const auto archive = open();
   const PulseUse good{.pulse = pulse_at(5).value, .revolution = 3, .rejected_by = std::nullopt};
   const PulseUse bad{.pulse = pulse_at(6).value, .revolution = 3, .rejected_by = std::nullopt};
-  ArchiveBatch batch = start_of("run-1");
-  batch.products = {good, good};
-  ASSERT_TRUE(archive->submit(batch));
-  ASSERT_TRUE(archive->flush());
-  EXPECT_EQ(number("SELECT count(*) FROM pulse_use"), 1);
+  commit(*archive, with_products(start_of("run-1"), {good, good}));
+  EXPECT_EQ(count("pulse_use"), 1);
 
-  batch = batch_of("run-1");
-  batch.products = {bad};
-  ASSERT_TRUE(archive->submit(batch));
+  ASSERT_TRUE(archive->submit(with_products(batch_of("run-1"), {bad})));
   const auto flushed = archive->flush();
   ASSERT_FALSE(flushed);
   EXPECT_EQ(flushed.error().code, ErrorCode::InvalidInput);
@@ -251,27 +203,23 @@ TEST_F(ArchiveTest, RejectedRowsOfOtherPathsAndSessionsAreOtherRows) {
       {.source = "station", .line = 2, .reason = "bad", .session = 1}};
   store(batch);
 
-  SQLite::Database database = reader();
-  EXPECT_THAT(column(database, "SELECT source || ' ' || session FROM rejected_input ORDER BY 1"),
+  EXPECT_THAT(texts("SELECT source || ' ' || session FROM rejected_input ORDER BY 1"),
               ElementsAre("a/pulses.csv 0", "b/pulses.csv 0", "station -1", "station 1"));
 }
 
 TEST_F(ArchiveTest, RejectedInputAndSourceCountsAreStoredAndTheLatestCountStands) {
-  const auto archive = open();
   ArchiveBatch batch = start_of("run-1");
   batch.rejected = {{.source = "pulses.csv", .line = 17, .reason = "channel 'sun3'"}};
   batch.source_counts = {{.source = "station", .received = 5}};
   ArchiveBatch later = batch_of("run-1");
   later.source_counts = {
       {.source = "station", .received = 9, .gaps = 2, .duplicates = 3, .disordered = 4}};
-  ASSERT_TRUE(archive->submit(batch));
-  ASSERT_TRUE(archive->submit(later));
-  ASSERT_TRUE(archive->flush());
+  store({batch, later});
 
   EXPECT_EQ(text("SELECT source || ' ' || line || ' ' || reason FROM rejected_input"),
             "pulses.csv 17 channel 'sun3'");
-  EXPECT_EQ(text("SELECT group_concat(format('%s %d %d %d %d', source, received, gaps,"
-                 " duplicates, disordered)) FROM source_count"),
+  EXPECT_EQ(text("SELECT group_concat(format('%s %d %d %d %d', source, received, gaps, duplicates, "
+                 "disordered)) FROM source_count"),
             "station 9 2 3 4");
 }
 
@@ -285,7 +233,7 @@ TEST_F(ArchiveTest, BatchesAreAnnouncedInOrderAndOnlyOnceTheyCanBeRead) {
         announced.push_back(tai_ns(sample.value.t));
       }
     }
-    readable.push_back(number("SELECT count(*) FROM pulse"));
+    readable.push_back(count("pulse"));
     EXPECT_EQ(readable.back(), static_cast<std::int64_t>(announced.size()));
   };
   const auto archive = open(options);

@@ -60,6 +60,22 @@ Writer<spindrift_Pulse> pulse_writer(const Participant& participant,
   return Writer<spindrift_Pulse>::create(participant, bus::topic_of<Pulse>(), qos).value();
 }
 
+class OnBus : public ::testing::Test {
+ protected:
+  /// Returns a participant in another partition.
+  Participant stranger() const {
+    return Participant::create(
+               {.domain = config_.domain, .partition = config_.partition + "-other"})
+        .value();
+  }
+
+  bus::BusConfig config_ = bus_of_its_own();
+  Participant participant_ = Participant::create(config_).value();
+};
+using ReaderTest = OnBus;
+using WriterTest = OnBus;
+using WaitSetTest = OnBus;
+
 TEST(Network, IsThisHostOnlyUnlessToldOtherwise) {
   const NetworkOverride none{""};
   const auto network = bus::network_configuration();
@@ -112,10 +128,9 @@ TEST(Participant, SharesItsDomainWithOthersOfTheProcess) {
   EXPECT_THAT(seqs_of(take_samples(reader, 1)), ElementsAre(7));
 }
 
-TEST(Reader, GivesEveryFieldThatWasWritten) {
-  const auto participant = Participant::create(bus_of_its_own()).value();
-  const auto reader = pulse_reader(participant);
-  const auto writer = pulse_writer(participant);
+TEST_F(ReaderTest, GivesEveryFieldThatWasWritten) {
+  const auto reader = pulse_reader(participant_);
+  const auto writer = pulse_writer(participant_);
   const spindrift_Pulse sent{.spacecraft = "a spacecraft of 32 characters ..",
                              .source = "and its source, of as many, too.",
                              .session = 0xFEDC'BA98'7654'3210,
@@ -133,47 +148,40 @@ TEST(Reader, GivesEveryFieldThatWasWritten) {
   EXPECT_EQ(taken[0].channel, sent.channel);
 }
 
-TEST(Reader, ThatJoinsLateReceivesTheHistoryOfTelemetry) {
-  const auto participant = Participant::create(bus_of_its_own()).value();
-  const auto writer = pulse_writer(participant);
+TEST_F(ReaderTest, ThatJoinsLateReceivesTheHistoryOfTelemetry) {
+  const auto writer = pulse_writer(participant_);
   for (std::uint64_t seq = 0; seq < 1000; ++seq) {
     ASSERT_TRUE(writer.write(idl_pulse(seq)));
   }
-  EXPECT_EQ(seqs_of(take_samples(pulse_reader(participant), 1000)), first_seqs(1000));
+  EXPECT_EQ(seqs_of(take_samples(pulse_reader(participant_), 1000)), first_seqs(1000));
 }
 
-TEST(Reader, ThatJoinsLateReceivesTheLastResultOnly) {
-  const auto participant = Participant::create(bus_of_its_own()).value();
-  const auto writer = pulse_writer(participant, bus::results_qos());
+TEST_F(ReaderTest, ThatJoinsLateReceivesTheLastResultOnly) {
+  const auto writer = pulse_writer(participant_, bus::results_qos());
   for (std::uint64_t seq = 0; seq < 10; ++seq) {
     ASSERT_TRUE(writer.write(idl_pulse(seq)));
   }
-  const auto reader = pulse_reader(participant, bus::results_qos());
+  const auto reader = pulse_reader(participant_, bus::results_qos());
   EXPECT_THAT(seqs_of(take_samples(reader, 1)), ElementsAre(9));
 }
 
-TEST(Reader, DoesNotHearAnotherPartition) {
-  const auto config = bus_of_its_own();
-  const auto ours = Participant::create(config).value();
-  const auto theirs =
-      Participant::create({.domain = config.domain, .partition = config.partition + "-other"})
-          .value();
-  const auto reader = pulse_reader(ours);
+TEST_F(ReaderTest, DoesNotHearAnotherPartition) {
+  const auto theirs = stranger();
+  const auto reader = pulse_reader(participant_);
   const auto stranger = pulse_writer(theirs);
-  const auto writer = pulse_writer(ours);
+  const auto writer = pulse_writer(participant_);
   ASSERT_TRUE(stranger.write(idl_pulse(1)));
   ASSERT_TRUE(writer.write(idl_pulse(2)));
   EXPECT_THAT(seqs_of(take_samples(reader, 1)), ElementsAre(2));
   EXPECT_EQ(reader.status().value().writers, 1U);
 }
 
-TEST(Reader, TakesTheEndOfASourceForNoSample) {
-  const auto participant = Participant::create(bus_of_its_own()).value();
-  const auto reader = pulse_reader(participant);
+TEST_F(ReaderTest, TakesTheEndOfASourceForNoSample) {
+  const auto reader = pulse_reader(participant_);
   bus::Qos disposing = bus::telemetry_writer_qos();
   dds_qset_writer_data_lifecycle(disposing.get(), true);
   {
-    const auto writer = pulse_writer(participant, disposing);
+    const auto writer = pulse_writer(participant_, disposing);
     ASSERT_TRUE(writer.write(idl_pulse(0)));
     EXPECT_THAT(seqs_of(take_samples(reader, 1)), ElementsAre(0));
   }
@@ -183,11 +191,9 @@ TEST(Reader, TakesTheEndOfASourceForNoSample) {
   EXPECT_EQ(samples, 0U);
 }
 
-TEST(Reader, NamesAnIncompatibleWriterOfAnotherProcess) {
-  const auto config = bus_of_its_own();
-  const auto participant = Participant::create(config).value();
-  const auto reader = pulse_reader(participant);
-  ForeignWriter writer{config, "weak", 0};
+TEST_F(ReaderTest, NamesAnIncompatibleWriterOfAnotherProcess) {
+  const auto reader = pulse_reader(participant_);
+  ForeignWriter writer{config_, "weak", 0};
   ASSERT_TRUE(eventually([&] { return !reader.status().value().incompatible_writers.empty(); }));
   const auto status = reader.status().value();
   EXPECT_EQ(status.writers, 0U);
@@ -199,38 +205,32 @@ TEST(Reader, NamesAnIncompatibleWriterOfAnotherProcess) {
                            "RELIABLE, TRANSIENT_LOCAL"))));
 }
 
-TEST(Reader, ForgetsAnIncompatibleWriterThatLeft) {
-  const auto participant = Participant::create(bus_of_its_own()).value();
-  const auto reader = pulse_reader(participant);
+TEST_F(ReaderTest, ForgetsAnIncompatibleWriterThatLeft) {
+  const auto reader = pulse_reader(participant_);
   bus::Qos exclusive = bus::telemetry_writer_qos();
   dds_qset_ownership(exclusive.get(), DDS_OWNERSHIP_EXCLUSIVE);
   {
-    const auto writer = pulse_writer(participant, exclusive);
+    const auto writer = pulse_writer(participant_, exclusive);
     EXPECT_THAT(reader.status().value().incompatible_writers,
                 ElementsAre(EndsWith("offers EXCLUSIVE; spindrift needs SHARED")));
   }
   EXPECT_TRUE(eventually([&] { return reader.status().value().incompatible_writers.empty(); }));
 }
 
-TEST(Reader, DoesNotMindAnIncompatibleWriterOfAnotherPartition) {
-  const auto config = bus_of_its_own();
-  const auto ours = Participant::create(config).value();
-  const auto theirs =
-      Participant::create({.domain = config.domain, .partition = config.partition + "-other"})
-          .value();
-  const auto reader = pulse_reader(ours);
+TEST_F(ReaderTest, DoesNotMindAnIncompatibleWriterOfAnotherPartition) {
+  const auto theirs = stranger();
+  const auto reader = pulse_reader(participant_);
   const bus::Qos weak{dds_create_qos()};
-  const auto near = pulse_writer(ours, weak);
+  const auto near = pulse_writer(participant_, weak);
   const auto far = pulse_writer(theirs, weak);
   EXPECT_THAT(reader.status().value().incompatible_writers, ::testing::SizeIs(1));
 }
 
-TEST(Writer, NamesAnIncompatibleReader) {
-  const auto participant = Participant::create(bus_of_its_own()).value();
-  const auto writer = pulse_writer(participant, bus::results_qos());
+TEST_F(WriterTest, NamesAnIncompatibleReader) {
+  const auto writer = pulse_writer(participant_, bus::results_qos());
   bus::Qos demanding = bus::results_qos();
   dds_qset_deadline(demanding.get(), DDS_MSECS(500));
-  const auto reader = pulse_reader(participant, demanding);
+  const auto reader = pulse_reader(participant_, demanding);
   const auto status = writer.status().value();
   EXPECT_EQ(status.readers, 0U);
   EXPECT_THAT(
@@ -239,19 +239,17 @@ TEST(Writer, NamesAnIncompatibleReader) {
                         EndsWith("asks for deadline 0.5 s; spindrift offers no deadline"))));
 }
 
-TEST(Writer, WaitsForAReaderOnlySoLong) {
-  const auto participant = Participant::create(bus_of_its_own()).value();
-  const auto writer = pulse_writer(participant);
+TEST_F(WriterTest, WaitsForAReaderOnlySoLong) {
+  const auto writer = pulse_writer(participant_);
   const auto waited = writer.wait_for_reader(20ms);
   ASSERT_FALSE(waited.has_value());
   EXPECT_EQ(waited.error().code, ErrorCode::Unavailable);
   EXPECT_THAT(waited.error().message, HasSubstr("waiting for a reader of spindrift/pulse"));
 }
 
-TEST(Writer, GivesUpOnAFullReaderWhenStopped) {
-  const auto participant = Participant::create(bus_of_its_own()).value();
-  const auto reader = pulse_reader(participant, bus::telemetry_reader_qos(1));
-  const auto writer = pulse_writer(participant);
+TEST_F(WriterTest, GivesUpOnAFullReaderWhenStopped) {
+  const auto reader = pulse_reader(participant_, bus::telemetry_reader_qos(1));
+  const auto writer = pulse_writer(participant_);
   ASSERT_TRUE(writer.write(idl_pulse(0)));
   std::stop_source stop;
   std::thread stopper{[&stop] {
@@ -264,23 +262,20 @@ TEST(Writer, GivesUpOnAFullReaderWhenStopped) {
   EXPECT_THAT(written.error().message, HasSubstr("writing to spindrift/pulse"));
 }
 
-TEST(Writer, OfAnotherProcessWaitsForASlowReaderAndLosesNothing) {
+TEST_F(WriterTest, OfAnotherProcessWaitsForASlowReaderAndLosesNothing) {
   constexpr std::size_t kCount = 20'000;
-  const auto config = bus_of_its_own();
-  const auto participant = Participant::create(config).value();
-  const auto reader = pulse_reader(participant, bus::telemetry_reader_qos(500));
-  ForeignWriter writer{config, "telemetry", kCount};
+  const auto reader = pulse_reader(participant_, bus::telemetry_reader_qos(500));
+  ForeignWriter writer{config_, "telemetry", kCount};
   // The reader must be full before the first sample is taken.
   ASSERT_TRUE(eventually([&] { return reader.status().value().rejected > 0; }));
   EXPECT_EQ(seqs_of(take_samples(reader, kCount)), first_seqs(kCount));
   EXPECT_EQ(writer.exit_status(), 0);
 }
 
-TEST(WaitSet, WakesForDataAndForStop) {
-  const auto participant = Participant::create(bus_of_its_own()).value();
-  const auto reader = pulse_reader(participant);
-  const auto writer = pulse_writer(participant);
-  auto waitset = bus::WaitSet::create(participant).value();
+TEST_F(WaitSetTest, WakesForDataAndForStop) {
+  const auto reader = pulse_reader(participant_);
+  const auto writer = pulse_writer(participant_);
+  auto waitset = bus::WaitSet::create(participant_).value();
   ASSERT_TRUE(waitset.attach(reader.data()));
   ASSERT_TRUE(writer.write(idl_pulse(0)));
   EXPECT_TRUE(waitset.wait().value());
@@ -304,17 +299,16 @@ TEST(LogLimit, SaysWhatAPlaceRepeatsOnceAMinute) {
   EXPECT_EQ(limit.pass("a.c", 1, now + 61s), std::nullopt);
 }
 
-TEST(Reader, HandsOverNothingThatItsFilterRefuses) {
-  const auto participant = Participant::create(bus_of_its_own()).value();
+TEST_F(ReaderTest, HandsOverNothingThatItsFilterRefuses) {
   std::atomic<int> asked = 0;
-  const auto reader = Reader<spindrift_Pulse>::create(participant, bus::topic_of<Pulse>(),
+  const auto reader = Reader<spindrift_Pulse>::create(participant_, bus::topic_of<Pulse>(),
                                                       bus::telemetry_reader_qos(),
                                                       [&asked](const spindrift_Pulse& pulse) {
                                                         ++asked;
                                                         return pulse.seq % 2 == 0;
                                                       })
                           .value();
-  const auto writer = Writer<spindrift_Pulse>::create(participant, bus::topic_of<Pulse>(),
+  const auto writer = Writer<spindrift_Pulse>::create(participant_, bus::topic_of<Pulse>(),
                                                       bus::telemetry_writer_qos())
                           .value();
   for (std::uint64_t seq = 0; seq < 10; ++seq) {

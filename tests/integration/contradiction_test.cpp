@@ -31,9 +31,8 @@ TelemetrySample<GyroSample> gyro(std::int64_t t, double wx, const std::string& s
 }
 
 constexpr const char* kContradictions =
-    "SELECT run_id, kind, t_tai_ns, source, session, seq,"
-    " format('%.10g', json_extract(value, '$.wx_rad_s')), used"
-    " FROM contradiction ORDER BY 1, 3, 4, 7";
+    "SELECT run_id, kind, t_tai_ns, source, session, seq, format('%.10g', json_extract(value, "
+    "'$.wx_rad_s')), used FROM contradiction ORDER BY 1, 3, 4, 7";
 
 class ContradictionTest : public testing::ArchiveFixture {
  protected:
@@ -86,7 +85,7 @@ TEST_F(ContradictionTest, EveryValueOfTheInstantHasARow) {
   EXPECT_THAT(
       rows_of(path(), kContradictions),
       ElementsAre("r|gyro|2|A|7|2|0.5|1|", "r|gyro|2|A|7|4|0.7|0|", "r|gyro|2|B|7|3|0.6|0|"));
-  EXPECT_EQ(number("SELECT count(*) FROM gyro_sample"), 3);
+  EXPECT_EQ(count("gyro_sample"), 3);
   EXPECT_THAT(read_back(),
               ElementsAre("1 1 0.5 A", "2 2 0.5 A", "3 2 0.6 B", "4 2 0.7 A", "5 3 0.5 B"));
 }

@@ -39,39 +39,46 @@ TEST(FromIdl, NamesTheChannelsAsTheIdlDoes) {
   EXPECT_EQ(channel_of(spindrift_SOUTH_OUT), "south_out");
 }
 
+template <class Message>
 struct Impossible {
-  std::function<void(spindrift_Pulse&)> spoil;
+  std::function<void(Message&)> spoil;
   const char* reason;
 };
 
-TEST(FromIdl, RefusesWhatCannotBeTrueWithItsReason) {
-  const std::vector<Impossible> cases = {
-      {[](auto& pulse) { pulse.spacecraft[0] = '\0'; },
-       "spacecraft = \"\": must be 1 to 32 printable ASCII characters"},
-      {[](auto& pulse) { pulse.spacecraft[1] = '\n'; }, "spacecraft = \"S\\x0aINNER\": must be"},
-      {[](auto& pulse) { pulse.source[0] = '\xFF'; },
-       "source = \"\\xffront-end\": must be printable ASCII"},
-      {[](auto& pulse) { pulse.t_tai_ns = 63'072'009'999'999'999; },
-       "t_tai_ns = 63072009999999999: must lie in the years 1972 to 2099"},
-      {[](auto& pulse) { pulse.t_tai_ns = 4'102'444'800'000'000'000; }, "must lie in the years"},
-      {[](auto& pulse) { pulse.t_tai_ns = std::numeric_limits<std::int64_t>::min(); },
-       "must lie in the years"},
-      {[](auto& pulse) {
-         const std::uint32_t unknown = 6;
-         std::memcpy(&pulse.channel, &unknown, sizeof unknown);
-       },
-       "channel = 6: must be 0 to 5"},
-      {[](auto& pulse) { std::memset(&pulse.channel, 0xFF, sizeof pulse.channel); },
-       "channel = 4294967295: must be 0 to 5"}};
-  for (const Impossible& impossible : cases) {
-    SCOPED_TRACE(impossible.reason);
-    spindrift_Pulse pulse = idl_pulse(0);
-    impossible.spoil(pulse);
-    const auto refused = from_idl<Pulse>(pulse);
+/// Expects each of these changes to make a sample impossible.
+template <class Value, class Message>
+void expect_refused(const Message& possible, const std::vector<Impossible<Message>>& cases) {
+  for (const auto& [spoil, reason] : cases) {
+    SCOPED_TRACE(reason);
+    Message message = possible;
+    spoil(message);
+    const auto refused = from_idl<Value>(message);
     ASSERT_FALSE(refused.has_value());
     EXPECT_EQ(refused.error().code, ErrorCode::InvalidInput);
-    EXPECT_THAT(refused.error().message, HasSubstr(impossible.reason));
+    EXPECT_THAT(refused.error().message, HasSubstr(reason));
   }
+}
+
+TEST(FromIdl, RefusesWhatCannotBeTrueWithItsReason) {
+  expect_refused<Pulse, spindrift_Pulse>(
+      idl_pulse(0),
+      {{[](auto& pulse) { pulse.spacecraft[0] = '\0'; },
+        "spacecraft = \"\": must be 1 to 32 printable ASCII characters"},
+       {[](auto& pulse) { pulse.spacecraft[1] = '\n'; }, "spacecraft = \"S\\x0aINNER\": must be"},
+       {[](auto& pulse) { pulse.source[0] = '\xFF'; },
+        "source = \"\\xffront-end\": must be printable ASCII"},
+       {[](auto& pulse) { pulse.t_tai_ns = 63'072'009'999'999'999; },
+        "t_tai_ns = 63072009999999999: must lie in the years 1972 to 2099"},
+       {[](auto& pulse) { pulse.t_tai_ns = 4'102'444'800'000'000'000; }, "must lie in the years"},
+       {[](auto& pulse) { pulse.t_tai_ns = std::numeric_limits<std::int64_t>::min(); },
+        "must lie in the years"},
+       {[](auto& pulse) {
+          const std::uint32_t unknown = 6;
+          std::memcpy(&pulse.channel, &unknown, sizeof unknown);
+        },
+        "channel = 6: must be 0 to 5"},
+       {[](auto& pulse) { std::memset(&pulse.channel, 0xFF, sizeof pulse.channel); },
+        "channel = 4294967295: must be 0 to 5"}});
 }
 
 TEST(FromIdl, TellsOfWhichKindASampleWithoutATimeIs) {
@@ -112,30 +119,17 @@ TEST(FromIdl, TakesNanForNotReceived) {
   EXPECT_THAT(sample.value.delay_s, ::testing::Each(std::nullopt));
 }
 
-struct ImpossibleFrame {
-  std::function<void(spindrift_CodedFrame&)> spoil;
-  const char* reason;
-};
-
 TEST(FromIdl, RefusesACodedFrameThatCannotBeTrueWithItsReason) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  const std::vector<ImpossibleFrame> cases = {
-      {[](auto& frame) { frame.spacecraft[0] = ' '; }, "spacecraft = \" PINNER\": must be"},
-      {[](auto& frame) { frame.t_tai_ns = -1; }, "t_tai_ns = -1: must lie in the years"},
-      {[](auto& frame) { frame.period_s = 0.0; }, "period_s = 0: must be above 0, at most 60 s"},
-      {[](auto& frame) { frame.period_s = kInfinity; }, "period_s = inf: must be above 0"},
-      {[](auto& frame) { frame.sun2_s = -kInfinity; }, "sun2_s = -inf: must be 0 to two periods"},
-      {[](auto& frame) { frame.south_out_s = 2.01; },
-       "south_out_s = 2.01: must be 0 to two periods, 2 s"}};
-  for (const ImpossibleFrame& impossible : cases) {
-    SCOPED_TRACE(impossible.reason);
-    spindrift_CodedFrame frame = idl_frame(0);
-    impossible.spoil(frame);
-    const auto refused = from_idl<CodedFrame>(frame);
-    ASSERT_FALSE(refused.has_value());
-    EXPECT_EQ(refused.error().code, ErrorCode::InvalidInput);
-    EXPECT_THAT(refused.error().message, HasSubstr(impossible.reason));
-  }
+  expect_refused<CodedFrame, spindrift_CodedFrame>(
+      idl_frame(0),
+      {{[](auto& frame) { frame.spacecraft[0] = ' '; }, "spacecraft = \" PINNER\": must be"},
+       {[](auto& frame) { frame.t_tai_ns = -1; }, "t_tai_ns = -1: must lie in the years"},
+       {[](auto& frame) { frame.period_s = 0.0; }, "period_s = 0: must be above 0, at most 60 s"},
+       {[](auto& frame) { frame.period_s = kInfinity; }, "period_s = inf: must be above 0"},
+       {[](auto& frame) { frame.sun2_s = -kInfinity; }, "sun2_s = -inf: must be 0 to two periods"},
+       {[](auto& frame) { frame.south_out_s = 2.01; },
+        "south_out_s = 2.01: must be 0 to two periods, 2 s"}});
 }
 
 }  // namespace spindrift::from_idl_test

@@ -22,7 +22,7 @@ enum class Consumer { Works, IsHeld };
 /// Runs a subscriber and a consumer of its queue; a held consumer starts at `release()`.
 class Station {
  public:
-  explicit Station(const bus::BusConfig& config, std::size_t capacity = 64,
+  explicit Station(const bus::BusConfig& config = bus_of_its_own(), std::size_t capacity = 64,
                    Consumer consumer = Consumer::Works)
       : participant_{Participant::create(config).value()},
         queue_{capacity},
@@ -52,6 +52,11 @@ class Station {
     const auto by_source = status().by_source;
     const auto found = by_source.find(source);
     return found == by_source.end() ? SequenceCounts{} : found->second;
+  }
+
+  /// Waits until so many samples of a source were received.
+  bool receives(std::uint64_t samples, const std::string& source = "front-end") const {
+    return eventually([&] { return counts_of(source).received == samples; });
   }
 
   /// Returns everything that arrived after stopping the subscriber.
@@ -95,6 +100,27 @@ Writer<spindrift_Pulse> pulse_writer(const Participant& participant) {
       .value();
 }
 
+/// A station and a writer that sends it messages as they are.
+struct WrittenStation : Station {
+  Writer<spindrift_Pulse> writer = pulse_writer(participant());
+  bool writes(const spindrift_Pulse& pulse) const {
+    return writer.write(pulse, std::stop_token{}).has_value();
+  }
+};
+
+/// A subscriber whose queue only the test takes from.
+struct Unattended {
+  explicit Unattended(BoundedQueue<SampleBatch>& queue,
+                      const bus::BusConfig& bus = bus_of_its_own())
+      : participant{Participant::create(bus).value()},
+        subscriber{TelemetrySubscriber::start(participant, queue, {"SPINNER"}).value()} {}
+
+  TelemetrySubscriberStatus status() const { return subscriber->status().value(); }
+
+  Participant participant;
+  std::unique_ptr<TelemetrySubscriber> subscriber;
+};
+
 std::vector<std::uint64_t> seqs_of(const std::vector<TelemetrySample<Pulse>>& samples) {
   std::vector<std::uint64_t> seqs;
   seqs.reserve(samples.size());
@@ -105,7 +131,7 @@ std::vector<std::uint64_t> seqs_of(const std::vector<TelemetrySample<Pulse>>& sa
 }
 
 TEST(TelemetrySubscriber, TakesCodedFramesBesidePulsesAndCountsBothOfASource) {
-  Station station{bus_of_its_own()};
+  Station station;
   const auto session = random_session();
   auto pulses =
       TelemetryPublisher<Pulse>::create(station.participant(), "antenna", session).value();
@@ -119,23 +145,23 @@ TEST(TelemetrySubscriber, TakesCodedFramesBesidePulsesAndCountsBothOfASource) {
     ASSERT_TRUE(frames.publish("SPINNER",
                                {.t = t, .period_s = 0.5, .delay_s = {std::nullopt, 0.25}}, never));
   }
-  ASSERT_TRUE(eventually([&] { return station.counts_of("antenna").received == 2 * kCount; }));
+  ASSERT_TRUE(station.receives(2 * kCount, "antenna"));
   // Both topics count from 0 in one session, which is neither a gap nor a duplicate.
   EXPECT_EQ(station.counts_of("antenna"), (SequenceCounts{.received = 2 * kCount}));
   const SampleBatch arrived = station.finish();
   EXPECT_EQ(arrived.samples.of<Pulse>().size(), kCount);
   ASSERT_EQ(arrived.samples.of<CodedFrame>().size(), kCount);
-  EXPECT_EQ(arrived.samples.of<CodedFrame>().back().origin.session, session);
-  EXPECT_EQ(arrived.samples.of<CodedFrame>().back().origin.seq, kCount - 1);
-  EXPECT_EQ(tai_ns(arrived.samples.of<CodedFrame>().back().value.t), kTestTime_tai_ns + kCount - 1);
-  EXPECT_EQ(arrived.samples.of<CodedFrame>().back().value.period_s, 0.5);
-  EXPECT_THAT(
-      arrived.samples.of<CodedFrame>().back().value.delay_s,
-      ElementsAre(std::nullopt, 0.25, std::nullopt, std::nullopt, std::nullopt, std::nullopt));
+  const TelemetrySample<CodedFrame>& last = arrived.samples.of<CodedFrame>().back();
+  EXPECT_EQ(last.origin.session, session);
+  EXPECT_EQ(last.origin.seq, kCount - 1);
+  EXPECT_EQ(tai_ns(last.value.t), kTestTime_tai_ns + kCount - 1);
+  EXPECT_EQ(last.value.period_s, 0.5);
+  EXPECT_THAT(last.value.delay_s, ElementsAre(std::nullopt, 0.25, std::nullopt, std::nullopt,
+                                              std::nullopt, std::nullopt));
 }
 
 TEST(TelemetrySubscriber, PassesOnACodedFrameThatCannotBeTrueAsRejected) {
-  Station station{bus_of_its_own()};
+  Station station;
   const auto writer =
       Writer<spindrift_CodedFrame>::create(station.participant(), bus::topic_of<CodedFrame>(),
                                            bus::telemetry_writer_qos())
@@ -143,7 +169,7 @@ TEST(TelemetrySubscriber, PassesOnACodedFrameThatCannotBeTrueAsRejected) {
   spindrift_CodedFrame impossible = idl_frame(7);
   impossible.north_in_s = 2.5;
   ASSERT_TRUE(writer.write(impossible));
-  ASSERT_TRUE(eventually([&] { return station.counts_of("front-end").received == 1; }));
+  ASSERT_TRUE(station.receives(1));
   const SampleBatch arrived = station.finish();
   EXPECT_TRUE(arrived.samples.of<CodedFrame>().empty());
   ASSERT_EQ(arrived.rejected.size(), 1U);
@@ -153,19 +179,20 @@ TEST(TelemetrySubscriber, PassesOnACodedFrameThatCannotBeTrueAsRejected) {
 }
 
 TEST(TelemetrySubscriber, QueuesWhatAPublisherSends) {
-  Station station{bus_of_its_own()};
+  Station station;
   auto publisher = TelemetryPublisher<Pulse>::create(station.participant(), "antenna").value();
   const auto session = publisher.next().session;
   const Pulse pulse{.t = tai_from_ns(kTestTime_tai_ns), .channel = PulseChannel::NorthOut};
   ASSERT_TRUE(publisher.publish("SPINNER", pulse, {}));
-  ASSERT_TRUE(eventually([&] { return station.counts_of("antenna").received == 1; }));
+  ASSERT_TRUE(station.receives(1, "antenna"));
   const SampleBatch arrived = station.finish();
   ASSERT_EQ(arrived.samples.of<Pulse>().size(), 1U);
-  EXPECT_EQ(arrived.samples.of<Pulse>()[0].spacecraft, "SPINNER");
-  EXPECT_EQ(arrived.samples.of<Pulse>()[0].origin.source, "antenna");
-  EXPECT_EQ(arrived.samples.of<Pulse>()[0].origin.session, session);
-  EXPECT_EQ(arrived.samples.of<Pulse>()[0].origin.seq, 0U);
-  EXPECT_EQ(arrived.samples.of<Pulse>()[0].value, pulse);
+  const TelemetrySample<Pulse>& sample = arrived.samples.of<Pulse>()[0];
+  EXPECT_EQ(sample.spacecraft, "SPINNER");
+  EXPECT_EQ(sample.origin.source, "antenna");
+  EXPECT_EQ(sample.origin.session, session);
+  EXPECT_EQ(sample.origin.seq, 0U);
+  EXPECT_EQ(sample.value, pulse);
 }
 
 TEST(TelemetrySubscriber, TakesWhatWasSentBeforeItCameInTheOrderOfItsWriting) {
@@ -198,7 +225,7 @@ TEST(TelemetrySubscriber, LosesNothingToASlowConsumer) {
   // Queue and reader must be full before the first pulse is consumed.
   ASSERT_TRUE(eventually([&] { return station.status().reader.rejected > 0; }));
   station.release();
-  ASSERT_TRUE(eventually([&] { return station.counts_of("front-end").received == kCount; }));
+  ASSERT_TRUE(station.receives(kCount));
   EXPECT_EQ(writer.exit_status(), 0);
   EXPECT_EQ(station.counts_of("front-end"), (SequenceCounts{.received = kCount}));
   const SampleBatch arrived = station.finish();
@@ -206,14 +233,13 @@ TEST(TelemetrySubscriber, LosesNothingToASlowConsumer) {
 }
 
 TEST(TelemetrySubscriber, PassesOnWhatCannotBeTrueAsRejected) {
-  Station station{bus_of_its_own()};
-  const auto writer = pulse_writer(station.participant());
+  WrittenStation station;
   spindrift_Pulse impossible = idl_pulse(1);
   impossible.t_tai_ns = -1;
-  ASSERT_TRUE(writer.write(idl_pulse(0)));
-  ASSERT_TRUE(writer.write(impossible));
-  ASSERT_TRUE(writer.write(idl_pulse(2)));
-  ASSERT_TRUE(eventually([&] { return station.counts_of("front-end").received == 3; }));
+  ASSERT_TRUE(station.writes(idl_pulse(0)));
+  ASSERT_TRUE(station.writes(impossible));
+  ASSERT_TRUE(station.writes(idl_pulse(2)));
+  ASSERT_TRUE(station.receives(3));
   EXPECT_EQ(station.counts_of("front-end").missing, 0U);
   const SampleBatch arrived = station.finish();
   EXPECT_EQ(arrived.samples.of<Pulse>().size(), 2U);
@@ -224,17 +250,16 @@ TEST(TelemetrySubscriber, PassesOnWhatCannotBeTrueAsRejected) {
 }
 
 TEST(TelemetrySubscriber, CountsWhatCannotBeTrueOfItsSpacecraftOnly) {
-  Station station{bus_of_its_own()};
-  const auto writer = pulse_writer(station.participant());
+  WrittenStation station;
   for (std::uint64_t seq = 0; seq < 6; ++seq) {
     spindrift_Pulse pulse = idl_pulse(seq);
     if (seq < 3) {
       std::string_view{"OTHER\0", 6}.copy(pulse.spacecraft, sizeof pulse.spacecraft);
     }
     pulse.t_tai_ns = seq % 3 == 0 ? -1 : pulse.t_tai_ns;
-    ASSERT_TRUE(writer.write(pulse));
+    ASSERT_TRUE(station.writes(pulse));
   }
-  ASSERT_TRUE(eventually([&] { return station.counts_of("front-end").received == 6; }));
+  ASSERT_TRUE(station.receives(6));
   const auto counts = station.status().by_spacecraft;
   ASSERT_EQ(counts.size(), 1U);
   EXPECT_EQ(counts.at("SPINNER").received, 3U);
@@ -243,12 +268,11 @@ TEST(TelemetrySubscriber, CountsWhatCannotBeTrueOfItsSpacecraftOnly) {
 }
 
 TEST(TelemetrySubscriber, CountsGapsDuplicatesAndDisorderAndPassesAllOn) {
-  Station station{bus_of_its_own()};
-  const auto writer = pulse_writer(station.participant());
+  WrittenStation station;
   for (const std::uint64_t seq : {0U, 4U, 1U, 1U}) {
-    ASSERT_TRUE(writer.write(idl_pulse(seq)));
+    ASSERT_TRUE(station.writes(idl_pulse(seq)));
   }
-  ASSERT_TRUE(eventually([&] { return station.counts_of("front-end").received == 4; }));
+  ASSERT_TRUE(station.receives(4));
   EXPECT_EQ(station.counts_of("front-end"),
             (SequenceCounts{.received = 4, .missing = 2, .duplicates = 1, .disordered = 1}));
   EXPECT_EQ(station.finish().samples.of<Pulse>().size(), 4U);
@@ -266,11 +290,11 @@ Expected<void> run_source(const Participant& participant, int count) {
 }
 
 TEST(TelemetrySubscriber, CountsNoGapWhenASourceRestarts) {
-  Station station{bus_of_its_own()};
+  Station station;
   ASSERT_TRUE(run_source(station.participant(), 5));
-  ASSERT_TRUE(eventually([&] { return station.counts_of("antenna").received == 5; }));
+  ASSERT_TRUE(station.receives(5, "antenna"));
   ASSERT_TRUE(run_source(station.participant(), 10));
-  ASSERT_TRUE(eventually([&] { return station.counts_of("antenna").received == 15; }));
+  ASSERT_TRUE(station.receives(15, "antenna"));
   EXPECT_EQ(station.counts_of("antenna"), (SequenceCounts{.received = 15}));
 }
 
@@ -326,28 +350,26 @@ TEST(TelemetrySubscriber, HandsOverWhatIsAcknowledgedWhenStopped) {
 }
 
 TEST(TelemetrySubscriber, SaysSoWhenItsQueueIsClosedTooEarly) {
-  const auto participant = Participant::create(bus_of_its_own()).value();
   BoundedQueue<SampleBatch> queue{4};
-  const auto subscriber = TelemetrySubscriber::start(participant, queue, {"SPINNER"}).value();
+  const Unattended unattended{queue};
   queue.close();
-  ASSERT_TRUE(pulse_writer(participant).write(idl_pulse(0)));
-  ASSERT_TRUE(eventually([&] { return !subscriber->status().value().taking; }));
-  EXPECT_THAT(subscriber->status().value().failure, HasSubstr("closed while they arrive"));
-  EXPECT_EQ(subscriber->status().value().discarded, 1U);
+  ASSERT_TRUE(pulse_writer(unattended.participant).write(idl_pulse(0)));
+  ASSERT_TRUE(eventually([&] { return !unattended.status().taking; }));
+  EXPECT_THAT(unattended.status().failure, HasSubstr("closed while they arrive"));
+  EXPECT_EQ(unattended.status().discarded, 1U);
 }
 
 TEST(TelemetrySubscriber, CountsSamplesOfOtherSpacecraftAndDoesNotHandThemOver) {
-  Station station{bus_of_its_own()};
-  const auto writer = pulse_writer(station.participant());
+  WrittenStation station;
   spindrift_Pulse other = idl_pulse(1);
   other.spacecraft[0] = 'X';
   spindrift_Pulse impossible = idl_pulse(2);
   impossible.spacecraft[0] = ' ';
-  ASSERT_TRUE(writer.write(idl_pulse(0)));
-  ASSERT_TRUE(writer.write(other));
-  ASSERT_TRUE(writer.write(impossible));
-  ASSERT_TRUE(writer.write(idl_pulse(3)));
-  ASSERT_TRUE(eventually([&] { return station.counts_of("front-end").received == 4; }));
+  ASSERT_TRUE(station.writes(idl_pulse(0)));
+  ASSERT_TRUE(station.writes(other));
+  ASSERT_TRUE(station.writes(impossible));
+  ASSERT_TRUE(station.writes(idl_pulse(3)));
+  ASSERT_TRUE(station.receives(4));
   EXPECT_EQ(station.counts_of("front-end"), (SequenceCounts{.received = 4}));
   const SampleBatch arrived = station.finish();
   EXPECT_EQ(seqs_of(arrived.samples.of<Pulse>()), (std::vector<std::uint64_t>{0, 3}));
@@ -357,12 +379,11 @@ TEST(TelemetrySubscriber, CountsSamplesOfOtherSpacecraftAndDoesNotHandThemOver) 
 }
 
 TEST(TelemetrySubscriber, HandsOverCountsOfOtherSpacecraftThoughNothingElseArrives) {
-  const auto participant = Participant::create(bus_of_its_own()).value();
   BoundedQueue<SampleBatch> queue{4};
-  const auto subscriber = TelemetrySubscriber::start(participant, queue, {"SPINNER"}).value();
+  const Unattended unattended{queue};
   spindrift_Pulse other = idl_pulse(0);
   other.spacecraft[0] = 'X';
-  ASSERT_TRUE(pulse_writer(participant).write(other));
+  ASSERT_TRUE(pulse_writer(unattended.participant).write(other));
   const auto batch = queue.take();
   ASSERT_TRUE(batch);
   EXPECT_EQ(batch->others, (OtherSpacecraft{{"XPINNER", 1}}));
@@ -370,28 +391,26 @@ TEST(TelemetrySubscriber, HandsOverCountsOfOtherSpacecraftThoughNothingElseArriv
 }
 
 TEST(TelemetrySubscriber, CountsASourceThatCannotBeShownAsItIsShown) {
-  Station station{bus_of_its_own()};
-  const auto writer = pulse_writer(station.participant());
+  WrittenStation station;
   spindrift_Pulse pulse = idl_pulse(0);
   pulse.source[0] = '\x1b';
   pulse.source[1] = '\xff';
-  ASSERT_TRUE(writer.write(pulse));
-  ASSERT_TRUE(eventually([&] { return station.counts_of("\\x1b\\xffont-end").received == 1; }));
+  ASSERT_TRUE(station.writes(pulse));
+  ASSERT_TRUE(station.receives(1, "\\x1b\\xffont-end"));
   const SampleBatch arrived = station.finish();
   ASSERT_EQ(arrived.rejected.size(), 1U);
   EXPECT_EQ(arrived.rejected[0].source, "\\x1b\\xffont-end");
 }
 
 TEST(TelemetrySubscriber, KeepsFewOfManyImpossibleSamplesAndTheNumberOfTheRest) {
-  Station station{bus_of_its_own()};
-  const auto writer = pulse_writer(station.participant());
+  WrittenStation station;
   constexpr std::int64_t kSent = 2000;
   for (std::uint64_t seq = 0; seq < kSent; ++seq) {
     spindrift_Pulse pulse = idl_pulse(seq);
     pulse.t_tai_ns = -1;
-    ASSERT_TRUE(writer.write(pulse, std::stop_token{}));
+    ASSERT_TRUE(station.writes(pulse));
   }
-  ASSERT_TRUE(eventually([&] { return station.counts_of("front-end").received == kSent; }));
+  ASSERT_TRUE(station.receives(kSent));
   const SampleBatch arrived = station.finish();
   std::int64_t samples = 0;
   for (const RejectedInput& rejected : arrived.rejected) {
@@ -415,16 +434,15 @@ TEST(TelemetrySubscriber, SaysSoWhenAnExceptionEndsItsTaking) {
 // Deleting a full reader would block: Cyclone's receive thread waits for room in it.
 TEST(TelemetrySubscriber, StopsAndCountsWhatNobodyTookWhileItsReaderIsFull) {
   const auto config = bus_of_its_own();
-  const auto participant = Participant::create(config).value();
   BoundedQueue<SampleBatch> queue{1};
-  const auto subscriber = TelemetrySubscriber::start(participant, queue, {"SPINNER"}).value();
+  const Unattended unattended{queue, config};
   const ForeignWriter writer{config, "telemetry", 1'000'000'000};
-  ASSERT_TRUE(eventually([&] { return subscriber->status().value().reader.rejected > 0; }));
+  ASSERT_TRUE(eventually([&] { return unattended.status().reader.rejected > 0; }));
   queue.close();
-  subscriber->stop();
-  EXPECT_GE(subscriber->status().value().discarded,
+  unattended.subscriber->stop();
+  EXPECT_GE(unattended.status().discarded,
             static_cast<std::uint64_t>(bus::kTelemetryReaderSamples));
-  EXPECT_GT(subscriber->status().value().reader.rejected, 0U);
+  EXPECT_GT(unattended.status().reader.rejected, 0U);
 }
 
 }  // namespace spindrift::ingest_test

@@ -11,18 +11,17 @@
 #include <utility>
 #include <vector>
 
-#include "services/mission/mission.h"
-#include "services/processor/processor.h"
 #include "services/simulation/pass_files.h"
-#include "services/telemetry/telemetry_files.h"
-#include "services/telemetry/telemetry_stream.h"
 #include "tests/integration/archive_fixture.h"
 #include "tests/support/archive_rows.h"
+#include "tests/support/count_rows.h"
+#include "tests/support/recorded_edges.h"
 #include "tests/support/samples.h"
 #include "tests/support/test_paths.h"
 
 namespace spindrift::processor_restart_test {
 
+using testing::Samples;
 using Batches = std::vector<ArchiveBatch>;
 
 constexpr std::size_t kEdgesOfAPass = 180;
@@ -33,11 +32,8 @@ constexpr std::chrono::hours kSilence{2};
 const std::filesystem::path kPass = recorded_passes() / "nominal";
 
 /// Returns thirty revolutions and, after the silence, the same again without orbit coverage.
-std::vector<TelemetrySample<Pulse>> two_passes() {
-  const std::vector<TelemetryFile> files{{.path = kPass / "pulses.csv", .kind = Kind<Pulse>{}}};
-  std::vector<TelemetrySample<Pulse>> all =
-      TelemetryStream::open(files, "SPINNER").value().next().value().samples.of<Pulse>();
-  all.resize(kEdgesOfAPass);
+Samples two_passes() {
+  Samples all = testing::edges_of(kPass, kEdgesOfAPass);
   for (std::size_t i = 0; i < kEdgesOfAPass; ++i) {
     TelemetrySample<Pulse> later = all[i];
     later.value.t += kSilence;
@@ -48,9 +44,7 @@ std::vector<TelemetrySample<Pulse>> two_passes() {
 }
 
 Processor new_processor(const std::filesystem::path& pass = kPass) {
-  return Processor::make({load_mission(pass / "mission.toml").value()},
-                         {.mode = RunMode::Live, .telemetry = {"DDS domain 0, partition live"}})
-      .value();
+  return testing::live_processor({load_mission(pass / "mission.toml").value()});
 }
 
 /// Writes a pass of twenty minutes, twice what a restart recomputes.
@@ -58,17 +52,6 @@ void write_long_pass(const std::filesystem::path& folder) {
   Scenario scenario = load_scenario(scenarios() / "gto-nominal.toml").value();
   scenario.duration_s = 1200.0;
   ASSERT_TRUE(write_pass(folder, scenario, simulated_pass(scenario).value()));
-}
-
-std::vector<TelemetrySample<Pulse>> all_edges(const std::filesystem::path& pass) {
-  const std::vector<TelemetryFile> files{{.path = pass / "pulses.csv", .kind = Kind<Pulse>{}}};
-  auto stream = TelemetryStream::open(files, "SPINNER").value();
-  std::vector<TelemetrySample<Pulse>> all;
-  for (auto batch = stream.next().value(); !is_empty(batch); batch = stream.next().value()) {
-    const auto& edges = batch.samples.of<Pulse>();
-    all.insert(all.end(), edges.begin(), edges.end());
-  }
-  return all;
 }
 
 /// Holds what is submitted to the archive, in order. Samples may overtake products there.
@@ -109,13 +92,13 @@ void work(Processor& processor, Routed routed, Submitted& out, std::size_t solve
   }
 }
 
-void receive(Processor& processor, const std::vector<TelemetrySample<Pulse>>& pulses,
-             Submitted& out, std::size_t solved = kAll) {
+void receive(Processor& processor, const Samples& pulses, Submitted& out,
+             std::size_t solved = kAll) {
   for (std::size_t i = 0; i < pulses.size(); i += kEdgesABatch) {
-    const auto first = pulses.begin() + static_cast<std::ptrdiff_t>(i);
-    const auto end =
-        pulses.begin() + static_cast<std::ptrdiff_t>(std::min(i + kEdgesABatch, pulses.size()));
-    work(processor, processor.route(testing::batch_of_samples<Pulse>({first, end})), out, solved);
+    work(processor,
+         processor.route(
+             testing::batch_of_samples<Pulse>(testing::part_of(pulses, i, i + kEdgesABatch))),
+         out, solved);
   }
 }
 
@@ -125,21 +108,20 @@ class ProcessorRestart : public testing::ArchiveFixture {
 
   static void store(const std::filesystem::path& db, Batches batches) {
     const auto archive = Archive::open(db, {}).value();
-    for (ArchiveBatch& batch : batches) {
-      ASSERT_TRUE(archive->submit(std::move(batch)));
-    }
+    testing::submit(*archive, std::move(batches));
     ASSERT_TRUE(archive->close());
   }
 
+  static void store(const std::filesystem::path& db, const Submitted& all) {
+    store(db, first(all, all.samples.size(), all.products.size()));
+  }
+
   /// Resumes from `db` and receives the samples of `sent` that it does not contain.
-  static Submitted go_on(const std::filesystem::path& db,
-                         const std::vector<TelemetrySample<Pulse>>& sent,
+  static Submitted go_on(const std::filesystem::path& db, const Samples& sent,
                          const std::filesystem::path& pass = kPass, std::size_t solved = kAll) {
-    std::set<std::string> stored;
-    for (const std::string& row : rows_of(db, "SELECT t_tai_ns, channel FROM pulse")) {
-      stored.insert(row);
-    }
-    std::vector<TelemetrySample<Pulse>> missing;
+    const auto rows = rows_of(db, "SELECT t_tai_ns, channel FROM pulse");
+    const std::set<std::string> stored{rows.begin(), rows.end()};
+    Samples missing;
     std::copy_if(sent.begin(), sent.end(), std::back_inserter(missing),
                  [&](const TelemetrySample<Pulse>& sample) {
                    return !stored.contains(fmt::format("{}|{}|", tai_ns(sample.value.t),
@@ -159,15 +141,14 @@ class ProcessorRestart : public testing::ArchiveFixture {
     for (const std::string& table :
          std::vector<std::string>{"revolution", "spin_fix", "pulse_use", "spin_estimate"}) {
       for (std::string& row :
-           rows_of(db, fmt::format("SELECT '{0}', count(*), min(t_tai_ns), max(t_tai_ns) FROM {0}"
-                                   " JOIN run USING (run_id) GROUP BY run_id ORDER BY 3",
+           rows_of(db, fmt::format("SELECT '{0}', count(*), min(t_tai_ns), max(t_tai_ns) FROM {0} "
+                                   "JOIN run USING (run_id) GROUP BY run_id ORDER BY 3",
                                    table))) {
         all.push_back(std::move(row));
       }
     }
-    for (std::string& row : rows_of(db,
-                                    "SELECT first_tai_ns, finished_utc IS NOT NULL FROM run"
-                                    " ORDER BY first_arrival")) {
+    for (std::string& row : rows_of(
+             db, "SELECT first_tai_ns, finished_utc IS NOT NULL FROM run ORDER BY first_arrival")) {
       all.push_back(std::move(row));
     }
     return all;
@@ -189,17 +170,17 @@ class ProcessorRestart : public testing::ArchiveFixture {
 };
 
 TEST_F(ProcessorRestart, KilledAtAnyPointBetweenTwoPassesGivesWhatNoRestartWouldHave) {
-  const std::vector<TelemetrySample<Pulse>> sent = two_passes();
+  const Samples sent = two_passes();
   Processor processor = new_processor();
   Submitted all;
   all.samples = processor.begin();
   receive(processor, sent, all);
   Submitted unstopped = all;
   unstopped.add_products(processor.finish());
-  store(db("whole"), first(unstopped, unstopped.samples.size(), unstopped.products.size()));
+  store(db("whole"), unstopped);
   const std::vector<std::string> whole = rows(db("whole"));
-  ASSERT_EQ(number_of(db("whole"), "SELECT count(*) FROM run"), 2);
-  ASSERT_EQ(number_of(db("whole"), "SELECT count(*) FROM revolution"), 2 * 30);
+  ASSERT_EQ(count_rows(db("whole"), "run"), 2);
+  ASSERT_EQ(count_rows(db("whole"), "revolution"), 2 * 30);
 
   const auto begun = std::find_if(all.samples.begin() + 1, all.samples.end(),
                                   [](const ArchiveBatch& batch) { return batch.start; });
@@ -214,8 +195,7 @@ TEST_F(ProcessorRestart, KilledAtAnyPointBetweenTwoPassesGivesWhatNoRestartWould
       const Submitted again = go_on(killed, sent);
       // The service is killed again with all samples and half of the products stored.
       store(killed, first(again, again.samples.size(), again.products.size() / 2));
-      const Submitted rest = go_on(killed, sent);
-      store(killed, first(rest, rest.samples.size(), rest.products.size()));
+      store(killed, go_on(killed, sent));
       ASSERT_EQ(rows(killed), whole);
     }
   }
@@ -230,7 +210,7 @@ struct Ended {
 TEST_F(ProcessorRestart, MakesEveryBatchSolutionThatIsNotStored) {
   const std::filesystem::path pass = directory() / "pass";
   write_long_pass(pass);
-  const std::vector<TelemetrySample<Pulse>> sent = all_edges(pass);
+  const Samples sent = testing::edges_of(pass, kAll);
   const auto receive_all = [&](const Ended& ended) {
     Processor processor = new_processor(pass);
     Submitted all;
@@ -242,9 +222,9 @@ TEST_F(ProcessorRestart, MakesEveryBatchSolutionThatIsNotStored) {
     return all;
   };
   const Submitted whole = receive_all({.solved = kAll, .orderly = true});
-  store(db("whole"), first(whole, whole.samples.size(), whole.products.size()));
+  store(db("whole"), whole);
   ASSERT_EQ(whole.solved, 19U);
-  ASSERT_EQ(number_of(db("whole"), "SELECT count(*) FROM spin_batch"), 20);
+  ASSERT_EQ(count_rows(db("whole"), "spin_batch"), 20);
 
   for (const Ended& ended :
        {Ended{.solved = 0, .orderly = false}, Ended{.solved = 7, .orderly = false},
@@ -253,19 +233,19 @@ TEST_F(ProcessorRestart, MakesEveryBatchSolutionThatIsNotStored) {
     const auto restarted = db(fmt::format("{}-{}", ended.solved, ended.orderly));
     const Submitted before = receive_all(ended);
     ASSERT_EQ(before.left, whole.solved - ended.solved);
-    store(restarted, first(before, before.samples.size(), before.products.size()));
+    store(restarted, before);
     const Submitted again = go_on(restarted, sent, pass, 2);
     // The service is killed again before the end.
     store(restarted, first(again, again.samples.size(), again.products.size() - 1));
     const Submitted rest = go_on(restarted, sent, pass);
     EXPECT_EQ(rest.solved, whole.solved - ended.solved - 2);
-    store(restarted, first(rest, rest.samples.size(), rest.products.size()));
+    store(restarted, rest);
     EXPECT_EQ(rows(restarted), rows(db("whole")));
   }
 }
 
 TEST_F(ProcessorRestart, ANewRunComesAfterAllThatIsStoredWhateverTheClockSays) {
-  const std::vector<TelemetrySample<Pulse>> sent = two_passes();
+  const Samples sent = two_passes();
   constexpr std::int64_t kFarAhead = 4'000'000'000'000'000'000;  // Time of a wrong clock, in 2096.
   ArchiveBatch earlier = testing::start_of("earlier");
   earlier.start->first_arrival = kFarAhead;
@@ -285,10 +265,10 @@ TEST_F(ProcessorRestart, ANewRunComesAfterAllThatIsStoredWhateverTheClockSays) {
   EXPECT_EQ(rows_of(db("clock"), "SELECT t_tai_ns, channel FROM pulse ORDER BY arrival"),
             rows_of(db("clock"), "SELECT t_tai_ns, channel FROM pulse ORDER BY t_tai_ns"));
   EXPECT_EQ(number_of(db("clock"), "SELECT min(first_arrival) FROM run"), kFarAhead);
-  EXPECT_EQ(number_of(db("clock"),
-                      "SELECT count(*) FROM pulse WHERE arrival >="
-                      " (SELECT min(first_arrival) FROM run WHERE mode = 'live')"),
-            static_cast<std::int64_t>(sent.size()));
+  EXPECT_EQ(
+      count_rows(db("clock"),
+                 "pulse WHERE arrival >= (SELECT min(first_arrival) FROM run WHERE mode = 'live')"),
+      static_cast<std::int64_t>(sent.size()));
 }
 
 }  // namespace spindrift::processor_restart_test

@@ -1,9 +1,9 @@
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <chrono>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "pipelines/frames/celestial.h"
@@ -70,31 +70,31 @@ Health a_health() {
   return health;
 }
 
-TEST(ResultPublisher, PublishesAFixInDegrees) {
-  const auto participant = Participant::create(bus_of_its_own()).value();
-  const auto publisher = ResultPublisher::create(participant, kService).value();
+class ResultPublisherTest : public ::testing::Test {
+ protected:
+  Participant participant_ = Participant::create(bus_of_its_own()).value();
+  ResultPublisher publisher_ = ResultPublisher::create(participant_, kService).value();
+};
+
+TEST_F(ResultPublisherTest, PublishesAFixInDegrees) {
   SpinFix fix = a_fix();
   fix.alternates = {{.axis_icrf = axis_deg(130.0, 20.0)}};
-  ASSERT_TRUE(publisher.publish("SPINNER", "run-1", fix));
-  const auto taken = take_samples(results_reader(participant, product_topic<SpinFix>()), 1);
+  ASSERT_TRUE(publisher_.publish("SPINNER", "run-1", fix));
+  const auto taken = take_samples(results_reader(participant_, product_topic<SpinFix>()), 1);
   ASSERT_EQ(taken.size(), 1U);
-  EXPECT_STREQ(taken[0].spacecraft, "SPINNER");
-  EXPECT_EQ(taken[0].t_tai_ns, kTestTime_tai_ns);
-  EXPECT_EQ(taken[0].revolution, 4'000'000'000);
-  EXPECT_EQ(taken[0].geometry_case, 3);
+  EXPECT_EQ(
+      fmt::format("{} {} {} {} {} {}", taken[0].spacecraft, taken[0].t_tai_ns, taken[0].revolution,
+                  taken[0].geometry_case, taken[0].run_id, taken[0].service),
+      fmt::format("SPINNER {} 4000000000 3 run-1 {}", kTestTime_tai_ns, kService));
   EXPECT_NEAR(taken[0].ra_deg, 310.0, kRounding);
   EXPECT_NEAR(taken[0].dec_deg, -64.0, kRounding);
   EXPECT_NEAR(taken[0].sigma_deg, 5.0, kRounding);  // sqrt(9 + 16).
   EXPECT_NEAR(taken[0].alternate_ra_deg, 130.0, kRounding);
   EXPECT_NEAR(taken[0].alternate_dec_deg, 20.0, kRounding);
   EXPECT_EQ(taken[0].resolution, spindrift_GEOMETRY);
-  EXPECT_STREQ(taken[0].run_id, "run-1");
-  EXPECT_STREQ(taken[0].service, kService);
 }
 
-TEST(ResultPublisher, PublishesAnAttitudeAndNaNForARateThatIsNone) {
-  const auto participant = Participant::create(bus_of_its_own()).value();
-  const auto publisher = ResultPublisher::create(participant, kService).value();
+TEST_F(ResultPublisherTest, PublishesAnAttitudeAndNaNForARateThatIsNone) {
   AttitudeEstimate attitude{
       .t = tai_from_ns(kTestTime_tai_ns),
       .q_icrf_body = Eigen::Quaterniond{0.5, -0.5, 0.1, 0.7},
@@ -102,37 +102,31 @@ TEST(ResultPublisher, PublishesAnAttitudeAndNaNForARateThatIsNone) {
       .covariance_rad2 = Eigen::Vector3d{4.0, 16.0, 16.0}.asDiagonal() * (kRad_deg * kRad_deg),
       .assessment = {Quality::Doubtful,
                      {{ReasonCode::SensorGated, {{"sensor", std::string{"sun"}}}}}}};
-  const auto reader = results_reader(participant, product_topic<AttitudeEstimate>());
-  ASSERT_TRUE(publisher.publish("SAT", "run-1", attitude));
+  const auto reader = results_reader(participant_, product_topic<AttitudeEstimate>());
+  ASSERT_TRUE(publisher_.publish("SAT", "run-1", attitude));
   const auto taken = take_samples(reader, 1);
   ASSERT_EQ(taken.size(), 1U);
-  EXPECT_STREQ(taken[0].spacecraft, "SAT");
-  EXPECT_STREQ(taken[0].estimator, "mekf");
-  EXPECT_EQ(taken[0].t_tai_ns, kTestTime_tai_ns);
-  EXPECT_EQ(taken[0].qx, -0.5);
-  EXPECT_EQ(taken[0].qy, 0.1);
-  EXPECT_EQ(taken[0].qz, 0.7);
-  EXPECT_EQ(taken[0].qw, 0.5);
+  EXPECT_EQ(fmt::format("{} {} {} {} {} {} {} {}", taken[0].spacecraft, taken[0].estimator,
+                        taken[0].t_tai_ns, taken[0].qx, taken[0].qy, taken[0].qz, taken[0].qw,
+                        taken[0].run_id),
+            fmt::format("SAT mekf {} -0.5 0.1 0.7 0.5 run-1", kTestTime_tai_ns));
   EXPECT_THAT(taken[0].rate_body_rad_s, ElementsAre(0.25, -0.5, 1.0));
   EXPECT_NEAR(taken[0].sigma_deg, 6.0, kRounding);
   EXPECT_EQ(taken[0].quality, spindrift_QUALITY_DOUBTFUL);
   EXPECT_STREQ(taken[0].status, "DOUBTFUL, many sun samples gated");
-  EXPECT_STREQ(taken[0].run_id, "run-1");
 
   attitude.rate_body_rad_s.reset();
-  ASSERT_TRUE(publisher.publish("SAT", "run-1", attitude));
+  ASSERT_TRUE(publisher_.publish("SAT", "run-1", attitude));
   EXPECT_TRUE(std::isnan(take_samples(reader, 1).at(0).rate_body_rad_s[2]));
 }
 
-TEST(ResultPublisher, PublishesAnEstimateInDegreesAndRpm) {
-  const auto participant = Participant::create(bus_of_its_own()).value();
-  const auto publisher = ResultPublisher::create(participant, kService).value();
-  ASSERT_TRUE(publisher.publish("SPINNER", "run-1", an_estimate()));
-  const auto taken = take_samples(results_reader(participant, product_topic<SpinEstimate>()), 1);
+TEST_F(ResultPublisherTest, PublishesAnEstimateInDegreesAndRpm) {
+  ASSERT_TRUE(publisher_.publish("SPINNER", "run-1", an_estimate()));
+  const auto taken = take_samples(results_reader(participant_, product_topic<SpinEstimate>()), 1);
   ASSERT_EQ(taken.size(), 1U);
-  EXPECT_STREQ(taken[0].spacecraft, "SPINNER");
-  EXPECT_STREQ(taken[0].estimator, "mean");
-  EXPECT_EQ(taken[0].t_tai_ns, kTestTime_tai_ns);
+  EXPECT_EQ(fmt::format("{} {} {} {} {}", taken[0].spacecraft, taken[0].estimator,
+                        taken[0].t_tai_ns, taken[0].run_id, taken[0].service),
+            fmt::format("SPINNER mean {} run-1 {}", kTestTime_tai_ns, kService));
   // The pole is two degrees away, which amplifies rounding.
   EXPECT_NEAR(taken[0].ra_deg, 12.5, kRounding * 100.0);
   EXPECT_NEAR(taken[0].dec_deg, 88.0, kRounding);
@@ -144,30 +138,20 @@ TEST(ResultPublisher, PublishesAnEstimateInDegreesAndRpm) {
   EXPECT_NEAR(taken[0].sigma_rpm, 0.5, kRounding);
   EXPECT_STREQ(taken[0].status, "DOUBTFUL, 120 revolutions");
   EXPECT_EQ(taken[0].quality, spindrift_QUALITY_DOUBTFUL);
-  EXPECT_STREQ(taken[0].run_id, "run-1");
-  EXPECT_STREQ(taken[0].service, kService);
 }
 
-TEST(ResultPublisher, PublishesHealth) {
-  const auto participant = Participant::create(bus_of_its_own()).value();
-  const auto publisher = ResultPublisher::create(participant, kService).value();
-  ASSERT_TRUE(publisher.publish(a_health()));
-  const auto taken = take_samples(results_reader(participant, bus::kHealthTopic), 1);
+TEST_F(ResultPublisherTest, PublishesHealth) {
+  ASSERT_TRUE(publisher_.publish(a_health()));
+  const auto taken = take_samples(results_reader(participant_, bus::kHealthTopic), 1);
   ASSERT_EQ(taken.size(), 1U);
-  EXPECT_STREQ(taken[0].service, kService);
-  EXPECT_EQ(taken[0].t_tai_ns, kTestTime_tai_ns);
-  EXPECT_EQ(taken[0].samples_received, 6U);
-  EXPECT_EQ(taken[0].samples_committed, 5U);
-  EXPECT_EQ(taken[0].gaps, 4U);
-  EXPECT_EQ(taken[0].duplicates, 3U);
-  EXPECT_EQ(taken[0].queue_depth, 2U);
-  EXPECT_EQ(taken[0].commit_p99_ms, 1.5);
-  EXPECT_STREQ(taken[0].status, "ok");
+  const spindrift_Health& health = taken[0];
+  EXPECT_EQ(fmt::format("{} {} {} {} {} {} {} {} {}", health.service, health.t_tai_ns,
+                        health.samples_received, health.samples_committed, health.gaps,
+                        health.duplicates, health.queue_depth, health.commit_p99_ms, health.status),
+            fmt::format("{} {} 6 5 4 3 2 1.5 ok", kService, kTestTime_tai_ns));
 }
 
-TEST(ResultPublisher, PublishesTheWholeMessageAndTheStateOfEverySpacecraft) {
-  const auto participant = Participant::create(bus_of_its_own()).value();
-  const auto publisher = ResultPublisher::create(participant, kService).value();
+TEST_F(ResultPublisherTest, PublishesTheWholeMessageAndTheStateOfEverySpacecraft) {
   Health health = a_health();
   health.message = std::string(500, 'x') + "\nanother";
   health.status = health.message;
@@ -181,8 +165,8 @@ TEST(ResultPublisher, PublishesTheWholeMessageAndTheStateOfEverySpacecraft) {
                                     .why = std::string(300, 'y'),
                                     .against = "mean and batch disagree"}},
                        {.spacecraft = "UNHEARD", .link = LinkState::Waiting}};
-  const auto reader = results_reader(participant, bus::kHealthTopic);
-  ASSERT_TRUE(publisher.publish(health));
+  const auto reader = results_reader(participant_, bus::kHealthTopic);
+  ASSERT_TRUE(publisher_.publish(health));
   std::size_t taken = 0;
   // Strings and lists belong to the middleware and are valid only while it lends them.
   const auto check = [&](const spindrift_Health& sample) {
@@ -216,32 +200,28 @@ TEST(ResultPublisher, PublishesTheWholeMessageAndTheStateOfEverySpacecraft) {
   EXPECT_EQ(taken, 1U);
 }
 
-TEST(ResultPublisher, GivesALateJoinerTheCurrentStateOfEverySpacecraft) {
-  const auto participant = Participant::create(bus_of_its_own()).value();
-  const auto publisher = ResultPublisher::create(participant, kService).value();
+TEST_F(ResultPublisherTest, GivesALateJoinerTheCurrentStateOfEverySpacecraft) {
   for (std::int64_t revolution = 0; revolution < 5; ++revolution) {
     SpinFix fix = a_fix();
     fix.revolution = revolution;
-    ASSERT_TRUE(publisher.publish("ONE", "run-1", fix));
+    ASSERT_TRUE(publisher_.publish("ONE", "run-1", fix));
     fix.revolution += 10;
-    ASSERT_TRUE(publisher.publish("TWO", "run-2", fix));
+    ASSERT_TRUE(publisher_.publish("TWO", "run-2", fix));
   }
   std::vector<std::int64_t> revolutions;
-  for (const auto& fix : take_samples(results_reader(participant, product_topic<SpinFix>()), 2)) {
+  for (const auto& fix : take_samples(results_reader(participant_, product_topic<SpinFix>()), 2)) {
     revolutions.push_back(fix.revolution);
   }
   EXPECT_THAT(revolutions, ::testing::UnorderedElementsAre(4, 14));
 }
 
-TEST(ResultPublisher, NamesASubscriberThatAsksForMore) {
-  const auto participant = Participant::create(bus_of_its_own()).value();
-  const auto publisher = ResultPublisher::create(participant, kService).value();
-  EXPECT_THAT(publisher.incompatible_readers().value(), ElementsAre());
+TEST_F(ResultPublisherTest, NamesASubscriberThatAsksForMore) {
+  EXPECT_THAT(publisher_.incompatible_readers().value(), ElementsAre());
   bus::Qos demanding = bus::results_qos();
   dds_qset_durability(demanding.get(), DDS_DURABILITY_PERSISTENT);
   const auto reader =
-      Reader<spindrift_Health>::create(participant, bus::kHealthTopic, demanding).value();
-  EXPECT_THAT(publisher.incompatible_readers().value(),
+      Reader<spindrift_Health>::create(participant_, bus::kHealthTopic, demanding).value();
+  EXPECT_THAT(publisher_.incompatible_readers().value(),
               ElementsAre(HasSubstr("topic spindrift/health, asks for PERSISTENT; spindrift "
                                     "offers TRANSIENT_LOCAL")));
 }
@@ -336,17 +316,14 @@ TEST(CodedPublisher, PublishesEveryFieldAndNanForWhatWasNotReceived) {
                        .value(),
                    1);
   ASSERT_EQ(taken.size(), 1U);
-  EXPECT_STREQ(taken[0].spacecraft, "SPINNER");
-  EXPECT_STREQ(taken[0].source, "replay");
-  EXPECT_EQ(taken[0].session, 17U);
-  EXPECT_EQ(taken[0].seq, 0U);
-  EXPECT_EQ(taken[0].t_tai_ns, kTestTime_tai_ns);
-  EXPECT_EQ(taken[0].period_s, 1.0);
-  EXPECT_EQ(taken[0].sun2_s, 0.125);
-  EXPECT_EQ(taken[0].north_in_s, 0.25);
-  EXPECT_EQ(taken[0].north_out_s, 0.375);
-  EXPECT_EQ(taken[0].south_in_s, 0.5);
-  EXPECT_TRUE(std::isnan(taken[0].south_out_s));
+  const spindrift_CodedFrame& frame = taken[0];
+  EXPECT_EQ(fmt::format("{} {} {} {} {}", frame.spacecraft, frame.source, frame.session, frame.seq,
+                        frame.t_tai_ns),
+            fmt::format("SPINNER replay 17 0 {}", kTestTime_tai_ns));
+  EXPECT_EQ(fmt::format("{} {} {} {} {}", frame.period_s, frame.sun2_s, frame.north_in_s,
+                        frame.north_out_s, frame.south_in_s),
+            "1 0.125 0.25 0.375 0.5");
+  EXPECT_TRUE(std::isnan(frame.south_out_s));
 }
 
 TEST(PulsePublisher, NumbersItsSamplesFromZeroInOneSession) {

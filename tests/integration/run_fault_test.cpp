@@ -1,7 +1,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <new>
 #include <stdexcept>
 #include <string>
@@ -9,30 +8,25 @@
 #include <vector>
 
 #include "services/archive/stored_faults.h"
-#include "services/mission/mission.h"
-#include "services/processor/processor.h"
 #include "services/processor/what_is_thrown.h"
-#include "services/telemetry/telemetry_files.h"
-#include "services/telemetry/telemetry_stream.h"
 #include "tests/integration/archive_fixture.h"
 #include "tests/support/archive_rows.h"
+#include "tests/support/count_rows.h"
+#include "tests/support/recorded_edges.h"
 #include "tests/support/samples.h"
 #include "tests/support/test_paths.h"
 
 namespace spindrift::run_fault_test {
 
-using ::testing::HasSubstr;
+using ::testing::ElementsAre;
 
 const std::filesystem::path kPass = recorded_passes() / "nominal";
 constexpr std::size_t kEdges = 240;
 /// Index of the edge at which the computation fails.
 constexpr std::size_t kBad = 203;
 
-std::vector<TelemetrySample<Pulse>> edges_of(const std::string& spacecraft) {
-  const std::vector<TelemetryFile> files{{.path = kPass / "pulses.csv", .kind = Kind<Pulse>{}}};
-  auto edges = TelemetryStream::open(files, spacecraft).value().next().value().samples.of<Pulse>();
-  edges.resize(kEdges);
-  return edges;
+testing::Samples edges_of(const std::string& spacecraft) {
+  return testing::edges_of(kPass, kEdges, spacecraft);
 }
 
 /// Gives an edge an impossible channel, as after a memory fault. The archive has the right one, but
@@ -52,53 +46,42 @@ struct RunFaults : testing::ArchiveFixture {
     std::vector<Mission> missions(2, load_mission(kPass / "mission.toml").value());
     missions[0].spacecraft_id = "FAILS";
     missions[1].spacecraft_id = "SOUND";
-    return Processor::make(missions,
-                           {.mode = RunMode::Live, .telemetry = {"DDS domain 0, partition live"}})
-        .value();
-  }
-
-  static void submit(Archive& archive, std::vector<ArchiveBatch> batches) {
-    for (ArchiveBatch& batch : batches) {
-      ASSERT_TRUE(archive.submit(std::move(batch)));
-    }
+    return testing::live_processor(missions);
   }
 
   /// Sends `at_once` edges of each spacecraft at a time, after those that are stored.
   static void serve(const std::filesystem::path& db, std::size_t at_once, bool stored) {
-    const std::vector<TelemetrySample<Pulse>> fails = edges_of("FAILS");
-    const std::vector<TelemetrySample<Pulse>> sound = edges_of("SOUND");
+    const testing::Samples fails = edges_of("FAILS");
+    const testing::Samples sound = edges_of("SOUND");
     const auto archive = Archive::open(db, {}).value();
     Processor processor = new_processor();
     const auto work = [&](Routed routed) {
-      submit(*archive, std::move(routed.samples));
+      testing::submit(*archive, std::move(routed.samples));
       for (PassInput& input : routed.work) {
         if (processor.spacecraft().at(input.spacecraft) == "FAILS") {
           spoil(input, fails[kBad].value.t);
         }
-        submit(*archive, processor.compute(input));
+        testing::submit(*archive, processor.compute(input));
       }
     };
     if (stored) {
       work(processor.go_on(db).value().routed);
     } else {
-      submit(*archive, processor.begin());
+      testing::submit(*archive, processor.begin());
       for (std::size_t i = 0; i < kEdges; i += at_once) {
-        const std::size_t end = std::min(i + at_once, kEdges);
         for (const auto& edges : {fails, sound}) {
-          work(processor.route(testing::batch_of_samples<Pulse>(
-              {edges.begin() + static_cast<std::ptrdiff_t>(i),
-               edges.begin() + static_cast<std::ptrdiff_t>(end)})));
+          work(processor.route(
+              testing::batch_of_samples<Pulse>(testing::part_of(edges, i, i + at_once))));
         }
       }
     }
-    submit(*archive, processor.finish());
+    testing::submit(*archive, processor.finish());
     ASSERT_TRUE(archive->close());
   }
 
   static std::int64_t count_of(const std::filesystem::path& db, const std::string& spacecraft,
                                const std::string& rows) {
-    return number_of(db, "SELECT count(*) FROM run JOIN " + rows + " WHERE run.spacecraft_id = '" +
-                             spacecraft + "'");
+    return count_rows(db, "run JOIN " + rows + " WHERE run.spacecraft_id = '" + spacecraft + "'");
   }
 };
 
@@ -108,26 +91,25 @@ TEST_F(RunFaults, AreOfOneSpacecraftAndMakeItsAnswerDoubtful) {
     EXPECT_EQ(count_of(db("served"), spacecraft, "pulse USING (spacecraft_id)"), kEdges);
   }
   EXPECT_EQ(number_of(db("served"), "SELECT count(*) FROM run WHERE finished_utc IS NOT NULL"), 2);
-  EXPECT_EQ(rows_of(db("served"),
-                    "SELECT spacecraft_id, t_tai_ns FROM run_fault JOIN run USING"
-                    " (run_id)"),
-            (std::vector<std::string>{
-                "FAILS|" + std::to_string(tai_ns(edges_of("FAILS")[kBad].value.t)) + "|"}));
+  EXPECT_THAT(
+      rows_of(db("served"),
+              "SELECT spacecraft_id, t_tai_ns FROM run_fault JOIN run USING (run_id)"),
+      ElementsAre("FAILS|" + std::to_string(tai_ns(edges_of("FAILS")[kBad].value.t)) + "|"));
   const auto fixes = [&](const std::string& spacecraft) {
     return count_of(db("served"), spacecraft, "spin_fix USING (run_id)");
   };
   EXPECT_GT(fixes("FAILS"), 20);
   EXPECT_GT(fixes("SOUND"), fixes("FAILS"));
   // The failure is also visible to clients that read the answers only.
-  EXPECT_EQ(number_of(db("served"),
-                      "SELECT count(*) FROM spin_estimate JOIN run USING (run_id) WHERE"
-                      " spacecraft_id = 'FAILS' AND quality = 'DOUBTFUL'"
-                      " AND reasons LIKE '%computing_failed%'"),
-            2);
-  const std::string verdict = rows_of(db("served"),
-                                      "SELECT quality, estimator, why FROM pass_verdict"
-                                      " WHERE spacecraft_id = 'FAILS'")
-                                  .at(0);
+  EXPECT_EQ(
+      number_of(db("served"),
+                "SELECT count(*) FROM spin_estimate JOIN run USING (run_id) WHERE spacecraft_id = "
+                "'FAILS' AND quality = 'DOUBTFUL' AND reasons LIKE '%computing_failed%'"),
+      2);
+  const std::string verdict =
+      rows_of(db("served"),
+              "SELECT quality, estimator, why FROM pass_verdict WHERE spacecraft_id = 'FAILS'")
+          .at(0);
   EXPECT_THAT(verdict, ::testing::StartsWith("DOUBTFUL|sequential|computing failed at 20"));
   EXPECT_NE(
       rows_of(db("served"), "SELECT quality FROM pass_verdict WHERE spacecraft_id = 'SOUND'").at(0),

@@ -4,7 +4,6 @@
 
 #include <chrono>
 #include <filesystem>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -15,10 +14,13 @@
 #include "services/telemetry/telemetry_stream.h"
 #include "tests/integration/archive_fixture.h"
 #include "tests/support/archive_rows.h"
+#include "tests/support/recorded_edges.h"
 #include "tests/support/samples.h"
 #include "tests/support/test_paths.h"
 
 namespace spindrift::stream_silence_test {
+
+using ::testing::ElementsAre;
 
 using namespace std::chrono_literals;
 
@@ -27,55 +29,29 @@ constexpr std::size_t kBefore = 120;
 constexpr std::size_t kAll = 180;
 
 Processor new_processor() {
-  return Processor::make({load_mission(kPass / "mission.toml").value()},
-                         {.mode = RunMode::Live, .telemetry = {"DDS domain 0, partition live"}})
-      .value();
+  return testing::live_processor({load_mission(kPass / "mission.toml").value()});
 }
 
+testing::Samples edges(std::size_t count) { return testing::edges_of(kPass, count); }
+
 struct StreamSilence : testing::ArchiveFixture {
-  using Samples = std::vector<TelemetrySample<Pulse>>;
-
-  static Samples edges(std::size_t count) {
-    const std::vector<TelemetryFile> files{{.path = kPass / "pulses.csv", .kind = Kind<Pulse>{}}};
-    auto stream = TelemetryStream::open(files, "SPINNER").value();
-    Samples all;
-    while (all.size() < count) {
-      const Samples some = stream.next().value().samples.of<Pulse>();
-      all.insert(all.end(), some.begin(), some.end());
-    }
-    all.resize(count);
-    return all;
-  }
-
-  static void submit(Archive& archive, std::vector<ArchiveBatch> batches) {
-    for (ArchiveBatch& batch : batches) {
-      ASSERT_TRUE(archive.submit(std::move(batch)));
-    }
-  }
-
-  static void work(Processor& processor, Routed routed, Archive& archive) {
-    submit(archive, std::move(routed.samples));
-    for (const PassInput& input : routed.work) {
-      submit(archive, processor.compute(input));
-    }
-  }
-
   /// Receives edges, a silence, an edge from just before it, and more edges.
   void receive() const {
-    const Samples all = edges(kAll);
+    const testing::Samples all = edges(kAll);
     const auto middle = all.begin() + kBefore;
     TelemetrySample<Pulse> late = *std::prev(middle);
     late.value.t -= 20ms;
     late.origin.seq = 1'000'000;
     const auto archive = open();
     Processor processor = new_processor();
-    submit(*archive, processor.begin());
-    const auto take = [&](Samples samples) {
-      work(processor, processor.route(testing::batch_of_samples<Pulse>(std::move(samples))),
-           *archive);
+    testing::submit(*archive, processor.begin());
+    const auto take = [&](testing::Samples samples) {
+      testing::work(processor,
+                    processor.route(testing::batch_of_samples<Pulse>(std::move(samples))),
+                    *archive);
     };
     take({all.begin(), middle});
-    work(processor, processor.fall_silent({"SPINNER"}), *archive);
+    testing::work(processor, processor.fall_silent({"SPINNER"}), *archive);
     EXPECT_TRUE(processor.fall_silent({"SPINNER"}).samples.empty());
     take({late});
     take({middle, all.end()});
@@ -85,17 +61,15 @@ struct StreamSilence : testing::ArchiveFixture {
 
 TEST_F(StreamSilence, IsStoredAndRepeatedByARestart) {
   receive();
-  EXPECT_EQ(number("SELECT count(*) FROM stream_silence"), 1);
-  EXPECT_EQ(
-      number("SELECT count(*) FROM pulse WHERE arrival < (SELECT arrival FROM stream_silence)"),
-      kBefore);
-  EXPECT_EQ(number("SELECT count(*) FROM pulse_use WHERE rejected_by = 'late'"), 1);
+  EXPECT_EQ(count("stream_silence"), 1);
+  EXPECT_EQ(count("pulse WHERE arrival < (SELECT arrival FROM stream_silence)"), kBefore);
+  EXPECT_EQ(count("pulse_use WHERE rejected_by = 'late'"), 1);
   const auto rows = product_rows(path());
 
   Processor processor = new_processor();
   auto gone_on = processor.go_on(path()).value();
   const auto archive = open();
-  work(processor, std::move(gone_on.routed), *archive);
+  testing::work(processor, std::move(gone_on.routed), *archive);
   EXPECT_TRUE(archive->close());
   EXPECT_EQ(product_rows(path()), rows);
 }
@@ -120,11 +94,11 @@ std::vector<TaiTime> solved(Processor& processor, const Routed& routed) {
 TEST_F(StreamSilence, HasTheBatchSolutionOfAllThatCameAndNoneTwice) {
   for (const int edges_behind_a_minute : {24, 180}) {
     SCOPED_TRACE(edges_behind_a_minute);
-    const Samples all = edges(static_cast<std::size_t>(360 + edges_behind_a_minute));
+    const testing::Samples all = edges(static_cast<std::size_t>(360 + edges_behind_a_minute));
     Processor processor = new_processor();
     processor.begin();
     const auto meanwhile =
-        solved(processor, processor.route(testing::batch_of_samples<Pulse>(Samples(all))));
+        solved(processor, processor.route(testing::batch_of_samples<Pulse>(testing::Samples(all))));
     EXPECT_EQ(meanwhile.size(), 1U);
     const auto in_silence = solved(processor, processor.fall_silent({"SPINNER"}));
     ASSERT_EQ(in_silence.size(), 1U);
@@ -148,7 +122,7 @@ TEST(SilenceWatch, TellsOnceWhoWasNotHeardForASecond) {
   watch.note("B", start + 300ms);
   EXPECT_EQ(watch.next(), start + 1s);
   EXPECT_TRUE(watch.take_silent(start + 999ms).empty());
-  EXPECT_EQ(watch.take_silent(start + 1s), std::vector<std::string>{"A"});
+  EXPECT_THAT(watch.take_silent(start + 1s), ElementsAre("A"));
   EXPECT_EQ(watch.next(), start + 1300ms);
   watch.note("B", start + 1200ms);
   EXPECT_TRUE(watch.take_silent(start + 1300ms).empty());

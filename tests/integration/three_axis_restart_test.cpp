@@ -21,9 +21,13 @@
 #include "services/telemetry/telemetry_stream.h"
 #include "tests/integration/archive_fixture.h"
 #include "tests/support/archive_rows.h"
+#include "tests/support/count_rows.h"
+#include "tests/support/recorded_edges.h"
 #include "tests/support/three_axis_files.h"
 
 namespace spindrift::three_axis_restart_test {
+
+using ::testing::ElementsAre;
 
 /// The pass is more than twice as long as what a restart recomputes.
 constexpr testing::ThreeAxisScene kLongPass{
@@ -134,9 +138,7 @@ class ThreeAxisRestart : public testing::ArchiveFixture {
   }
 
   Processor new_processor() const {
-    return Processor::make({load_mission(pass_ / "mission.toml").value()},
-                           {.mode = RunMode::Live, .telemetry = {"DDS domain 0, partition live"}})
-        .value();
+    return testing::live_processor({load_mission(pass_ / "mission.toml").value()});
   }
 
   static void work(Processor& processor, Routed routed, Submitted& out) {
@@ -169,12 +171,14 @@ class ThreeAxisRestart : public testing::ArchiveFixture {
 
   static void store(const std::filesystem::path& db, Batches samples, Batches products) {
     const auto archive = Archive::open(db, {}).value();
-    for (Batches* batches : {&samples, &products}) {
-      for (ArchiveBatch& batch : *batches) {
-        ASSERT_TRUE(archive->submit(std::move(batch)));
-      }
-    }
+    testing::submit(*archive, std::move(samples));
+    testing::submit(*archive, std::move(products));
     ASSERT_TRUE(archive->close());
+  }
+
+  static void finish(Processor& processor, Submitted& out) {
+    Batches last = processor.finish();
+    std::move(last.begin(), last.end(), std::back_inserter(out.products));
   }
 
   /// Resumes from `db` and receives the rest of the pass.
@@ -183,8 +187,7 @@ class ThreeAxisRestart : public testing::ArchiveFixture {
     Submitted rest;
     work(processor, processor.go_on(db).value().routed, rest);
     receive(processor, from, sent_.size(), rest);
-    Batches last = processor.finish();
-    std::move(last.begin(), last.end(), std::back_inserter(rest.products));
+    finish(processor, rest);
     store(db, rest.samples, rest.products);
   }
 
@@ -194,8 +197,7 @@ class ThreeAxisRestart : public testing::ArchiveFixture {
     Submitted whole;
     whole.samples = unstopped.begin();
     receive(unstopped, 0, sent_.size(), whole);
-    Batches last = unstopped.finish();
-    std::move(last.begin(), last.end(), std::back_inserter(whole.products));
+    finish(unstopped, whole);
     store(db, whole.samples, whole.products);
   }
 
@@ -238,19 +240,20 @@ TEST_F(ThreeAxisRestart, KilledAtAnyPointGivesWhatNoRestartWouldHave) {
   says_at_ = 80;
   const auto whole_db = directory() / "whole.db";
   receive_unstopped(whole_db);
-  ASSERT_GT(number_of(whole_db, "SELECT count(*) FROM attitude WHERE source = 'mekf'"), 1000);
-  ASSERT_EQ(rows_of(whole_db, "SELECT method, event FROM reconstruction_event WHERE event = 'T1'"),
-            (std::vector<std::string>{"batch|T1|", "sequential|T1|"}));
-  ASSERT_EQ(rows_of(whole_db, "SELECT DISTINCT rejected_by FROM rejected_sample ORDER BY 1"),
-            (std::vector<std::string>{"innovation|", "late|", "saturated|"}));
+  ASSERT_GT(count_rows(whole_db, "attitude WHERE source = 'mekf'"), 1000);
+  ASSERT_THAT(
+      rows_of(whole_db, "SELECT method, event FROM reconstruction_event WHERE event = 'T1'"),
+      ElementsAre("batch|T1|", "sequential|T1|"));
+  ASSERT_THAT(rows_of(whole_db, "SELECT DISTINCT rejected_by FROM rejected_sample ORDER BY 1"),
+              ElementsAre("innovation|", "late|", "saturated|"));
 
   // The solution uses samples up to two minutes after the first star fix.
   EXPECT_EQ(
       number_of(whole_db, "SELECT sun_vectors FROM reconstruction WHERE method = 'batch'"),
-      number_of(whole_db, fmt::format("SELECT count(*) FROM sun_sample WHERE t_tai_ns - {0} <= "
-                                      "120000000000 AND t_tai_ns - {0} NOT BETWEEN 40000000000 "
-                                      "AND 79999999999",
-                                      first_ns_)));
+      number_of(whole_db,
+                fmt::format("SELECT count(*) FROM sun_sample WHERE t_tai_ns - {0} <= 120000000000 "
+                            "AND t_tai_ns - {0} NOT BETWEEN 40000000000 AND 79999999999",
+                            first_ns_)));
 
   expect_the_same_killed(
       {std::size_t{1}, std::size_t{50}, kSilence, kSilence + 1, sent_.size() - 5, sent_.size()},
@@ -268,20 +271,20 @@ TEST_F(ThreeAxisRestart, ContradictionsAreDecidedAsWithoutOne) {
     const auto whole_db = directory() / fmt::format("whole-{}.db", preferred);
     receive_unstopped(whole_db);
     const std::vector<std::string> rows = all_rows(whole_db);
-    ASSERT_GT(number_of(whole_db, "SELECT count(*) FROM attitude WHERE source = 'mekf'"), 500);
+    ASSERT_GT(count_rows(whole_db, "attitude WHERE source = 'mekf'"), 500);
     // Late samples are only recorded; of two conflicting samples in time, none counts, or only the
     // second.
     const std::int64_t contested = number_of(
         whole_db, "SELECT count(*) FROM contradiction WHERE source = 'second' AND seq % 3 > 0");
     ASSERT_GT(contested, 100);
     // If both were late, the first of them keeps its mark.
-    ASSERT_EQ(number_of(whole_db,
-                        "SELECT count(*) FROM contradiction WHERE used = 1 AND source ="
-                        " 'front-end' AND t_tai_ns NOT IN (SELECT t_tai_ns FROM"
-                        " contradiction WHERE source = 'second' AND seq % 3 = 0)"
-                        " AND t_tai_ns NOT IN (SELECT t_tai_ns FROM rejected_sample"
-                        " WHERE rejected_by = 'late')"),
-              0);
+    ASSERT_EQ(
+        count_rows(
+            whole_db,
+            "contradiction WHERE used = 1 AND source = 'front-end' AND t_tai_ns NOT IN (SELECT "
+            "t_tai_ns FROM contradiction WHERE source = 'second' AND seq % 3 = 0) AND t_tai_ns NOT "
+            "IN (SELECT t_tai_ns FROM rejected_sample WHERE rejected_by = 'late')"),
+        0);
     const std::int64_t left_out = number_of(
         whole_db, "SELECT count(*) FROM rejected_sample WHERE rejected_by = 'contradicted'");
     ASSERT_EQ(left_out == 0, !preferred.empty());
@@ -311,10 +314,8 @@ TEST_F(ThreeAxisRestart, StrayStampsAreLeftOutHoweverItIsKilled) {
   sent_ = in_batches(samples);
   const auto whole_db = directory() / "whole.db";
   receive_unstopped(whole_db);
-  ASSERT_EQ(number_of(whole_db, "SELECT count(*) FROM run"), 1);
-  ASSERT_EQ(
-      number_of(whole_db, "SELECT count(*) FROM rejected_sample WHERE rejected_by = 'out_of_time'"),
-      40);
+  ASSERT_EQ(count_rows(whole_db, "run"), 1);
+  ASSERT_EQ(count_rows(whole_db, "rejected_sample WHERE rejected_by = 'out_of_time'"), 40);
   // The service is killed among both groups and after them.
   expect_the_same_killed({std::size_t{31}, std::size_t{60}, sent_.size() - 5}, whole_db);
 }

@@ -9,12 +9,9 @@
 #include <vector>
 
 #include "pipelines/frames/angle.h"
-#include "services/mission/mission.h"
-#include "services/processor/processor.h"
 #include "services/processor/withheld.h"
-#include "services/telemetry/telemetry_files.h"
-#include "services/telemetry/telemetry_stream.h"
 #include "tests/integration/archive_fixture.h"
+#include "tests/support/recorded_edges.h"
 #include "tests/support/samples.h"
 #include "tests/support/test_paths.h"
 
@@ -35,13 +32,6 @@ std::vector<SpinConfig> configs_of_no_instrument() {
   return configs;
 }
 
-std::vector<TelemetrySample<Pulse>> edges_of(const std::string& spacecraft) {
-  const std::vector<TelemetryFile> files{{.path = kPass / "pulses.csv", .kind = Kind<Pulse>{}}};
-  auto edges = TelemetryStream::open(files, spacecraft).value().next().value().samples.of<Pulse>();
-  edges.resize(kEdges);
-  return edges;
-}
-
 struct WithheldProducts : testing::ArchiveFixture {
   /// Returns a processor for two spacecraft, one with the configuration `odd`.
   static Processor processor_of(const SpinConfig& odd) {
@@ -49,41 +39,34 @@ struct WithheldProducts : testing::ArchiveFixture {
     missions[0].spacecraft_id = "ODD";
     missions[0].config = odd;
     missions[1].spacecraft_id = "SOUND";
-    return Processor::make(missions, {.mode = RunMode::Live, .telemetry = {"DDS domain 0"}})
-        .value();
+    return testing::live_processor(missions);
   }
 
   /// Stores the edges of both spacecraft with their products, and then again from the stored edges.
   void serve_twice(const SpinConfig& odd) const {
     const auto archive = open();
     const auto store = [&](std::vector<ArchiveBatch> batches) {
-      for (ArchiveBatch& batch : batches) {
-        ASSERT_TRUE(archive->submit(std::move(batch)));
-      }
+      testing::submit(*archive, std::move(batches));
     };
     Processor processor = processor_of(odd);
     store(processor.begin());
     for (const std::string spacecraft : {"ODD", "SOUND"}) {
-      store(processor.take(testing::batch_of_samples<Pulse>(edges_of(spacecraft))));
+      store(processor.take(
+          testing::batch_of_samples<Pulse>(testing::edges_of(kPass, kEdges, spacecraft))));
     }
     store(processor.finish());
     const auto stored = archive->flush();
     ASSERT_TRUE(stored) << stored.error().message;
 
     Processor restarted = processor_of(odd);
-    Routed again = restarted.go_on(path()).value().routed;
-    store(std::move(again.samples));
-    for (const PassInput& input : again.work) {
-      store(restarted.compute(input));
-    }
+    testing::work(restarted, restarted.go_on(path()).value().routed, *archive);
     store(restarted.finish());
     const auto stored_again = archive->flush();
     EXPECT_TRUE(stored_again) << stored_again.error().message;
   }
 
   std::int64_t count_of(const std::string& spacecraft, const std::string& rows) const {
-    return number("SELECT count(*) FROM run JOIN " + rows + " WHERE run.spacecraft_id = '" +
-                  spacecraft + "'");
+    return count("run JOIN " + rows + " WHERE run.spacecraft_id = '" + spacecraft + "'");
   }
 };
 
@@ -95,7 +78,7 @@ TEST_F(WithheldProducts, StopNeitherTheirRunNorArchiveNorAnotherSpacecraft) {
       EXPECT_EQ(count_of(spacecraft, "pulse USING (spacecraft_id)"), kEdges);
       EXPECT_EQ(count_of(spacecraft, "pulse_use USING (run_id)"), kEdges);
     }
-    EXPECT_EQ(number("SELECT count(*) FROM run WHERE finished_utc IS NOT NULL"), 2);
+    EXPECT_EQ(count("run WHERE finished_utc IS NOT NULL"), 2);
     EXPECT_GT(count_of("SOUND", "spin_fix USING (run_id)"), 30);
   }
 }

@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdint>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -15,14 +14,15 @@
 #include <string>
 #include <string_view>
 #include <utility>
-#include <vector>
 
-#include "pipelines/frames/angle.h"
-#include "pipelines/frames/celestial.h"
 #include "tests/support/archive_rows.h"
+#include "tests/support/axis_error.h"
+#include "tests/support/count_rows.h"
+#include "tests/support/lines.h"
+#include "tests/support/processed.h"
 #include "tests/support/processed_pass.h"
-#include "tests/support/program.h"
-#include "tests/support/test_paths.h"
+#include "tests/support/ran.h"
+#include "tests/support/simulated.h"
 
 namespace spindrift::bad_input_test {
 
@@ -30,94 +30,82 @@ using ::testing::AllOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-const std::filesystem::path kData = test_data();
-const std::filesystem::path kNominal = kData / "spin" / "nominal";
+const nlohmann::json kTruth{{"ra_deg", 100.0}, {"dec_deg", -55.0}};
 
-/// Returns a copy of the nominal pass that a test may corrupt.
-std::filesystem::path nominal_copy(const TemporaryFolder& folder) {
-  auto pass = folder.path() / "pass";
-  std::filesystem::copy(kNominal, pass);
-  return pass;
+std::string nominal(const std::string& file) { return text_of(kPasses / "nominal" / file); }
+
+/// Processes the nominal pass with another text of one of its files.
+Processed nominal_with(const std::string& file, const std::string& text) {
+  const PassCopy pass{"nominal"};
+  pass.folder.write(file, text);
+  return Processed{pass.folder.path()};
 }
 
-void expect_no_axis(const Outcome& outcome) {
-  EXPECT_EQ(outcome.status, 0) << outcome.log;
+void expect_no_axis(const Processed& outcome) {
   EXPECT_EQ(outcome.run["fixes_accepted"], 0);
   EXPECT_TRUE(outcome.run["mean"].is_null());
   EXPECT_TRUE(outcome.run["sequential"].is_null());
-  EXPECT_EQ(number_of(outcome.db, "SELECT count(*) FROM spin_estimate"), 0);
-  EXPECT_EQ(number_of(outcome.db, "SELECT count(*) FROM spin_fix WHERE accepted = 1"), 0);
+  EXPECT_EQ(count_rows(outcome.db, "spin_estimate"), 0);
+  EXPECT_EQ(count_rows(outcome.db, "spin_fix WHERE accepted = 1"), 0);
   // Telemetry is stored even without a fix.
-  EXPECT_EQ(number_of(outcome.db, "SELECT count(*) FROM pulse"), outcome.run["edges_received"]);
+  EXPECT_EQ(count_rows(outcome.db, "pulse"), outcome.run["edges_received"]);
 }
 
 TEST(BadGeometry, WithSunAndEarthInOneLineGivesNoAxisAndSaysWhy) {
-  const TemporaryFolder folder;
   // Local noon: seen from the geostationary orbit the Earth is opposite the Sun, which is then at
   // RA 235.14, Dec -19.58 deg.
-  const auto outcome = process_simulated(folder, {{"a_km = 24400.0", "a_km = 42164.0"},
-                                                  {"e = 0.73", "e = 0.0"},
-                                                  {"i_deg = 28.5", "i_deg = 90.0"},
-                                                  {"raan_deg = 300.0", "raan_deg = 235.138"},
-                                                  {"argp_deg = 178.0", "argp_deg = 0.0"},
-                                                  {"anomaly_deg = 30.0", "anomaly_deg = -19.833"},
-                                                  {"duration_s = 600.0", "duration_s = 120.0"},
-                                                  {"ra_deg = 100.0", "ra_deg = 235.138"},
-                                                  {"dec_deg = -55.0", "dec_deg = 70.417"}});
+  const Simulated simulated{"gto-nominal.toml",
+                            {{"a_km = 24400.0", "a_km = 42164.0"},
+                             {"e = 0.73", "e = 0.0"},
+                             {"i_deg = 28.5", "i_deg = 90.0"},
+                             {"raan_deg = 300.0", "raan_deg = 235.138"},
+                             {"argp_deg = 178.0", "argp_deg = 0.0"},
+                             {"anomaly_deg = 30.0", "anomaly_deg = -19.833"},
+                             {"duration_s = 600.0", "duration_s = 120.0"},
+                             {"ra_deg = 100.0", "ra_deg = 235.138"},
+                             {"dec_deg = -55.0", "dec_deg = 70.417"}}};
+  const Processed outcome{simulated.pass};
   expect_no_axis(outcome);
   EXPECT_EQ(outcome.run["fixes"], 0);
   EXPECT_GT(outcome.run["edges_accepted"], 700);
   EXPECT_THAT(outcome.log, HasSubstr("Sun and Earth stand 179."));
 
-  const auto plot = folder.path() / "plan.svg";
-  Program plan{{"geometry", "--mission", (folder.path() / "pass" / "mission.toml").string(),
-                "--from", "2026-11-20T03:00:00Z", "--to", "2026-11-20T03:02:00Z", "--attitude",
-                "235.138,70.417", "--plot", plot.string()}};
-  ASSERT_EQ(plan.exit_status(), 0) << plan.log();
+  const auto plot = simulated.folder.path() / "plan.svg";
+  succeeded({"geometry", "--mission", simulated.mission(), "--from", "2026-11-20T03:00:00Z", "--to",
+             "2026-11-20T03:02:00Z", "--attitude", "235.138,70.417", "--plot", plot});
   EXPECT_THAT(text_of(plot), HasSubstr("Sun, Earth in line"));
 }
 
 TEST(BadGeometry, WithChordsWiderThanTheEarthGivesNoAxisAndSaysWhy) {
-  const TemporaryFolder folder;
   // The Earth's disc is 41.7 deg wide, and both beams pass near its middle.
-  const auto outcome =
-      process_simulated(folder, {{"[spin.noise]",
-                                  "[truth.ir.north]\nchord_excess_deg = 10.0\n"
-                                  "[truth.ir.south]\nchord_excess_deg = 10.0\n[spin.noise]"}});
+  const Simulated simulated{"gto-nominal.toml",
+                            {{"[spin.noise]",
+                              "[truth.ir.north]\nchord_excess_deg = 10.0\n"
+                              "[truth.ir.south]\nchord_excess_deg = 10.0\n[spin.noise]"}}};
+  const Processed outcome{simulated.pass};
   expect_no_axis(outcome);
   EXPECT_THAT(outcome.log, HasSubstr("contradict each other"));
 }
 
 TEST(BadGeometry, WithABeamThatNeverMeetsTheEarthGivesNoAxisAndSaysWhy) {
-  const TemporaryFolder folder;
-  const auto outcome =
-      process_simulated(folder, {{"mount_angle_deg = 85.0", "mount_angle_deg = 20.0"},
-                                 {"mount_angle_deg = 95.0", "mount_angle_deg = 160.0"}});
+  const Simulated simulated{"gto-nominal.toml",
+                            {{"mount_angle_deg = 85.0", "mount_angle_deg = 20.0"},
+                             {"mount_angle_deg = 95.0", "mount_angle_deg = 160.0"}}};
+  const Processed outcome{simulated.pass};
   expect_no_axis(outcome);
   EXPECT_EQ(outcome.run["fixes"], 0);
-  EXPECT_EQ(number_of(outcome.db, "SELECT count(*) FROM pulse WHERE channel LIKE '%_in'"), 0);
+  EXPECT_EQ(count_rows(outcome.db, "pulse WHERE channel LIKE '%_in'"), 0);
   EXPECT_THAT(outcome.log, HasSubstr("a sun angle without a chord"));
 }
 
 TEST(BadGeometry, WithAMissionWhoseBeamsCannotMeetTheEarthSaysThatItContradictsTheTelemetry) {
-  const TemporaryFolder folder;
-  const auto pass = nominal_copy(folder);
-  const std::string mission = text_of(pass / "mission.toml");
-  std::ofstream{pass / "mission.toml"}
-      << replaced(mission, {{"mount_angle_deg = 85", "mount_angle_deg = 20"},
-                            {"mount_angle_deg = 95", "mount_angle_deg = 160"}});
-  const auto outcome = process(folder, pass);
+  const Processed outcome = nominal_with(
+      "mission.toml",
+      replaced(nominal("mission.toml"), {{"mount_angle_deg = 85", "mount_angle_deg = 20"},
+                                         {"mount_angle_deg = 95", "mount_angle_deg = 160"}}));
   expect_no_axis(outcome);
   EXPECT_THAT(outcome.log, HasSubstr("contradict each other"));
   EXPECT_THAT(outcome.log, HasSubstr("check the mission's mounting angles"));
-}
-
-double error_deg(const nlohmann::json& estimate) {
-  const auto place = [](double ra_deg, double dec_deg) {
-    return direction_icrf({.ra_rad = ra_deg * kRadPerDeg, .dec_rad = dec_deg * kRadPerDeg});
-  };
-  return angle_between_rad(place(estimate["ra_deg"], estimate["dec_deg"]), place(100.0, -55.0)) /
-         kRadPerDeg;
 }
 
 struct Missing {
@@ -135,19 +123,16 @@ TEST(MissingChannel, LeavesTheCaseThatTheOthersAllow) {
                                                                   {"south_in", 2},
                                                                   {"south_out", 2}}}) {
     SCOPED_TRACE(channel);
-    const TemporaryFolder folder;
-    const auto pass = nominal_copy(folder);
-    const std::string csv = without_channel(channel, text_of(pass / "pulses.csv"));
-    std::ofstream{pass / "pulses.csv"} << csv;
-    const auto outcome = process(folder, pass);
-    ASSERT_EQ(outcome.status, 0) << outcome.log;
-    EXPECT_EQ(number_of(outcome.db, "SELECT count(*) FROM pulse_use"), 3000);
+    const Processed outcome =
+        nominal_with("pulses.csv", without_channel(channel, nominal("pulses.csv")));
+    EXPECT_EQ(count_rows(outcome.db, "pulse_use"), 3000);
     EXPECT_GT(outcome.run["fixes_by_case"].value(std::to_string(main_case), 0), 570)
         << outcome.run["fixes_by_case"];
     for (const char* const estimator : {"mean", "sequential"}) {
       ASSERT_FALSE(outcome.run[estimator].is_null());
       const double sigma_deg = outcome.run[estimator]["sigma_deg"].get<double>();
-      EXPECT_LT(error_deg(outcome.run[estimator]), std::min(0.2, 3.0 * sigma_deg)) << estimator;
+      EXPECT_LT(error_deg(outcome.run[estimator], kTruth), std::min(0.2, 3.0 * sigma_deg))
+          << estimator;
       // Without a sun angle, the cones intersect well in the second half of the pass only.
       const bool is_poor = main_case == 4 && estimator == std::string_view{"mean"};
       EXPECT_LT(sigma_deg, is_poor ? 0.2 : 0.1) << estimator;
@@ -157,77 +142,60 @@ TEST(MissingChannel, LeavesTheCaseThatTheOthersAllow) {
 
 /// Processes the rows of the nominal pass for which `keep(channel, number)` is true.
 template <class Keep>
-Outcome process_part(const TemporaryFolder& folder, const Keep& keep) {
-  const auto pass = nominal_copy(folder);
-  std::istringstream rows{text_of(kNominal / "pulses.csv")};
-  std::string part;
-  std::string row;
-  for (int number = 0; std::getline(rows, row); ++number) {
-    if (number == 0 || keep(row.substr(row.find(',') + 1), number)) {
-      part += row + "\n";
-    }
-  }
-  std::filesystem::remove(pass / "pulses.csv");
-  std::ofstream{pass / "pulses.csv"} << part;
-  return process(folder, pass);
+Processed process_part(const Keep& keep) {
+  int number = 0;
+  return nominal_with("pulses.csv", with_rows(nominal("pulses.csv"), [&](const std::string& row) {
+                        return keep(row.substr(row.find(',') + 1), ++number) ? row : "";
+                      }));
 }
 
 TEST(OneSensor, AloneGivesNoAxisAndNoBatchSolutionAndSaysWhy) {
   const std::array<std::pair<std::string, std::string>, 3> sensors = {
       {{"sun", "a cone about the Sun"}, {"north", "cone"}, {"south", "cone"}}};
   for (const auto& [sensor, why] : sensors) {
-    const TemporaryFolder folder;
-    const auto outcome = process_part(folder, [&, &name = sensor](const std::string& channel, int) {
-      return channel.starts_with(name);
-    });
+    const Processed outcome = process_part(
+        [&, &name = sensor](const std::string& channel, int) { return channel.starts_with(name); });
     expect_no_axis(outcome);
     EXPECT_THAT(outcome.log, HasSubstr(why)) << sensor;
     EXPECT_THAT(outcome.log, HasSubstr("no batch solution: ")) << sensor;
     std::set<std::string> codes;
-    for (const auto& warning : outcome.warnings) {
+    for (const auto& warning : outcome.answer["warnings"]) {
       codes.insert(warning["code"]);
       EXPECT_THAT(outcome.log, HasSubstr(warning["text"].get<std::string>()));
       EXPECT_EQ(warning["values"]["spacecraft"], "SPINNER");
     }
     EXPECT_THAT(codes, ::testing::IsSupersetOf({"no_axis", "no_batch_solution"})) << sensor;
-    EXPECT_EQ(number_of(outcome.db, "SELECT count(*) FROM spin_batch"), 0);
+    EXPECT_EQ(count_rows(outcome.db, "spin_batch"), 0);
   }
 }
 
 /// Every fiftieth edge of a channel, displaced at random, does not make a usable channel, so no
 /// axis may come of it.
 TEST(MissingChannel, StraysOfADeadSensorGiveNoAxis) {
-  const TemporaryFolder folder;
-  const auto outcome = process_part(folder, [](const std::string& channel, int row) {
+  const Processed outcome = process_part([](const std::string& channel, int row) {
     return !channel.starts_with("sun") || (channel.starts_with("sun2") && row % 331 == 7);
   });
   expect_no_axis(outcome);
-  EXPECT_GT(number_of(outcome.db, "SELECT count(*) FROM pulse_use WHERE channel = 'sun2'"), 0);
+  EXPECT_GT(count_rows(outcome.db, "pulse_use WHERE channel = 'sun2'"), 0);
   EXPECT_EQ(number_of(outcome.db, "SELECT sum(accepted) FROM pulse_use WHERE channel = 'sun2'"), 0);
 }
 
 TEST(FewEdges, GiveNoBatchSolutionAndSayHowManyItNeeds) {
-  const TemporaryFolder folder;
-  const auto outcome = process_part(folder, [](const std::string&, int row) { return row <= 15; });
-  EXPECT_EQ(outcome.status, 0) << outcome.log;
+  const Processed outcome = process_part([](const std::string&, int row) { return row <= 15; });
   EXPECT_TRUE(outcome.run["batch"].is_null());
   EXPECT_THAT(outcome.log, HasSubstr("need more than"));
 }
 
 TEST(FewEdges, OnDemandAreRefusedWithTheReason) {
-  const TemporaryFolder folder;
-  const auto outcome = process(folder, kNominal);
-  ASSERT_EQ(outcome.status, 0) << outcome.log;
-  Program program{{"batch", "--mission", (kNominal / "mission.toml").string(), "--db",
-                   outcome.db.string(), "--last", "1"}};
-  EXPECT_NE(program.exit_status(), 0);
-  EXPECT_THAT(program.log(), HasSubstr("need more than"));
+  const Processed outcome{"nominal"};
+  const Ran batch = ended({"batch", "--mission", kPasses / "nominal" / "mission.toml", "--db",
+                           outcome.db, "--last", "1"});
+  EXPECT_NE(batch.status, 0);
+  EXPECT_THAT(batch.log, HasSubstr("need more than"));
 }
 
 TEST(BadMission, IsRefusedWithAllItsTenMistakes) {
-  const TemporaryFolder folder;
-  const auto pass = nominal_copy(folder);
-  std::ofstream{pass / "mission.toml"} << R"([spacecraft]
+  expect_refused("mission.toml", R"([spacecraft]
 id = "A,B"
 kind = "spin"
 colour = "red"
@@ -245,27 +213,18 @@ sigma = -1
 [spin.horizon]
 model = "flat"
 co2_altitude_km = 40
-)";
-  const auto outcome = process(folder, pass);
-  EXPECT_EQ(outcome.status, 2);
-  for (const char* const key :
-       {"spacecraft.id", "spacecraft.colour", "orbit.oem", "slit_cant_deg", "slit_separation_dge",
-        "mount_angle_deg", "azimuth_deg", "screening.window", "screening.sigma", "horizon.model",
-        "[spin.noise]"}) {
-    EXPECT_THAT(outcome.log, HasSubstr(key));
-  }
-  EXPECT_FALSE(std::filesystem::exists(outcome.db));
+)",
+                 {"spacecraft.id", "spacecraft.colour", "orbit.oem", "slit_cant_deg",
+                  "slit_separation_dge", "mount_angle_deg", "azimuth_deg", "screening.window",
+                  "screening.sigma", "horizon.model", "[spin.noise]"});
 }
 
 TEST(ShortOrbit, GivesTheAxisWhereItReachesAndSaysFromWhereOnItDoesNot) {
-  const TemporaryFolder folder;
-  const auto pass = nominal_copy(folder);
-  const std::string oem = text_of(pass / "orbit.oem");
-  const std::string short_oem = oem.substr(0, oem.find("2026-11-20T03:05:30.000 "));
-  std::ofstream{pass / "orbit.oem"} << replaced(
-      short_oem, {{"STOP_TIME = 2026-11-20T03:12:00.000", "STOP_TIME = 2026-11-20T03:05:00.000"}});
-  const auto outcome = process(folder, pass);
-  EXPECT_EQ(outcome.status, 0) << outcome.log;
+  const std::string oem = nominal("orbit.oem");
+  const Processed outcome = nominal_with(
+      "orbit.oem",
+      replaced(oem.substr(0, oem.find("2026-11-20T03:05:30.000 ")),
+               {{"STOP_TIME = 2026-11-20T03:12:00.000", "STOP_TIME = 2026-11-20T03:05:00.000"}}));
   EXPECT_THAT(outcome.log, ::testing::ContainsRegex(
                                "2026-11-20T03:04:59.*Z: the orbit of the mission file does not "
                                "cover the revolution"));
@@ -275,109 +234,89 @@ TEST(ShortOrbit, GivesTheAxisWhereItReachesAndSaysFromWhereOnItDoesNot) {
   // One of the 600 good sun1 edges is a 3-sigma outlier.
   EXPECT_EQ(outcome.run["revolutions"], 599);
   EXPECT_NEAR(outcome.run["fixes"].get<double>(), 300.0, 3.0);
-  EXPECT_EQ(
-      number_of(outcome.db, "SELECT count(*) FROM spin_fix WHERE t_tai_ns > 1795143937000000000"),
-      0);
-  EXPECT_LT(error_deg(outcome.run["mean"]), 0.1);
+  EXPECT_EQ(count_rows(outcome.db, "spin_fix WHERE t_tai_ns > 1795143937000000000"), 0);
+  EXPECT_LT(error_deg(outcome.run["mean"], kTruth), 0.1);
 }
 
-/// Returns the nominal pass with an orbit displaced by `off_km` from 03:05:00 (line 31 of the file)
-/// on.
-std::filesystem::path spliced_copy(const TemporaryFolder& folder, double off_km) {
-  auto pass = nominal_copy(folder);
-  std::istringstream lines{text_of(pass / "orbit.oem")};
-  std::ofstream spliced{pass / "orbit.oem"};
+/// Returns the nominal orbit displaced by `off_km` from 03:05:00 (line 31 of the file) on.
+std::string spliced_orbit(double off_km) {
+  std::string spliced;
   int number = 0;
-  for (std::string line; std::getline(lines, line);) {
+  for (std::string line : lines_of(nominal("orbit.oem"))) {
     if (++number >= 31) {
       std::istringstream words{line};
       std::string time;
       double x_km = 0.0;
       std::string others;
       std::getline(words >> time >> x_km, others);
-      line = time.append(" ").append(std::to_string(x_km + off_km)).append(others);
+      line = fmt::format("{} {:.6f}{}", time, x_km + off_km, others);
     }
-    spliced << line << "\n";
+    spliced += line + "\n";
   }
-  return pass;
+  return spliced;
 }
 
 TEST(SplicedOrbit, IsWarnedOfByEveryCommandThatUsesIt) {
-  const TemporaryFolder folder;
-  const auto pass = spliced_copy(folder, 18.0);
-  const auto outcome = process(folder, pass);
-  EXPECT_EQ(outcome.status, 0) << outcome.log;
+  const PassCopy pass{"nominal"};
+  pass.folder.write("orbit.oem", spliced_orbit(18.0));
+  const Ran process = succeeded(pass.arguments_here());
   // The distance to the Earth's centre is 15 124 km.
   const auto warns = HasSubstr(
       "mission.toml: orbit.oem = \"orbit.oem\", line 31: the orbit jumps by 18 km at "
       "2026-11-20T03:05:00.000Z: states of different solutions spliced? The nadir direction is off "
       "by up to 0.068 deg there");
-  EXPECT_THAT(outcome.log, warns);
-  const std::string mission = (pass / "mission.toml").string();
-  Program batch{{"batch", "--mission", mission, "--db", outcome.db.string()}};
-  EXPECT_EQ(batch.exit_status(), 0);
-  EXPECT_THAT(batch.log(), warns);
-  Program geometry{{"geometry", "--mission", mission, "--from", "2026-11-20T03:00:00Z", "--to",
-                    "2026-11-20T03:10:00Z", "--attitude", "100,-55"}};
-  EXPECT_EQ(geometry.exit_status(), 0);
-  EXPECT_THAT(geometry.log(), warns);
+  EXPECT_THAT(process.log, warns);
+  EXPECT_THAT(succeeded({"batch", "--mission", pass.mission(), "--db", pass.db}).log, warns);
+  EXPECT_THAT(succeeded({"geometry", "--mission", pass.mission(), "--from", "2026-11-20T03:00:00Z",
+                         "--to", "2026-11-20T03:10:00Z", "--attitude", "100,-55"})
+                  .log,
+              warns);
 }
 
 TEST(SplicedOrbit, IsRefusedByLineWhereNoOrbitCouldBeSo) {
-  const TemporaryFolder folder;
-  const auto outcome = process(folder, spliced_copy(folder, 50.0));
-  EXPECT_EQ(outcome.status, 2);
-  EXPECT_THAT(outcome.log, HasSubstr("line 31: the orbit jumps: 50 km from"));
-  EXPECT_FALSE(std::filesystem::exists(outcome.db));
+  expect_refused("orbit.oem", spliced_orbit(50.0), {"line 31: the orbit jumps: 50 km from"});
 }
 
-/// Returns the pass with two orbit segments; from 03:05 on, the second is `faster_km_s` faster.
-std::filesystem::path stepped_copy(const TemporaryFolder& folder, double faster_km_s) {
-  auto pass = nominal_copy(folder);
-  std::istringstream whole{text_of(kNominal / "orbit.oem")};
+/// Returns the nominal orbit in two segments; from 03:05 on, the second is `faster_km_s` faster.
+std::string stepped_orbit(double faster_km_s) {
   std::string meta;
   std::string first;
   std::string second;
-  for (std::string line; std::getline(whole, line);) {
+  for (const std::string& line : lines_of(nominal("orbit.oem"))) {
     const bool is_state = line.starts_with("2026-11-20T");
     first += !is_state || line < "2026-11-20T03:05:00.5" ? line + "\n" : "";
     meta += line == "META_START" || (!meta.empty() && !is_state) ? line + "\n" : "";
     if (is_state && line > "2026-11-20T03:04:59.5") {
       std::istringstream words{line};
       std::string time;
-      double x_km = 0.0;
-      double y_km = 0.0;
-      double z_km = 0.0;
-      double vx_km_s = 0.0;
-      double vy_km_s = 0.0;
-      double vz_km_s = 0.0;
-      words >> time >> x_km >> y_km >> z_km >> vx_km_s >> vy_km_s >> vz_km_s;
+      std::array<double, 6> state{};  // Position, km, and velocity, km/s.
+      words >> time;
+      for (double& component : state) {
+        words >> component;
+      }
       // The states are 30 s apart.
       const auto states = std::count(second.begin(), second.end(), '\n');
-      second += fmt::format("{} {} {} {} {} {} {}\n", time, x_km, y_km,
-                            z_km + 30.0 * static_cast<double>(states) * faster_km_s, vx_km_s,
-                            vy_km_s, vz_km_s + faster_km_s);
+      state[2] += 30.0 * static_cast<double>(states) * faster_km_s;
+      state[5] += faster_km_s;
+      second += fmt::format("{} {}\n", time, fmt::join(state, " "));
     }
   }
-  std::ofstream{pass / "orbit.oem"} << first << meta << second;
-  return pass;
+  return first + meta + second;
 }
 
 TEST(OrbitWithAStep, IsWarnedOfAndWhatRestsOnBothSidesIsDoubtful) {
   for (const double faster_km_s : {0.0, 0.12}) {
-    const TemporaryFolder folder;
-    const auto outcome = process(folder, stepped_copy(folder, faster_km_s));
-    EXPECT_EQ(outcome.status, 0) << outcome.log;
+    const Processed outcome = nominal_with("orbit.oem", stepped_orbit(faster_km_s));
     const bool steps = faster_km_s > 0.0;
     EXPECT_EQ(outcome.log.find("two segments do not meet at 2026-11-20T03:05:00.000Z: by 0.000 km "
                                "and 120.00 m/s") != std::string::npos,
               steps)
         << outcome.log;
     for (const std::string estimator : {"mean", "sequential", "batch"}) {
-      EXPECT_EQ(number_of(outcome.db,
-                          "SELECT count(*) FROM spin_estimate WHERE quality = 'OK' AND "
-                          "t_tai_ns > 1795143937000000000 AND estimator = '" +
-                              estimator + "'") == 0,
+      EXPECT_EQ(count_rows(outcome.db,
+                           "spin_estimate WHERE quality = 'OK' AND t_tai_ns > 1795143937000000000 "
+                           "AND estimator = '" +
+                               estimator + "'") == 0,
                 steps)
           << estimator;
     }
@@ -385,57 +324,51 @@ TEST(OrbitWithAStep, IsWarnedOfAndWhatRestsOnBothSidesIsDoubtful) {
 }
 
 TEST(OrbitWithAHole, IsWarnedOfAndGivesNoAxisThere) {
-  const TemporaryFolder folder;
   // The pass contains the perigee at 03:26.
-  const auto pass = simulated_pass(folder, {{"duration_s = 600.0", "duration_s = 3600.0"},
-                                            {"mean_anomaly_deg = 30.0", "mean_anomaly_deg = 345.0"},
-                                            {"rate_rpm = 60.0", "rate_rpm = 30.0"}});
-  std::istringstream whole{text_of(pass / "orbit.oem")};
-  std::ofstream holed{pass / "orbit.oem"};
-  for (std::string line; std::getline(whole, line);) {
+  const Simulated simulated{"gto-nominal.toml",
+                            {{"duration_s = 600.0", "duration_s = 3600.0"},
+                             {"mean_anomaly_deg = 30.0", "mean_anomaly_deg = 345.0"},
+                             {"rate_rpm = 60.0", "rate_rpm = 30.0"}}};
+  std::string holed;
+  for (const std::string& line : lines_of(text_of(simulated.pass / "orbit.oem"))) {
     const bool left_out = line > "2026-11-20T03:15:00.5" && line < "2026-11-20T03:44:59.5";
-    holed << (left_out ? "" : line + "\n");
+    holed += left_out ? "" : line + "\n";
   }
-  holed.close();
-  const auto outcome = process(folder, pass);
-  EXPECT_EQ(outcome.status, 0) << outcome.log;
+  std::ofstream{simulated.pass / "orbit.oem"} << holed;
+  const Processed outcome{simulated.pass};
   EXPECT_THAT(outcome.log,
               HasSubstr("mission.toml: orbit.oem = \"orbit.oem\", line 43: no orbit for 1800 s "
                         "before it, from 2026-11-20T03:15:00.000Z to 2026-11-20T03:45:00.000Z"));
   // The interval is 03:15:00 to 03:45:00, less a revolution at either end.
-  EXPECT_EQ(number_of(outcome.db,
-                      "SELECT count(*) FROM spin_fix WHERE t_tai_ns BETWEEN 1795144539000000000 "
-                      "AND 1795146335000000000"),
-            0);
+  EXPECT_EQ(
+      count_rows(outcome.db,
+                 "spin_fix WHERE t_tai_ns BETWEEN 1795144539000000000 AND 1795146335000000000"),
+      0);
   EXPECT_GT(outcome.run["fixes_accepted"], 400);
-  EXPECT_LT(error_deg(outcome.run["mean"]), 0.1);
-  EXPECT_LT(error_deg(outcome.run["sequential"]), 0.1);
+  EXPECT_LT(error_deg(outcome.run["mean"], kTruth), 0.1);
+  EXPECT_LT(error_deg(outcome.run["sequential"], kTruth), 0.1);
 }
 
 TEST(NominalOrbit, IsNotWarnedOf) {
-  const TemporaryFolder folder;
-  EXPECT_THAT(process(folder, kNominal).log,
-              AllOf(Not(HasSubstr("jumps")), Not(HasSubstr("no orbit"))));
+  EXPECT_THAT(Processed{"nominal"}.log, AllOf(Not(HasSubstr("jumps")), Not(HasSubstr("no orbit"))));
 }
 
 TEST(AbsurdTimes, ThatCouldBeTrueLeaveTheOtherProductsAlone) {
-  const TemporaryFolder folder;
-  const auto pass = nominal_copy(folder);
   // The stamps are in the years 1980 and 2099, and a day ahead.
-  std::ofstream{pass / "more.csv"} << "t_tai_ns,channel\n315532819000000000,sun2\n"
-                                      "4070908837000000000,sun1\n1795230037000000000,north_in\n";
-  const auto outcome = process(folder, pass);
-  EXPECT_EQ(outcome.status, 0) << outcome.log;
+  const Processed outcome =
+      nominal_with("more.csv",
+                   "t_tai_ns,channel\n315532819000000000,sun2\n"
+                   "4070908837000000000,sun1\n1795230037000000000,north_in\n");
   EXPECT_EQ(outcome.run["input_rejected"], 0);
-  EXPECT_EQ(number_of(outcome.db, "SELECT count(*) FROM pulse"), 3603);
-  EXPECT_EQ(number_of(outcome.db,
-                      "SELECT count(*) FROM pulse_use WHERE accepted = 0 AND t_tai_ns IN"
-                      " (315532819000000000, 4070908837000000000, 1795230037000000000)"),
+  EXPECT_EQ(count_rows(outcome.db, "pulse"), 3603);
+  EXPECT_EQ(count_rows(outcome.db,
+                       "pulse_use WHERE accepted = 0 AND t_tai_ns IN (315532819000000000, "
+                       "4070908837000000000, 1795230037000000000)"),
             3);
   // One of the 600 good sun1 edges is a 3-sigma outlier.
   EXPECT_EQ(outcome.run["revolutions"], 599);
-  EXPECT_LT(error_deg(outcome.run["mean"]), 0.05);
-  EXPECT_LT(error_deg(outcome.run["sequential"]), 0.05);
+  EXPECT_LT(error_deg(outcome.run["mean"], kTruth), 0.05);
+  EXPECT_LT(error_deg(outcome.run["sequential"], kTruth), 0.05);
 }
 
 }  // namespace spindrift::bad_input_test

@@ -1,6 +1,7 @@
 // The estimator `batch` as an analyst uses it: at the end of `process`, as a command, and in the
 // archive.
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -8,50 +9,35 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "pipelines/frames/angle.h"
-#include "pipelines/frames/celestial.h"
 #include "tests/support/archive_rows.h"
-#include "tests/support/program.h"
+#include "tests/support/axis_error.h"
+#include "tests/support/count_rows.h"
+#include "tests/support/processed.h"
+#include "tests/support/ran.h"
 #include "tests/support/recorded_files.h"
-#include "tests/support/test_paths.h"
+#include "tests/support/simulated.h"
 
 namespace spindrift::batch_test {
 
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::Not;
-
-double error_deg(const nlohmann::json& estimate, const nlohmann::json& truth) {
-  const auto place = [](const nlohmann::json& json) {
-    return direction_icrf({.ra_rad = json["ra_deg"].get<double>() * kRadPerDeg,
-                           .dec_rad = json["dec_deg"].get<double>() * kRadPerDeg});
-  };
-  return angle_between_rad(place(estimate), place(truth)) / kRadPerDeg;
-}
 
 nlohmann::json truth_of(const std::string& pass) {
   return nlohmann::json::parse(text_of(kPasses / pass / "truth.json"));
 }
 
-/// Runs a command that prints one JSON object and returns that object.
-nlohmann::json answer(const std::vector<std::string>& words) {
-  Program program{words};
-  EXPECT_EQ(program.exit_status(), 0) << program.log();
-  return nlohmann::json::parse(program.out(), nullptr, false);
-}
+nlohmann::json answer(const Words& words) { return succeeded(words).json(); }
 
 /// Returns the arguments of `batch` for a recorded pass in an archive.
-std::vector<std::string> batch_of(const std::string& pass, const std::filesystem::path& db,
-                                  const std::vector<std::string>& more) {
-  std::vector<std::string> words{"batch", "--mission", (kPasses / pass / "mission.toml").string(),
-                                 "--db", db.string()};
-  words.insert(words.end(), more.begin(), more.end());
-  return words;
+Words batch_of(const std::string& pass, const std::filesystem::path& db, const Words& more) {
+  return with({"batch", "--mission", kPasses / pass / "mission.toml", "--db", db}, more);
 }
 
 TEST(Batch, StandsBesideTheOtherEstimatorsWithBoundAndBiases) {
-  const TemporaryFolder folder;
-  const auto db = folder.path() / "out.db";
-  const auto batch = answer(arguments("nominal", db))["runs"][0]["batch"];
+  const Processed processed{"nominal"};
+  const auto& db = processed.db;
+  const auto& batch = processed.run["batch"];
   EXPECT_EQ(batch["quality"], "OK");
   const double sigma_deg = batch["sigma_deg"].get<double>();
   EXPECT_LT(error_deg(batch, truth_of("nominal")), std::min(0.05, 3.0 * sigma_deg));
@@ -66,12 +52,11 @@ TEST(Batch, StandsBesideTheOtherEstimatorsWithBoundAndBiases) {
   EXPECT_FALSE(batch["nutation"]["detected"]);
   EXPECT_EQ(batch["biases"].size(), 8U);
 
-  EXPECT_EQ(number_of(db, "SELECT count(*) FROM spin_batch WHERE outliers < 5 AND noise = 1"), 1);
-  EXPECT_EQ(number_of(db, "SELECT count(*) FROM spin_bias WHERE estimator = 'batch'"), 8);
+  EXPECT_EQ(count_rows(db, "spin_batch WHERE outliers < 5 AND noise = 1"), 1);
+  EXPECT_EQ(count_rows(db, "spin_bias WHERE estimator = 'batch'"), 8);
   // A bias that the edges do not determine has no value, only its prior.
-  EXPECT_GT(number_of(db, "SELECT count(*) FROM spin_bias WHERE observable = 0 AND value IS NULL"),
-            0);
-  EXPECT_EQ(number_of(db, "SELECT count(*) FROM spin_comparison WHERE NOT disagree"), 3);
+  EXPECT_GT(count_rows(db, "spin_bias WHERE observable = 0 AND value IS NULL"), 0);
+  EXPECT_EQ(count_rows(db, "spin_comparison WHERE NOT disagree"), 3);
   EXPECT_LT(real_of(db, "SELECT max(apart_deg) FROM spin_comparison"), 0.01);
 }
 
@@ -83,20 +68,17 @@ TEST(Batch, EstimatorsThatAModelErrorSetsApartAreNamedAsTheViewFlagsThem) {
   ASSERT_EQ(told.size(), 1U);
   EXPECT_EQ(told[0]["one"], "sequential");
   EXPECT_EQ(told[0]["other"], "batch");
-  const char* const kFlagged = " FROM spin_comparison WHERE disagree";
-  EXPECT_EQ(number_of(pass.db, std::string{"SELECT count(*)"} + kFlagged), 1);
-  EXPECT_EQ(told[0]["apart_deg"], real_of(pass.db, std::string{"SELECT apart_deg"} + kFlagged));
-  EXPECT_EQ(told[0]["apart_sigmas"],
-            real_of(pass.db, std::string{"SELECT apart_sigmas"} + kFlagged));
+  EXPECT_THAT(
+      rows_of(pass.db, "SELECT apart_deg, apart_sigmas FROM spin_comparison WHERE disagree"),
+      ElementsAre(fmt::format("{:a}|{:a}|", told[0]["apart_deg"].get<double>(),
+                              told[0]["apart_sigmas"].get<double>())));
   EXPECT_GT(told[0]["apart_sigmas"].get<double>(), 3.0);
 
   const TemporaryFolder folder;
-  Program text{{"process", "--mission", pass.mission().string(), "--telemetry",
-                pass.folder.path().string(), "--db", (folder.path() / "out.db").string()}};
-  ASSERT_EQ(text.exit_status(), 0) << text.log();
-  EXPECT_THAT(text.out(),
-              HasSubstr("comparison   sequential and batch disagree: their axes are 0."));
-  EXPECT_THAT(text.log(), HasSubstr("SPINNER: sequential and batch disagree: their axes are 0."));
+  const Ran text = succeeded({"process", "--mission", pass.mission(), "--telemetry",
+                              pass.folder.path(), "--db", folder.path() / "out.db"});
+  EXPECT_THAT(text.out, HasSubstr("comparison   sequential and batch disagree: their axes are 0."));
+  EXPECT_THAT(text.log, HasSubstr("SPINNER: sequential and batch disagree: their axes are 0."));
 }
 
 TEST(Batch, AGapOfTheOrbitCostsTheEdgesThereOnly) {
@@ -122,23 +104,21 @@ TEST(Batch, AGapOfTheOrbitCostsTheEdgesThereOnly) {
 
 TEST(Batch, SaysWhenTheMissionIsNotThatOfTheRun) {
   const PassCopy pass{"nominal"};
-  ASSERT_FALSE(answer(pass.arguments_here()).is_discarded());
-  const std::vector<std::string> again{"batch", "--mission",      pass.mission().string(),
-                                       "--db",  pass.db.string(), "--json"};
+  succeeded(pass.arguments_here());
+  const Words again{"batch", "--mission", pass.mission(), "--db", pass.db, "--json"};
   EXPECT_EQ(answer(again)["same_mission"], true);
 
   pass.replace("mount_angle_deg = 85", "mount_angle_deg = 86");
-  Program other{again};
-  ASSERT_EQ(other.exit_status(), 0) << other.log();
-  EXPECT_EQ(nlohmann::json::parse(other.out())["same_mission"], false);
-  EXPECT_THAT(other.log(), HasSubstr("SPINNER: the mission file is not that of run "));
-  EXPECT_THAT(other.log(), Not(HasSubstr("orbit file is not")));
+  const Ran other = succeeded(again);
+  EXPECT_EQ(other.json()["same_mission"], false);
+  EXPECT_THAT(other.log, HasSubstr("SPINNER: the mission file is not that of run "));
+  EXPECT_THAT(other.log, Not(HasSubstr("orbit file is not")));
 }
 
 TEST(Batch, SolvesAStoredRunAgainAndOnlyItsLastRevolutions) {
-  const TemporaryFolder folder;
-  const auto db = folder.path() / "out.db";
-  const auto in_process = answer(arguments("gms5", db))["runs"][0];
+  const Processed processed{"gms5"};
+  const auto& db = processed.db;
+  const auto& in_process = processed.run;
   const auto solved = answer(batch_of("gms5", db, {"--json"}));
   EXPECT_EQ(solved["run_id"], in_process["run_id"]);
   EXPECT_EQ(solved["edges"], in_process["batch"]["edges"]);
@@ -149,29 +129,21 @@ TEST(Batch, SolvesAStoredRunAgainAndOnlyItsLastRevolutions) {
   EXPECT_LE(hundred["edges"].get<int>(), 600);
   EXPECT_GT(hundred["bound_deg"].get<double>(), 2.0 * solved["bound_deg"].get<double>());
 
-  Program text{batch_of("gms5", db, {})};
-  ASSERT_EQ(text.exit_status(), 0) << text.log();
-  EXPECT_THAT(text.out(), HasSubstr("bound        0.0016 deg (Cramer-Rao)"));
+  EXPECT_THAT(succeeded(batch_of("gms5", db, {})).out,
+              HasSubstr("bound        0.0016 deg (Cramer-Rao)"));
 }
 
 TEST(Batch, ASpacecraftOrRunThatTheArchiveHasNotIsNamed) {
-  const TemporaryFolder folder;
-  const auto db = folder.path() / "out.db";
-  answer(arguments("nominal", db));
-  Program other{batch_of("gms5", db, {})};
-  EXPECT_EQ(other.exit_status(), 2);
-  EXPECT_THAT(other.log(), HasSubstr("has no run of spacecraft 'GMS-5' with revolutions"));
-  Program run{batch_of("nominal", db, {"--run", "nope"})};
-  EXPECT_EQ(run.exit_status(), 2);
-  EXPECT_THAT(run.log(), HasSubstr("has no run nope of spacecraft 'SPINNER'"));
+  const Processed processed{"nominal"};
+  const auto& db = processed.db;
+  refused(batch_of("gms5", db, {}), {"has no run of spacecraft 'GMS-5' with revolutions"});
+  refused(batch_of("nominal", db, {"--run", "nope"}), {"has no run nope of spacecraft 'SPINNER'"});
 }
 
 TEST(Batch, LastTakesAPositiveIntegerOnly) {
   for (const std::string last : {"0", "-3", "abc", "1.5", "99999999999999999999"}) {
-    Program program{batch_of("nominal", "any.db", {"--last=" + last})};
-    EXPECT_EQ(program.exit_status(), 2);
-    EXPECT_THAT(program.log(),
-                HasSubstr("spindrift: --last: '" + last + "': must be a positive integer\n"));
+    refused(batch_of("nominal", "any.db", {"--last=" + last}),
+            {"spindrift: --last: '" + last + "': must be a positive integer\n"});
   }
 }
 
@@ -179,10 +151,8 @@ TEST(Batch, AnArchiveThatIsNotThereIsBadInputAndIsNotMade) {
   const TemporaryFolder folder;
   folder.write("empty.db", "");
   const auto expect_refused = [&](const std::filesystem::path& db, const std::string& says) {
-    Program program{batch_of("nominal", db, {"--json"})};
-    EXPECT_EQ(program.exit_status(), 2);
-    EXPECT_THAT(program.log(), HasSubstr(says));
-    EXPECT_EQ(nlohmann::json::parse(program.out())["error"], says);
+    const Ran program = refused(batch_of("nominal", db, {"--json"}), {says});
+    EXPECT_EQ(program.json()["error"], says);
   };
   const auto expect_no_archive = [&](const std::filesystem::path& db, const std::string& why) {
     expect_refused(db, "there is no archive " + db.string() + ": " + why);
@@ -198,15 +168,12 @@ TEST(Batch, AnArchiveThatIsNotThereIsBadInputAndIsNotMade) {
 }
 
 TEST(Batch, EstimatesTheBiasesThatTheMissionAsksFor) {
-  const TemporaryFolder folder;
-  const auto db = folder.path() / "out.db";
-  answer(arguments("nominal", db));
-  const auto pass = folder.path() / "pass";
-  std::filesystem::copy(kPasses / "nominal", pass);
-  std::ofstream{pass / "mission.toml", std::ios::app}
+  const PassCopy pass{"nominal"};
+  const Processed processed{"nominal"};
+  std::ofstream{pass.mission(), std::ios::app}
       << "\n[spin.batch]\ndihedral = true\nsun_angle = false\n";
-  const auto solved = answer(
-      {"batch", "--mission", (pass / "mission.toml").string(), "--db", db.string(), "--json"});
+  const auto solved =
+      answer({"batch", "--mission", pass.mission(), "--db", processed.db, "--json"});
   EXPECT_THAT(solved["status"].get<std::string>(), HasSubstr("dihedral"));
   const auto& dihedral = solved["biases"]["dihedral"];
   EXPECT_TRUE(dihedral["observable"]);
@@ -215,23 +182,22 @@ TEST(Batch, EstimatesTheBiasesThatTheMissionAsksFor) {
 
 /// Holds a processed run of a delivered scenario with an addition to its attitude.
 struct WobblingRun {
-  TemporaryFolder folder;
-  std::filesystem::path db = folder.path() / "out.db";
-  nlohmann::json batch;
-  nlohmann::json truth;
+  Simulated simulated;
+  Processed processed;
+  const std::filesystem::path& db = processed.db;
+  nlohmann::json batch = processed.run["batch"];
+  nlohmann::json truth = nlohmann::json::parse(text_of(simulated.pass / "truth.json"));
 
-  explicit WobblingRun(const std::string& attitude, const std::string& told = {}) {
-    std::string text = text_of(scenarios() / "gto-nominal.toml");
-    text.insert(text.find("[spin.sun_sensor]"), attitude);
-    const auto scenario = folder.write("scenario.toml", text).string();
-    const auto pass = folder.path() / "pass";
-    Program simulate{{"simulate", scenario, "--out", pass.string()}};
-    EXPECT_EQ(simulate.exit_status(), 0) << simulate.log();
-    std::ofstream{pass / "mission.toml", std::ios::app} << told;
-    Program process{arguments(pass / "mission.toml", pass / "pulses.csv", db)};
-    EXPECT_EQ(process.exit_status(), 0) << process.log();
-    batch = nlohmann::json::parse(process.out())["runs"][0]["batch"];
-    truth = nlohmann::json::parse(text_of(pass / "truth.json"));
+  explicit WobblingRun(const std::string& attitude, const std::string& told = {})
+      : simulated{"gto-nominal.toml", {{"[spin.sun_sensor]", attitude + "[spin.sun_sensor]"}}},
+        processed{told_in(simulated, told)} {}
+  /// Adds to the mission file.
+  static std::filesystem::path told_in(const Simulated& simulated, const std::string& told) {
+    std::ofstream{simulated.mission(), std::ios::app} << told;
+    return simulated.pass;
+  }
+  double nutation(const std::string& column) const {
+    return real_of(db, "SELECT " + column + " FROM spin_nutation");
   }
   void expect_true_axis() const {
     EXPECT_EQ(batch["quality"], "OK");
@@ -247,18 +213,15 @@ TEST(Batch, NutationThatGrowsIsFoundTakenOutAndStored) {
   run.expect_true_axis();
   const auto& truth = run.truth["nutation"];
   EXPECT_EQ(number_of(run.db, "SELECT detected FROM spin_nutation"), 1);
-  EXPECT_NEAR(real_of(run.db, "SELECT growth_per_h FROM spin_nutation"),
-              truth["growth_per_h"].get<double>(),
-              3.0 * real_of(run.db, "SELECT growth_sigma_per_h FROM spin_nutation"));
-  EXPECT_LT(real_of(run.db, "SELECT growth_sigma_per_h FROM spin_nutation"), 1.0);
-  EXPECT_NEAR(real_of(run.db, "SELECT period_s FROM spin_nutation"),
-              truth["period_s"].get<double>(), 0.001);
-  const double into_pass_h = real_of(run.db,
-                                     "SELECT (at_tai_ns - first_tai_ns) / 3.6e12 FROM spin_nutation"
-                                     " JOIN run USING (run_id)");
-  EXPECT_NEAR(real_of(run.db, "SELECT half_angle_deg FROM spin_nutation"),
-              0.1 * std::exp(6.0 * into_pass_h),
-              3.0 * real_of(run.db, "SELECT half_angle_sigma_deg FROM spin_nutation"));
+  EXPECT_NEAR(run.nutation("growth_per_h"), truth["growth_per_h"].get<double>(),
+              3.0 * run.nutation("growth_sigma_per_h"));
+  EXPECT_LT(run.nutation("growth_sigma_per_h"), 1.0);
+  EXPECT_NEAR(run.nutation("period_s"), truth["period_s"].get<double>(), 0.001);
+  const double into_pass_h = real_of(
+      run.db,
+      "SELECT (at_tai_ns - first_tai_ns) / 3.6e12 FROM spin_nutation JOIN run USING (run_id)");
+  EXPECT_NEAR(run.nutation("half_angle_deg"), 0.1 * std::exp(6.0 * into_pass_h),
+              3.0 * run.nutation("half_angle_sigma_deg"));
   EXPECT_TRUE(run.batch["nutation"]["detected"]);
 }
 
@@ -280,7 +243,7 @@ TEST(Batch, ConingIsFoundTakenOutAndStored) {
   };
   EXPECT_NEAR(column("tilt_deg"), 0.3, 3.0 * column("tilt_sigma_deg"));
   EXPECT_NEAR(column("azimuth_deg"), 40.0, 3.0 * column("azimuth_sigma_deg"));
-  EXPECT_EQ(number_of(run.db, "SELECT count(*) FROM spin_bias"), 8);
+  EXPECT_EQ(count_rows(run.db, "spin_bias"), 8);
 }
 
 }  // namespace spindrift::batch_test

@@ -1,19 +1,23 @@
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <spindrift.h>
 
 #include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "pipelines/time/utc.h"
 #include "services/base/wall_clock.h"
-#include "tests/support/archive_rows.h"
 #include "tests/support/bus_child.h"
 #include "tests/support/bus_fixture.h"
-#include "tests/support/program.h"
+#include "tests/support/count_rows.h"
+#include "tests/support/on_bus.h"
+#include "tests/support/processed.h"
+#include "tests/support/ran.h"
 #include "tests/support/test_paths.h"
 
 namespace spindrift::doctor_test {
@@ -21,8 +25,7 @@ namespace spindrift::doctor_test {
 using namespace std::chrono_literals;
 using ::testing::HasSubstr;
 
-const std::filesystem::path kPasses = recorded_passes();
-const std::string kMission = (kPasses / "nominal" / "mission.toml").string();
+const std::string kMission = (recorded_passes() / "nominal" / "mission.toml").string();
 
 struct Diagnosis {
   int status;
@@ -40,30 +43,21 @@ struct Diagnosis {
   std::string found(const std::string& name) const { return check(name)["found"]; }
 };
 
-std::vector<std::string> on(const bus::BusConfig& bus, std::vector<std::string> arguments) {
-  for (std::string argument : {std::string{"--domain"}, std::to_string(bus.domain),
-                               std::string{"--partition"}, bus.partition}) {
-    arguments.push_back(std::move(argument));
-  }
-  return arguments;
-}
-
 Diagnosis diagnose(const bus::BusConfig& bus, const std::vector<std::string>& arguments) {
-  std::vector<std::string> all = on(bus, {"doctor", "--json"});
-  all.insert(all.end(), arguments.begin(), arguments.end());
-  Program doctor{all};
-  const int status = doctor.exit_status();
-  EXPECT_EQ(doctor.log(), "");
-  return {.status = status, .report = nlohmann::json::parse(doctor.out())};
+  const Ran doctor = ended(with(on(bus, {"doctor", "--json"}), arguments));
+  EXPECT_EQ(doctor.log, "");
+  return {.status = doctor.status, .report = doctor.json()};
 }
 
-/// Returns an archive of one pass.
-std::filesystem::path processed(const TemporaryFolder& folder) {
-  const auto db = folder.path() / "pass.db";
-  Program process{{"process", "--mission", kMission, "--telemetry", (kPasses / "nominal").string(),
-                   "--db", db.string()}};
-  EXPECT_EQ(process.exit_status(), 0) << process.log();
-  return db;
+/// Diagnoses until a check says so.
+template <class Is>
+Diagnosis diagnosed(const bus::BusConfig& bus, const Words& arguments, const Is& is) {
+  Diagnosis diagnosis{};
+  EXPECT_TRUE(eventually([&] {
+    diagnosis = diagnose(bus, arguments);
+    return is(diagnosis);
+  })) << diagnosis.report;
+  return diagnosis;
 }
 
 /// Returns a mission whose ephemeris reaches from an hour ago to two days ahead.
@@ -99,14 +93,10 @@ TEST(Doctor, FindsNoFailureWhereAllIsWell) {
   const TemporaryFolder folder;
   const bus::BusConfig bus = bus_of_its_own();
   const ForeignWriter front_end{bus, "telemetry", 1};
-  const std::vector<std::string> arguments{"--mission", current_mission(folder), "--db",
-                                           processed(folder).string()};
-  Diagnosis diagnosis{};
-  ASSERT_TRUE(eventually([&] {
-    diagnosis = diagnose(bus, arguments);
-    return diagnosis.verdict("telemetry") == "ok";
-  })) << diagnosis.report;
-
+  const Processed processed{"nominal"};
+  const Diagnosis diagnosis =
+      diagnosed(bus, {"--mission", current_mission(folder), "--db", processed.db},
+                [](const auto& so_far) { return so_far.verdict("telemetry") == "ok"; });
   EXPECT_EQ(diagnosis.status, 0) << diagnosis.report;
   for (const std::string name :
        {"network", "participants", "telemetry", "QoS", "mission SPINNER", "orbit of SPINNER",
@@ -124,11 +114,11 @@ TEST(Doctor, FindsNoFailureWhereAllIsWell) {
 }
 
 TEST(Doctor, LeavesNothingBesideTheArchive) {
-  const TemporaryFolder folder;
-  const auto db = processed(folder);
+  const Processed processed{"nominal"};
+  const auto& db = processed.db;
   const auto files = [&] {
     std::vector<std::string> names;
-    for (const auto& entry : std::filesystem::directory_iterator{folder.path()}) {
+    for (const auto& entry : std::filesystem::directory_iterator{processed.folder.path()}) {
       names.push_back(entry.path().filename());
     }
     std::sort(names.begin(), names.end());
@@ -136,16 +126,15 @@ TEST(Doctor, LeavesNothingBesideTheArchive) {
   };
   const auto before = files();
   const std::string bytes = text_of(db);
-  EXPECT_EQ(diagnose(bus_of_its_own(), {"--db", db.string()}).status, 0);
+  EXPECT_EQ(diagnose(bus_of_its_own(), {"--db", db}).status, 0);
   EXPECT_EQ(files(), before);
   EXPECT_EQ(text_of(db), bytes);
 }
 
 TEST(Doctor, PrintsAListForPeople) {
-  Program doctor{on(bus_of_its_own(), {"doctor"})};
-  EXPECT_EQ(doctor.exit_status(), 0) << doctor.log();
-  EXPECT_THAT(doctor.out(), HasSubstr("WARNING  telemetry"));
-  EXPECT_THAT(doctor.out(), HasSubstr("0 failures, "));
+  const Ran doctor = succeeded(on(bus_of_its_own(), {"doctor"}));
+  EXPECT_THAT(doctor.out, HasSubstr("WARNING  telemetry"));
+  EXPECT_THAT(doctor.out, HasSubstr("0 failures, "));
 }
 
 TEST(Doctor, WarnsOfAnEphemerisThatDoesNotReach) {
@@ -165,30 +154,20 @@ TEST(Doctor, JudgesForTheComingPass) {
   EXPECT_EQ(covered.verdict("orbit of SPINNER"), "ok");
   EXPECT_THAT(covered.found("orbit of SPINNER"), HasSubstr("another 2 min behind the pass"));
   EXPECT_EQ(judged("2026-11-20T03:13:00Z").verdict("orbit of SPINNER"), "warning");
-  EXPECT_EQ((Program{{"doctor", "--from", "2026-11-20T03:00:00Z"}}.exit_status()), 2);
-  EXPECT_EQ(
-      (Program{{"doctor", "--from", "2026-11-20T03:00:00Z", "--to", "2026-11-20"}}.exit_status()),
-      2);
-}
-
-TEST(Doctor, FailsOnTwoMissionsOfOneSpacecraft) {
-  const auto diagnosis = diagnose(bus_of_its_own(), {"--mission", kMission, kMission});
-  EXPECT_EQ(diagnosis.status, 1);
-  EXPECT_EQ(diagnosis.report["verdict"], "failure");
+  refused({"doctor", "--from", "2026-11-20T03:00:00Z"}, {});
+  refused({"doctor", "--from", "2026-11-20T03:00:00Z", "--to", "2026-11-20"}, {});
 }
 
 TEST(Doctor, EndsWithTwoForABadMissionOrCommandLine) {
   const TemporaryFolder folder;
   const auto bad = folder.write("mission.toml", "[spacecraft]\nid = \"X\"\nkind = \"kite\"\n");
-  Program mission{{"doctor", "--mission", bad.string()}};
-  EXPECT_EQ(mission.exit_status(), 2);
-  EXPECT_THAT(mission.log(), HasSubstr("mission.toml:3"));
-  EXPECT_EQ((Program{{"doctor", "--domain", "231"}}.exit_status()), 2);
+  refused({"doctor", "--mission", bad}, {"mission.toml:3"});
+  refused({"doctor", "--domain", "231"}, {});
 }
 
 TEST(Doctor, FailsOnADamagedArchive) {
-  const TemporaryFolder folder;
-  const auto db = processed(folder);
+  const Processed processed{"nominal"};
+  const auto& db = processed.db;
   {
     constexpr int kPageBytes = 4096;
     std::fstream file{db, std::ios::binary | std::ios::in | std::ios::out};
@@ -197,62 +176,57 @@ TEST(Doctor, FailsOnADamagedArchive) {
       file << std::string(16, '\xff');
     }
   }
-  const auto diagnosis = diagnose(bus_of_its_own(), {"--db", db.string()});
+  const auto diagnosis = diagnose(bus_of_its_own(), {"--db", db});
   EXPECT_EQ(diagnosis.status, 1);
   EXPECT_EQ(diagnosis.verdict("integrity"), "failure") << diagnosis.report;
   EXPECT_THAT(diagnosis.found("integrity"), HasSubstr("age "));
 }
 
-TEST(Doctor, FailsOnAFileThatIsNoArchive) {
+TEST(Doctor, FailsOnTwoMissionsOfOneSpacecraftAndWhereNoArchiveIs) {
   const TemporaryFolder folder;
   const auto file = folder.write("notes.db", "not a database, but long enough to be looked at");
-  for (const std::filesystem::path& path : {file, folder.path()}) {
-    const auto diagnosis = diagnose(bus_of_its_own(), {"--db", path.string()});
-    EXPECT_EQ(diagnosis.status, 1) << path;
-    EXPECT_EQ(diagnosis.verdict("archive"), "failure") << path;
+  for (const auto& [arguments, check] : std::vector<std::pair<Words, std::string>>{
+           {{"--mission", kMission, kMission}, ""},
+           {{"--db", file}, "archive"},
+           {{"--db", folder.path()}, "archive"},
+           {{"--db", folder.path() / "absent" / "a.db"}, "disk"}}) {
+    SCOPED_TRACE(arguments.back());
+    const auto diagnosis = diagnose(bus_of_its_own(), arguments);
+    EXPECT_EQ(diagnosis.status, 1);
+    EXPECT_EQ(check.empty() ? diagnosis.report["verdict"] : diagnosis.check(check)["verdict"],
+              "failure");
   }
-}
-
-TEST(Doctor, FailsWhereTheFolderOfTheArchiveIsNotThere) {
-  const TemporaryFolder folder;
-  const auto diagnosis =
-      diagnose(bus_of_its_own(), {"--db", (folder.path() / "absent" / "a.db").string()});
-  EXPECT_EQ(diagnosis.status, 1);
-  EXPECT_EQ(diagnosis.verdict("disk"), "failure");
 }
 
 TEST(Doctor, LooksAtAnArchiveThatAServiceWrites) {
   const TemporaryFolder folder;
   const auto db = folder.path() / "live.db";
   const bus::BusConfig bus = bus_of_its_own();
-  Program service{on(bus, {"serve", "--mission", kMission, "--db", db.string()})};
-  ASSERT_TRUE(service.says("ready")) << service.log();
+  Serving service{on(bus, {"serve", "--mission", kMission, "--db", db})};
 
-  const auto diagnosis = diagnose(bus, {"--db", db.string()});
+  const auto diagnosis = diagnose(bus, {"--db", db});
   EXPECT_EQ(diagnosis.status, 0) << diagnosis.report;
   EXPECT_EQ(diagnosis.verdict("integrity"), "ok");
   EXPECT_THAT(diagnosis.found("writer"), HasSubstr("serve"));
   EXPECT_THAT(diagnosis.found("runs"), HasSubstr("1 not finished"));
   EXPECT_EQ(diagnosis.verdict("runs"), "ok");
 
-  service.signal(SIGTERM);
-  EXPECT_EQ(service.exit_status(), 0) << service.log();
+  stop_in_order(service);
   // The service must not report the doctor as an incompatible client.
   EXPECT_EQ(service.log().find("incompatible"), std::string::npos);
-  EXPECT_EQ(number_of(db, "SELECT count(*) FROM source_count"), 0);
+  EXPECT_EQ(count_rows(db, "source_count"), 0);
 }
 
 TEST(Doctor, WarnsOfARunThatWasKilled) {
   const TemporaryFolder folder;
   const auto db = folder.path() / "live.db";
   const bus::BusConfig bus = bus_of_its_own();
-  Program service{on(bus, {"serve", "--mission", kMission, "--db", db.string()})};
-  ASSERT_TRUE(service.says("ready")) << service.log();
-  ASSERT_TRUE(eventually([&] { return number_of(db, "SELECT count(*) FROM run") == 1; }));
+  Serving service{on(bus, {"serve", "--mission", kMission, "--db", db})};
+  ASSERT_TRUE(eventually([&] { return count_rows(db, "run") == 1; }));
   service.signal(SIGKILL);
   service.exit_status();
 
-  const auto diagnosis = diagnose(bus, {"--db", db.string()});
+  const auto diagnosis = diagnose(bus, {"--db", db});
   EXPECT_EQ(diagnosis.status, 0) << diagnosis.report;
   EXPECT_EQ(diagnosis.verdict("runs"), "warning") << diagnosis.report;
 }
@@ -260,11 +234,8 @@ TEST(Doctor, WarnsOfARunThatWasKilled) {
 TEST(Doctor, NamesAWriterWhoseQosDoesNotDo) {
   const bus::BusConfig bus = bus_of_its_own();
   const ForeignWriter weak{bus, "weak", 1};
-  Diagnosis diagnosis{};
-  ASSERT_TRUE(eventually([&] {
-    diagnosis = diagnose(bus, {});
-    return diagnosis.verdict("QoS") == "failure";
-  }));
+  const Diagnosis diagnosis =
+      diagnosed(bus, {}, [](const auto& so_far) { return so_far.verdict("QoS") == "failure"; });
   EXPECT_EQ(diagnosis.status, 1);
   EXPECT_THAT(diagnosis.found("QoS"), HasSubstr("BEST_EFFORT"));
   EXPECT_THAT(diagnosis.found("QoS"), HasSubstr("pid " + std::to_string(weak.pid())));
@@ -274,11 +245,9 @@ TEST(Doctor, TellsOfTelemetryInAnotherPartition) {
   const bus::BusConfig bus = bus_of_its_own();
   const ForeignWriter front_end{
       {.domain = bus.domain, .partition = bus.partition + "-other"}, "telemetry", 1};
-  Diagnosis diagnosis{};
-  ASSERT_TRUE(eventually([&] {
-    diagnosis = diagnose(bus, {});
-    return diagnosis.found("telemetry").find(bus.partition + "-other") != std::string::npos;
-  }));
+  const Diagnosis diagnosis = diagnosed(bus, {}, [&](const auto& so_far) {
+    return so_far.found("telemetry").find(bus.partition + "-other") != std::string::npos;
+  });
   EXPECT_EQ(diagnosis.verdict("telemetry"), "warning");
 }
 

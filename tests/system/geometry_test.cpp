@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "tests/support/program.h"
+#include "tests/support/ran.h"
 #include "tests/support/recorded_files.h"
 #include "tests/support/test_paths.h"
 #include "tests/support/well_formed.h"
@@ -49,10 +49,9 @@ std::vector<std::string> arguments_with(
 }
 
 nlohmann::json planned(const std::vector<std::string>& arguments) {
-  Program program{arguments};
-  EXPECT_EQ(program.exit_status(), 0) << program.log();
-  EXPECT_EQ(program.log(), "");
-  return nlohmann::json::parse(program.out());
+  const Ran program = succeeded(arguments);
+  EXPECT_EQ(program.log, "");
+  return program.json();
 }
 
 std::vector<std::string> lines_of(const std::string& text) {
@@ -65,10 +64,9 @@ std::vector<std::string> lines_of(const std::string& text) {
 }
 
 TEST(Geometry, PrintsATableAndWhatHolds) {
-  Program program{arguments_with({})};
-  ASSERT_EQ(program.exit_status(), 0) << program.log();
-  EXPECT_EQ(program.log(), "");
-  const auto lines = lines_of(program.out());
+  const Ran program = succeeded(arguments_with({}));
+  EXPECT_EQ(program.log, "");
+  const auto lines = lines_of(program.out);
   ASSERT_GT(lines.size(), 63U);
   EXPECT_EQ(lines[0],
             "SPINNER  2026-11-20T03:00:00Z to 2026-11-20T03:10:00Z, axis RA 100.0000 Dec -55.0000 "
@@ -76,8 +74,8 @@ TEST(Geometry, PrintsATableAndWhatHolds) {
   EXPECT_THAT(lines[1], AllOf(StartsWith("UTC"), HasSubstr("Delta N"), HasSubstr("case")));
   EXPECT_THAT(lines[2], StartsWith("2026-11-20T03:00:00Z     0.0   13915"));
   EXPECT_THAT(lines[62], AllOf(StartsWith("2026-11-20T03:10:00Z    10.0"), HasSubstr("12NnSs")));
-  EXPECT_THAT(program.out(), HasSubstr("all the time"));
-  EXPECT_THAT(program.out(), HasSubstr("  fix by case 1: one axis\n"));
+  EXPECT_THAT(program.out, HasSubstr("all the time"));
+  EXPECT_THAT(program.out, HasSubstr("  fix by case 1: one axis\n"));
   for (std::size_t i = 3; i <= 62; ++i) {
     EXPECT_EQ(lines[i].size(), lines[2].size()) << lines[i];
   }
@@ -127,8 +125,7 @@ TEST(Geometry, DrawsAPlot) {
   mission.replace(mission.find("SPINNER"), 7, "<A & B>");
   std::ofstream{copy.mission()} << mission;
   const auto plot = folder.path() / "pass.svg";
-  Program program{arguments_with({{"--plot", plot.string()}}, copy.mission().string())};
-  ASSERT_EQ(program.exit_status(), 0) << program.log();
+  const Ran program = succeeded(arguments_with({{"--plot", plot}}, copy.mission().string()));
   const std::string svg = text_of(plot);
   EXPECT_EQ(testing::xml_problem(svg), "");
   EXPECT_THAT(svg,
@@ -137,7 +134,7 @@ TEST(Geometry, DrawsAPlot) {
                                  "all edges so far", "north beam", "case 1", "2026-11-20 UTC"}) {
     EXPECT_THAT(svg, HasSubstr(part));
   }
-  EXPECT_THAT(program.out(), HasSubstr("plot: " + plot.string()));
+  EXPECT_THAT(program.out, HasSubstr("plot: " + plot.string()));
 }
 
 struct Refusal {
@@ -163,7 +160,7 @@ TEST(Geometry, RefusesWhatCannotBe) {
       {{{"--step", "0.001"}}, "at most 10000"},
       {{{"--to", "2026-11-20T03:20:00Z"}}, "480 s after the ephemeris ends"},
       {{{"--mission", "/nowhere.toml"}}, "/nowhere.toml"},
-      {{{"--mission", (kMissions / "dawn-2015.toml").string()}},
+      {{{"--mission", kMissions / "dawn-2015.toml"}},
        R"(dawn-2015.toml:3: spacecraft.kind = "three_axis": must be "spin")"},
       {{{"--plot", "/nowhere/pass.svg"}}, "/nowhere/pass.svg"},
       {{{"--plot", "pass.png"}}, "--plot: 'pass.png': must end in .svg: plots are written as SVG"},
@@ -172,28 +169,24 @@ TEST(Geometry, RefusesWhatCannotBe) {
     SCOPED_TRACE(refusal.says);
     auto changes = refusal.changes;
     changes.emplace_back("--json", "");
-    Program program{arguments_with(changes)};
-    EXPECT_EQ(program.exit_status(), 2);
-    EXPECT_THAT(program.log(), HasSubstr(refusal.says));
-    EXPECT_THAT(nlohmann::json::parse(program.out())["error"].get<std::string>(),
-                HasSubstr(refusal.says));
+    const Ran program = refused(arguments_with(changes), {refusal.says});
+    EXPECT_THAT(program.json()["error"].get<std::string>(), HasSubstr(refusal.says));
   }
 }
 
 TEST(Geometry, NamesAllThatIsWrongAtOnce) {
-  Program program{arguments_with({{"--attitude", "0,91"}, {"--rpm", "500"}, {"--to", "x"}})};
-  EXPECT_EQ(program.exit_status(), 2);
-  EXPECT_THAT(program.log(),
+  const Ran program =
+      refused(arguments_with({{"--attitude", "0,91"}, {"--rpm", "500"}, {"--to", "x"}}), {});
+  EXPECT_THAT(program.log,
               AllOf(HasSubstr("DEC must"), HasSubstr("--rpm 500"), HasSubstr("--to: time 'x'")));
-  EXPECT_THAT(program.out(), IsEmpty());
+  EXPECT_THAT(program.out, IsEmpty());
 }
 
 double published_sigma_deg(const std::filesystem::path& mission,
                            const std::filesystem::path& telemetry) {
   const TemporaryFolder folder;
-  Program process{arguments(mission, telemetry, folder.path() / "pass.db")};
-  EXPECT_EQ(process.exit_status(), 0) << process.log();
-  return nlohmann::json::parse(process.out())["runs"][0]["sequential"]["sigma_deg"];
+  const Ran process = succeeded(arguments(mission, telemetry, folder.path() / "pass.db"));
+  return process.json()["runs"][0]["sequential"]["sigma_deg"];
 }
 
 /// @param folder Folder of the ten-minute pass that starts at 03:00.
@@ -209,9 +202,7 @@ double planned_sigma_deg(const std::filesystem::path& folder) {
 
 TEST(Geometry, ForetellsTheSigmaThatASimulatedPassGives) {
   const TemporaryFolder folder;
-  Program simulate{
-      {"simulate", (kScenarios / "gto-nominal.toml").string(), "--out", folder.path().string()}};
-  ASSERT_EQ(simulate.exit_status(), 0) << simulate.log();
+  succeeded({"simulate", kScenarios / "gto-nominal.toml", "--out", folder.path()});
   const auto mission = folder.path() / "mission.toml";
   EXPECT_NEAR(published_sigma_deg(mission, folder.path()) / planned_sigma_deg(folder.path()), 1.0,
               0.2);

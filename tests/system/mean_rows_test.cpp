@@ -10,10 +10,9 @@
 #include <string>
 #include <vector>
 
-#include "pipelines/frames/angle.h"
-#include "pipelines/frames/celestial.h"
-#include "tests/support/archive_rows.h"
-#include "tests/support/processed_pass.h"
+#include "tests/support/axis_error.h"
+#include "tests/support/processed.h"
+#include "tests/support/simulated.h"
 
 namespace spindrift::mean_rows_test {
 
@@ -27,54 +26,52 @@ struct MeanRow {
   std::string status;
 };
 
-Eigen::Vector3d place(double ra_deg, double dec_deg) {
-  return direction_icrf({.ra_rad = ra_deg * kRadPerDeg, .dec_rad = dec_deg * kRadPerDeg});
-}
-
-std::vector<MeanRow> means_of(const std::filesystem::path& db, const Eigen::Vector3d& axis_icrf) {
+std::vector<MeanRow> means_of(const std::filesystem::path& db, const nlohmann::json& truth) {
   const SQLite::Database database{db.string(), SQLite::OPEN_READONLY};
   SQLite::Statement rows{database,
-                         "SELECT ra_deg, dec_deg, sigma_deg, status FROM spin_estimate"
-                         " WHERE estimator = 'mean' ORDER BY t_tai_ns"};
+                         "SELECT ra_deg, dec_deg, sigma_deg, status FROM spin_estimate WHERE "
+                         "estimator = 'mean' ORDER BY t_tai_ns"};
   std::vector<MeanRow> means;
   while (rows.executeStep()) {
-    const Eigen::Vector3d mean_icrf =
-        place(rows.getColumn(0).getDouble(), rows.getColumn(1).getDouble());
-    means.push_back({.off_deg = angle_between_rad(mean_icrf, axis_icrf) / kRadPerDeg,
+    means.push_back({.off_deg = error_deg({{"ra_deg", rows.getColumn(0).getDouble()},
+                                           {"dec_deg", rows.getColumn(1).getDouble()}},
+                                          truth),
                      .sigma_deg = rows.getColumn(2).getDouble(),
                      .status = rows.getColumn(3).getString()});
   }
   return means;
 }
 
+/// @param more Changes of this pass.
 Replacements usual_but(const std::string& raan, const std::string& anomaly, const std::string& ra,
-                       const std::string& dec, const std::string& rpm) {
-  return {{"raan_deg = 300.0", "raan_deg = " + raan},
-          {"mean_anomaly_deg = 30.0", "mean_anomaly_deg = " + anomaly},
-          {"\nra_deg = 100.0", "\nra_deg = " + ra},
-          {"\ndec_deg = -55.0", "\ndec_deg = " + dec},
-          {"rate_rpm = 60.0", "rate_rpm = " + rpm},
-          {"\nazimuth_deg = 92.0", "\nazimuth_deg = 120.0"},
-          {"model = \"sphere\"", "model = \"ellipsoid\""}};
+                       const std::string& dec, const std::string& rpm, const Replacements& more) {
+  Replacements all{{"raan_deg = 300.0", "raan_deg = " + raan},
+                   {"mean_anomaly_deg = 30.0", "mean_anomaly_deg = " + anomaly},
+                   {"\nra_deg = 100.0", "\nra_deg = " + ra},
+                   {"\ndec_deg = -55.0", "\ndec_deg = " + dec},
+                   {"rate_rpm = 60.0", "rate_rpm = " + rpm + "\nrate_drift_rpm_h = 0.3"},
+                   {"\nazimuth_deg = 92.0", "\nazimuth_deg = 120.0"},
+                   {"model = \"sphere\"", "model = \"ellipsoid\""}};
+  all.insert(all.end(), more.begin(), more.end());
+  return all;
 }
 
 TEST(MeanRows, FewFixesWithShortChordsAreAveragedAndDoubtful) {
   for (int seed = 112; seed <= 118; ++seed) {
     SCOPED_TRACE(seed);
-    const TemporaryFolder folder;
-    Replacements scenario = usual_but("313.2237056952047", "15.0", "254.68834644255713",
-                                      "-27.78443213581462", "60.0\nrate_drift_rpm_h = 0.3");
-    scenario.insert(scenario.end(),
-                    {{"duration_s = 600.0", "duration_s = 900.0\nseed = " + std::to_string(seed)},
-                     {"mount_angle_deg = 85.0", "mount_angle_deg = 60.0"},
-                     {"mount_angle_deg = 95.0", "mount_angle_deg = 120.0"},
-                     {"co2_altitude_km = 40.0",
-                      "co2_altitude_km = 40.0\n[faults]\nlost = 0.03\nspoilt = 0.02\n"
-                      "[faults.channel.north_in]\ndead = true\n"
-                      "[faults.channel.north_out]\ndead = true"}});
-    const auto outcome = process_simulated(folder, scenario);
-    ASSERT_EQ(outcome.status, 0) << outcome.log;
-    const auto means = means_of(outcome.db, place(254.68834644255713, -27.78443213581462));
+    const Simulated simulated{
+        "gto-nominal.toml",
+        usual_but("313.2237056952047", "15.0", "254.68834644255713", "-27.78443213581462", "60.0",
+                  {{"duration_s = 600.0", "duration_s = 900.0\nseed = " + std::to_string(seed)},
+                   {"mount_angle_deg = 85.0", "mount_angle_deg = 60.0"},
+                   {"mount_angle_deg = 95.0", "mount_angle_deg = 120.0"},
+                   {"co2_altitude_km = 40.0",
+                    "co2_altitude_km = 40.0\n[faults]\nlost = 0.03\nspoilt = 0.02\n"
+                    "[faults.channel.north_in]\ndead = true\n"
+                    "[faults.channel.north_out]\ndead = true"}})};
+    const Processed outcome{simulated.pass};
+    const auto means =
+        means_of(outcome.db, {{"ra_deg", 254.68834644255713}, {"dec_deg", -27.78443213581462}});
     ASSERT_THAT(means, Not(IsEmpty()));
     for (const MeanRow& mean : means) {
       EXPECT_LT(mean.off_deg, 2.0 * mean.sigma_deg) << mean.status;
@@ -89,17 +86,16 @@ TEST(MeanRows, FewFixesWithShortChordsAreAveragedAndDoubtful) {
 }
 
 TEST(MeanRows, ShortChordsThatBecomeLongLeadToTheLeastSquares) {
-  const TemporaryFolder folder;
-  Replacements scenario = usual_but("308.380173754614", "120.0", "210.78820351767155",
-                                    "9.292454335835854", "20.0\nrate_drift_rpm_h = 0.3");
-  scenario.insert(
-      scenario.end(),
-      {{"duration_s = 600.0", "duration_s = 900.0\nseed = 171"},
-       {"mount_angle_deg = 95.0", "mount_angle_deg = 105.0"},
-       {"co2_altitude_km = 40.0", "co2_altitude_km = 40.0\n[faults]\nlost = 0.03\nspoilt = 0.02"}});
-  const auto outcome = process_simulated(folder, scenario);
-  ASSERT_EQ(outcome.status, 0) << outcome.log;
-  const auto means = means_of(outcome.db, place(210.78820351767155, 9.292454335835854));
+  const Simulated simulated{
+      "gto-nominal.toml",
+      usual_but("308.380173754614", "120.0", "210.78820351767155", "9.292454335835854", "20.0",
+                {{"duration_s = 600.0", "duration_s = 900.0\nseed = 171"},
+                 {"mount_angle_deg = 95.0", "mount_angle_deg = 105.0"},
+                 {"co2_altitude_km = 40.0",
+                  "co2_altitude_km = 40.0\n[faults]\nlost = 0.03\nspoilt = 0.02"}})};
+  const Processed outcome{simulated.pass};
+  const auto means =
+      means_of(outcome.db, {{"ra_deg", 210.78820351767155}, {"dec_deg", 9.292454335835854}});
   ASSERT_THAT(means, Not(IsEmpty()));
   for (const MeanRow& mean : means) {
     EXPECT_LT(mean.off_deg, 3.0 * mean.sigma_deg) << mean.status;

@@ -5,7 +5,10 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/support/archive_rows.h"
+#include "tests/support/count_rows.h"
+#include "tests/support/processed.h"
 #include "tests/support/program.h"
+#include "tests/support/ran.h"
 #include "tests/support/recorded_files.h"
 
 namespace spindrift::process_refusals_test {
@@ -16,17 +19,16 @@ TEST(Process, CountsAndStoresBadRowsWithTheirReason) {
   const PassCopy pass{"nominal"};
   pass.folder.write("more.csv",
                     "t_tai_ns,channel\n1795143637568806257,sun3\nsoon,sun1\n1795143637568806257\n");
-  Program program{pass.arguments_here()};
-  ASSERT_EQ(program.exit_status(), 0) << program.log();
+  const Ran program = succeeded(pass.arguments_here());
 
-  EXPECT_EQ(nlohmann::json::parse(program.out())["runs"][0]["input_rejected"], 3);
+  EXPECT_EQ(program.json()["runs"][0]["input_rejected"], 3);
   const auto rows =
       rows_of(pass.db, "SELECT source, line, reason FROM rejected_input ORDER BY line");
   ASSERT_EQ(rows.size(), 3U);
   EXPECT_THAT(rows[0], ::testing::AllOf(HasSubstr("more.csv|2|"), HasSubstr("sun3")));
   EXPECT_THAT(rows[1], ::testing::AllOf(HasSubstr("more.csv|3|"), HasSubstr("soon")));
   EXPECT_THAT(rows[2], HasSubstr("more.csv|4|"));
-  EXPECT_EQ(number_of(pass.db, "SELECT count(*) FROM pulse"), 3600);
+  EXPECT_EQ(count_rows(pass.db, "pulse"), 3600);
 }
 
 TEST(Process, SaysWhyThereIsNoAxisWhereNoRowIsOfUse) {
@@ -35,11 +37,10 @@ TEST(Process, SaysWhyThereIsNoAxisWhereNoRowIsOfUse) {
   const auto log_of = [&](const std::string& rows, std::int64_t bad_rows) {
     const PassCopy pass{"nominal"};
     pass.folder.write("pulses.csv", header + rows);
-    Program program{pass.arguments_here()};
-    EXPECT_EQ(program.exit_status(), 0) << program.log();
-    EXPECT_EQ(number_of(pass.db, "SELECT count(*) FROM pulse"), 0);
-    EXPECT_EQ(number_of(pass.db, "SELECT count(*) FROM rejected_input"), bad_rows);
-    return program.log();
+    const Ran program = succeeded(pass.arguments_here());
+    EXPECT_EQ(count_rows(pass.db, "pulse"), 0);
+    EXPECT_EQ(count_rows(pass.db, "rejected_input"), bad_rows);
+    return program.log;
   };
   const std::string says = "SPINNER: no edge of it in the telemetry, and no axis: ";
   EXPECT_THAT(log_of(edge + "OTHER\n" + edge + "THIRD\n", 0),
@@ -51,35 +52,20 @@ TEST(Process, SaysWhyThereIsNoAxisWhereNoRowIsOfUse) {
 TEST(Process, RefusesBadRowsWhenStrict) {
   const PassCopy pass{"nominal"};
   pass.folder.write("more.csv", "t_tai_ns,channel\n1795143637568806257,sun3\n");
-  auto strict = pass.arguments_here();
-  strict.emplace_back("--strict");
-  Program program{strict};
-  EXPECT_EQ(program.exit_status(), 2);
-  EXPECT_THAT(program.log(), HasSubstr("more.csv:2: "));
+  refused(with(pass.arguments_here(), {"--strict"}), {"more.csv:2: "});
   EXPECT_FALSE(std::filesystem::exists(pass.db));
 }
 
-/// Expects an error for a pass with this text in one of its files.
-void expect_refused(const std::string& file, const std::string& text,
-                    const std::vector<std::string>& says) {
-  const PassCopy pass{"nominal"};
-  pass.folder.write(file, text);
-  Program program{pass.arguments_here()};
-  EXPECT_EQ(program.exit_status(), 2);
-  for (const std::string& said : says) {
-    EXPECT_THAT(program.log(), HasSubstr(said));
-  }
-  EXPECT_FALSE(std::filesystem::exists(pass.db));
-}
-
-TEST(Process, RefusesAnUnknownMissionKey) {
+TEST(Process, RefusesAFileThatIsNotWhatItShouldBe) {
   expect_refused("mission.toml",
-                 text_of(PassCopy{"nominal"}.mission()) + "\n[spin.colour]\nhue = 3\n",
+                 text_of(kPasses / "nominal" / "mission.toml") + "\n[spin.colour]\nhue = 3\n",
                  {"mission.toml:", "spin.colour"});
-}
-
-TEST(Process, RefusesAnEmptyMission) {
   expect_refused("mission.toml", "", {"mission.toml: [spacecraft]: missing"});
+  expect_refused("orbit.oem", "CCSDS_OEM_VERS = 2.0\nthis is no orbit\n", {"orbit.oem", "line 2"});
+  expect_refused("orbit.oem", "", {"orbit.oem", "must begin with CCSDS_OEM_VERS"});
+  expect_refused("pulses.csv", "t_tai_ns,channel\n",
+                 {"no row of telemetry", "pulses.csv: no rows"});
+  expect_refused("notes.csv", "when,what\n1,2\n", {"notes.csv:1", "t_tai_ns,channel"});
 }
 
 TEST(Process, StoresEdgesOfASpacecraftThatIsNoSpinnerAndSaysThatNothingIsComputed) {
@@ -87,12 +73,11 @@ TEST(Process, StoresEdgesOfASpacecraftThatIsNoSpinnerAndSaysThatNothingIsCompute
   pass.folder.write("mission.toml",
                     "[spacecraft]\nid = \"SPINNER\"\nkind = \"three_axis\"\n"
                     "[orbit]\noem = \"orbit.oem\"\n");
-  Program program{pass.arguments_here()};
-  EXPECT_EQ(program.exit_status(), 0);
-  EXPECT_THAT(program.log(), HasSubstr("edges arrive, and the mission file has no "
-                                       "[spin.sun_sensor]: they are stored"));
-  EXPECT_EQ(number_of(pass.db, "SELECT count(*) FROM pulse"), 3600);
-  EXPECT_EQ(number_of(pass.db, "SELECT count(*) FROM spin_estimate"), 0);
+  const Ran program = succeeded(pass.arguments_here());
+  EXPECT_THAT(program.log, HasSubstr("edges arrive, and the mission file has no "
+                                     "[spin.sun_sensor]: they are stored"));
+  EXPECT_EQ(count_rows(pass.db, "pulse"), 3600);
+  EXPECT_EQ(count_rows(pass.db, "spin_estimate"), 0);
 }
 
 TEST(Process, StoresOrbitStatesOfASpinnerAndSaysOnceThatTheOrbitIsTheMissionFiles) {
@@ -101,15 +86,10 @@ TEST(Process, StoresOrbitStatesOfASpinnerAndSaysOnceThatTheOrbitIsTheMissionFile
                     "t_tai_ns,x_km,y_km,z_km,vx_km_s,vy_km_s,vz_km_s\n"
                     "1795143638000000000,7000,0,0,0,7.5,0\n"
                     "1795143698000000000,6990,450,0,-0.5,7.48,0\n");
-  Program program{pass.arguments_here()};
-  EXPECT_EQ(program.exit_status(), 0);
-  const std::string words =
-      "SPINNER: orbit states arrive: they are stored; the orbit is the "
-      "mission file's";
-  const std::size_t first = program.log().find(words);
-  ASSERT_NE(first, std::string::npos) << program.log();
-  EXPECT_EQ(program.log().find(words, first + 1), std::string::npos);
-  EXPECT_EQ(number_of(pass.db, "SELECT count(*) FROM orbit_state_sample"), 2);
+  expect_said_once(
+      succeeded(pass.arguments_here()).log,
+      "SPINNER: orbit states arrive: they are stored; the orbit is the mission file's");
+  EXPECT_EQ(count_rows(pass.db, "orbit_state_sample"), 2);
 }
 
 TEST(Process, RefusesFilesThatWouldHurtIt) {
@@ -134,14 +114,8 @@ TEST(Process, RefusesWhatIsNoFile) {
   const PassCopy pass{"nominal"};
   const auto pipe = pass.folder.path() / "pipe.csv";
   ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
-  Program program{arguments(pass.mission(), pipe, pass.db)};
-  EXPECT_EQ(program.exit_status(), 2);
-  EXPECT_THAT(program.log(), HasSubstr("pipe.csv: cannot be read: not a regular file"));
-}
-
-TEST(Process, RefusesAnOrbitThatCannotBeRead) {
-  expect_refused("orbit.oem", "CCSDS_OEM_VERS = 2.0\nthis is no orbit\n", {"orbit.oem", "line 2"});
-  expect_refused("orbit.oem", "", {"orbit.oem", "must begin with CCSDS_OEM_VERS"});
+  refused(arguments(pass.mission(), pipe, pass.db),
+          {"pipe.csv: cannot be read: not a regular file"});
 }
 
 TEST(Process, RefusesADatabaseThatIsNotOursAndLeavesItAlone) {
@@ -151,43 +125,27 @@ TEST(Process, RefusesADatabaseThatIsNotOursAndLeavesItAlone) {
     foreign.exec("CREATE TABLE letters (a TEXT)");
   }
   const std::string before = text_of(pass.db);
-  Program program{pass.arguments_here()};
-  EXPECT_EQ(program.exit_status(), 2);
-  EXPECT_THAT(program.log(), HasSubstr(pass.db.string()));
+  refused(pass.arguments_here(), {pass.db.string()});
   EXPECT_EQ(text_of(pass.db), before);
-}
-
-TEST(Process, RefusesTelemetryWithoutARow) {
-  expect_refused("pulses.csv", "t_tai_ns,channel\n",
-                 {"no row of telemetry", "pulses.csv: no rows"});
 }
 
 TEST(Process, TakesAnEmptyTelemetryFileForRejectedInputBesideOthersOnly) {
   const PassCopy pass{"nominal"};
   pass.folder.write("empty.csv", "");
-  Program beside{pass.arguments_here()};
-  EXPECT_EQ(beside.exit_status(), 0) << beside.log();
-  EXPECT_EQ(nlohmann::json::parse(beside.out())["runs"][0]["input_rejected"], 1);
+  const Ran beside = succeeded(pass.arguments_here());
+  EXPECT_EQ(beside.json()["runs"][0]["input_rejected"], 1);
   const auto rows = rows_of(pass.db, "SELECT source, line, reason FROM rejected_input");
   ASSERT_EQ(rows.size(), 1U);
   EXPECT_THAT(rows[0], HasSubstr("empty.csv|1|the file is empty"));
 
-  auto strict = pass.arguments_here();
-  strict.emplace_back("--strict");
-  Program refused{strict};
-  EXPECT_EQ(refused.exit_status(), 2);
-
-  Program alone{arguments(pass.mission(), pass.folder.path() / "empty.csv", pass.db)};
-  EXPECT_EQ(alone.exit_status(), 2);
-  EXPECT_THAT(alone.log(), HasSubstr("no row of telemetry"));
-  EXPECT_THAT(alone.log(), HasSubstr("empty.csv: empty"));
+  refused(with(pass.arguments_here(), {"--strict"}), {});
+  refused(arguments(pass.mission(), pass.folder.path() / "empty.csv", pass.db),
+          {"no row of telemetry", "empty.csv: empty"});
 }
 
 TEST(Process, RefusesAnArchiveWhereNoFileCanBe) {
   for (const char* const db : {"/no/folder/out.db", "/proc/out.db"}) {
-    Program program{arguments("nominal", db)};
-    EXPECT_EQ(program.exit_status(), 2) << program.log();
-    EXPECT_THAT(program.log(), HasSubstr("/"));
+    refused(arguments("nominal", db), {"/"});
   }
 }
 
@@ -211,19 +169,14 @@ TEST(Process, CountsEveryKindOfImpossibleRowAndKeepsTheRest) {
     text += row + "\r\n";
   }
   pass.folder.write("bad.csv", text);
-  Program program{pass.arguments_here()};
-  ASSERT_EQ(program.exit_status(), 0) << program.log();
-  EXPECT_EQ(nlohmann::json::parse(program.out())["runs"][0]["input_rejected"], rows.size());
-  EXPECT_EQ(
-      number_of(pass.db,
-                "SELECT count(DISTINCT line) FROM rejected_input WHERE source LIKE '%/bad.csv'"
-                " AND reason != '' AND line BETWEEN 2 AND 14"),
-      static_cast<std::int64_t>(rows.size()));
-  EXPECT_THAT(program.log(), HasSubstr("13 bad rows of telemetry"));
-  const auto clean = pass.folder.path() / "clean.db";
-  Program without_bad_rows{arguments("nominal", clean)};
-  ASSERT_EQ(without_bad_rows.exit_status(), 0) << without_bad_rows.log();
-  EXPECT_EQ(product_rows(pass.db), product_rows(clean));
+  const Ran program = succeeded(pass.arguments_here());
+  EXPECT_EQ(program.json()["runs"][0]["input_rejected"], rows.size());
+  EXPECT_EQ(number_of(pass.db,
+                      "SELECT count(DISTINCT line) FROM rejected_input WHERE source LIKE "
+                      "'%/bad.csv' AND reason != '' AND line BETWEEN 2 AND 14"),
+            static_cast<std::int64_t>(rows.size()));
+  EXPECT_THAT(program.log, HasSubstr("13 bad rows of telemetry"));
+  EXPECT_EQ(product_rows(pass.db), product_rows(Processed{"nominal"}.db));
 }
 
 TEST(Process, CountsImpossibleCodedFrames) {
@@ -235,16 +188,11 @@ TEST(Process, CountsImpossibleCodedFrames) {
                     "1795143637568985513,-1.0,,,,,\n"
                     "1795143637568985513,1.0,2.5,,,,\n"
                     "1795143637568985513,1.0,0.07\n");
-  Program program{pass.arguments_here()};
-  ASSERT_EQ(program.exit_status(), 0) << program.log();
+  succeeded(pass.arguments_here());
   EXPECT_THAT(rows_of(pass.db, "SELECT reason FROM rejected_input ORDER BY line"),
               ::testing::ElementsAre(HasSubstr("period_s = \"nan\""), HasSubstr("sun2_s = \"inf\""),
                                      HasSubstr("period_s = -1"), HasSubstr("sun2_s = 2.5"),
                                      HasSubstr("has 3 columns, must have 7")));
-}
-
-TEST(Process, RefusesTelemetryWithAnUnknownHeader) {
-  expect_refused("notes.csv", "when,what\n1,2\n", {"notes.csv:1", "t_tai_ns,channel"});
 }
 
 TEST(CommandLine, IsRefusedWithTwoWhenBad) {
@@ -269,11 +217,10 @@ TEST(CommandLine, IsRefusedWithTwoWhenBad) {
            {"serve", "--mission", "m", "--db", "d", "--partition", "[l]ive"},
            {"serve", "--mission", "m", "--db", "d", "--domain", "999"}}) {
     SCOPED_TRACE(bad.empty() ? "" : bad.back());
-    Program program{bad};
-    EXPECT_EQ(program.exit_status(), 2);
+    const Ran program = refused(bad, {});
     // The command line is checked before any file is opened.
-    EXPECT_THAT(program.log(), HasSubstr("--help"));
-    EXPECT_EQ(program.out(), "");
+    EXPECT_THAT(program.log, HasSubstr("--help"));
+    EXPECT_EQ(program.out, "");
   }
 }
 
@@ -289,9 +236,8 @@ TEST(CommandLine, NamesTheWordsThatItDoesNotKnowAndWhatIsMissing) {
            {{"process", "--misson", "m", "--db", "d"},
             "not known: --misson m\n--mission is required\n"},
            {{"simulate", "--seed", "3", "s", "--out", "o"}, "not known: --seed s\n"}}) {
-    Program program{words};
-    EXPECT_EQ(program.exit_status(), 2);
-    EXPECT_EQ(program.log(), "spindrift: " + message + "Run with --help for more information.\n");
+    const Ran program = refused(words, {});
+    EXPECT_EQ(program.log, "spindrift: " + message + "Run with --help for more information.\n");
   }
 }
 
@@ -300,11 +246,10 @@ TEST(CommandLine, AnswersAFailureWithOneObjectWhenAskedForJson) {
        std::vector<std::vector<std::string>>{{"process", "--json"},
                                              {"process", "--mission", "/no/mission.toml",
                                               "--telemetry", "t", "--db", "d", "--json"}}) {
-    Program program{bad};
-    EXPECT_EQ(program.exit_status(), 2);
-    const std::string error = nlohmann::json::parse(program.out()).at("error");
+    const Ran program = refused(bad, {});
+    const std::string error = program.json().at("error");
     EXPECT_NE(error, "");
-    EXPECT_THAT(program.log(), HasSubstr(error));
+    EXPECT_THAT(program.log, HasSubstr(error));
   }
 }
 
@@ -316,12 +261,10 @@ TEST(CommandLine, FailsWhenItsAnswerCannotBeWritten) {
 }
 
 TEST(CommandLine, TellsItsVersionAndHelp) {
-  Program version{{"--version"}};
-  EXPECT_EQ(version.exit_status(), 0);
-  EXPECT_THAT(version.out(), HasSubstr("spindrift "));
-  Program help{{"serve", "--help"}};
-  EXPECT_EQ(help.exit_status(), 0);
-  EXPECT_THAT(help.out(), HasSubstr("--partition"));
+  const Ran version = succeeded({"--version"});
+  EXPECT_THAT(version.out, HasSubstr("spindrift "));
+  const Ran help = succeeded({"serve", "--help"});
+  EXPECT_THAT(help.out, HasSubstr("--partition"));
 }
 
 }  // namespace spindrift::process_refusals_test

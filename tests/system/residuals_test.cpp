@@ -7,14 +7,13 @@
 #include <fstream>
 #include <memory>
 #include <string>
-#include <vector>
 
 #include "tests/support/archive_rows.h"
-#include "tests/support/program.h"
+#include "tests/support/count_rows.h"
+#include "tests/support/ran.h"
 #include "tests/support/recorded_files.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/test_paths.h"
-#include "tests/support/text_of.h"
 #include "tests/support/three_axis_files.h"
 
 namespace spindrift::residuals_test {
@@ -30,8 +29,7 @@ class Residuals : public ::testing::Test {
  protected:
   void process(const std::string& pass) {
     db_ = folder_.path() / (pass + ".db");
-    Program program{arguments(pass, db_)};
-    ASSERT_EQ(program.exit_status(), 0) << program.log();
+    succeeded(arguments(pass, db_));
   }
 
   TemporaryFolder folder_;
@@ -72,41 +70,38 @@ TEST_F(Residuals, AreBeyondTheirLimitWhereLeftOutAndWithinItWhereUsed) {
     SCOPED_TRACE(pass);
     process(pass);
     EXPECT_THAT(rows_of(db_,
-                        "SELECT * FROM edge_residual WHERE whitened IS NOT NULL AND"
-                        " (abs(whitened) <= \"limit\") <> used"),
+                        "SELECT * FROM edge_residual WHERE whitened IS NOT NULL AND (abs(whitened) "
+                        "<= \"limit\") <> used"),
                 IsEmpty());
     EXPECT_THAT(rows_of(db_, "SELECT * FROM edge_residual WHERE (rejected_by IS NULL) <> used"),
                 IsEmpty());
-    EXPECT_GT(number_of(db_, "SELECT count(*) FROM spin_measurement WHERE expected IS NOT NULL"),
-              500);
-    EXPECT_THAT(rows_of(db_,
-                        "SELECT * FROM spin_measurement WHERE expected IS NOT NULL AND"
-                        " (abs(value - expected) <= \"limit\") <> accepted AND"
-                        " coalesce(rejected_by, quantity) = quantity"),
-                IsEmpty());
-    EXPECT_THAT(rows_of(db_,
-                        "SELECT * FROM spin_measurement WHERE rejected_by = quantity AND"
-                        " expected IS NULL"),
-                IsEmpty());
+    EXPECT_GT(count_rows(db_, "spin_measurement WHERE expected IS NOT NULL"), 500);
+    EXPECT_THAT(
+        rows_of(
+            db_,
+            "SELECT * FROM spin_measurement WHERE expected IS NOT NULL AND (abs(value - expected) "
+            "<= \"limit\") <> accepted AND coalesce(rejected_by, quantity) = quantity"),
+        IsEmpty());
+    EXPECT_THAT(
+        rows_of(db_,
+                "SELECT * FROM spin_measurement WHERE rejected_by = quantity AND expected IS NULL"),
+        IsEmpty());
   }
 }
 
 TEST_F(Residuals, AreNotStoredWhereTheMissionFileSaysSo) {
   const PassCopy pass{"nominal"};
   std::ofstream{pass.mission(), std::ios::app} << "\n[archive]\nresiduals = false\n";
-  Program program{pass.arguments_here()};
-  ASSERT_EQ(program.exit_status(), 0) << program.log();
-  EXPECT_EQ(number_of(pass.db, "SELECT count(*) FROM edge_residual"), 0);
-  EXPECT_GT(number_of(pass.db, "SELECT count(*) FROM spin_measurement WHERE expected IS NOT NULL"),
-            0);
+  succeeded(pass.arguments_here());
+  EXPECT_EQ(count_rows(pass.db, "edge_residual"), 0);
+  EXPECT_GT(count_rows(pass.db, "spin_measurement WHERE expected IS NOT NULL"), 0);
 }
 
 TEST_F(Residuals, EveryFixHasItsCandidatesAndTheRunItsChoice) {
   process("nominal");
-  EXPECT_EQ(number_of(db_,
-                      "SELECT count(*) FROM spin_fix WHERE NOT EXISTS (SELECT 1 FROM"
-                      " spin_fix_candidate AS c WHERE c.revolution = spin_fix.revolution AND"
-                      " c.candidate = 0 AND c.misfit >= 0)"),
+  EXPECT_EQ(count_rows(db_,
+                       "spin_fix WHERE NOT EXISTS (SELECT 1 FROM spin_fix_candidate AS c WHERE "
+                       "c.revolution = spin_fix.revolution AND c.candidate = 0 AND c.misfit >= 0)"),
             0);
   EXPECT_THAT(rows_of(db_, "SELECT DISTINCT resolution FROM spin_fix WHERE accepted = 1"),
               ElementsAre("GEOMETRY|"))
@@ -118,13 +113,14 @@ TEST_F(Residuals, TheChoiceOfARunIsItsAnswerWithWhatSettledItAndHowMuchWorseTheO
   for (const std::string pass : {"nominal", "dirty", "north-only"}) {
     SCOPED_TRACE(pass);
     process(pass);
-    EXPECT_THAT(rows_of(db_,
-                        "SELECT estimator, settled_by, abs(choice.ra_deg - verdict.ra_deg) < 1e-9,"
-                        " abs(choice.dec_deg - verdict.dec_deg) < 1e-9, delta_chi_square > 20,"
-                        " delta_chi_square <= 64 * (edges + outliers)"
-                        " FROM axis_choice AS choice JOIN pass_verdict AS verdict"
-                        " USING (run_id, estimator) JOIN spin_batch USING (run_id, t_tai_ns)"),
-                ElementsAre("batch|geometry|1|1|1|1|"));
+    EXPECT_THAT(
+        rows_of(
+            db_,
+            "SELECT estimator, settled_by, abs(choice.ra_deg - verdict.ra_deg) < 1e-9, "
+            "abs(choice.dec_deg - verdict.dec_deg) < 1e-9, delta_chi_square > 20, delta_chi_square "
+            "<= 64 * (edges + outliers) FROM axis_choice AS choice JOIN pass_verdict AS verdict "
+            "USING (run_id, estimator) JOIN spin_batch USING (run_id, t_tai_ns)"),
+        ElementsAre("batch|geometry|1|1|1|1|"));
   }
 }
 
@@ -133,24 +129,23 @@ TEST_F(Residuals, OfAThreeAxisPassAreThoseOfItsSensorsWithValueAndLimit) {
       folder_.path(),
       {.duration_s = 300.0, .gyro_s = 1.0, .star_s = 5.0, .sun_s = 5.0, .separation = true});
   db_ = folder_.path() / "out.db";
-  Program program{{"process", "--mission", (folder_.path() / "mission.toml").string(),
-                   "--telemetry", folder_.path().string(), "--db", db_.string()}};
-  ASSERT_EQ(program.exit_status(), 0) << program.log();
+  succeeded({"process", "--mission", folder_.path() / "mission.toml", "--telemetry", folder_.path(),
+             "--db", db_});
   EXPECT_THAT(rows_of(db_, "SELECT DISTINCT estimator FROM sample_residual ORDER BY 1"),
               ElementsAre("batch|", "mekf|", "sequential|"));
+  EXPECT_THAT(
+      rows_of(db_,
+              "SELECT * FROM sample_residual WHERE nis IS NOT NULL AND (nis <= \"limit\") <> used"),
+      IsEmpty());
   EXPECT_THAT(rows_of(db_,
-                      "SELECT * FROM sample_residual WHERE nis IS NOT NULL AND"
-                      " (nis <= \"limit\") <> used"),
-              IsEmpty());
-  EXPECT_THAT(rows_of(db_,
-                      "SELECT DISTINCT kind, dof, unit FROM sample_residual WHERE estimator ="
-                      " 'mekf' AND kind <> 'gyro' ORDER BY 1"),
+                      "SELECT DISTINCT kind, dof, unit FROM sample_residual WHERE estimator = "
+                      "'mekf' AND kind <> 'gyro' ORDER BY 1"),
               ElementsAre("magnetometer|3|nT|", "star|3|deg|", "sun|2|deg|"));
-  EXPECT_THAT(rows_of(db_,
-                      "SELECT * FROM rejected_sample WHERE rejected_by IN ('innovation',"
-                      " 'saturated', 'frozen', 'outlier') AND"
-                      " (value IS NULL OR value <= \"limit\")"),
-              IsEmpty());
+  EXPECT_THAT(
+      rows_of(db_,
+              "SELECT * FROM rejected_sample WHERE rejected_by IN ('innovation', 'saturated', "
+              "'frozen', 'outlier') AND (value IS NULL OR value <= \"limit\")"),
+      IsEmpty());
 }
 
 /// The result is the same whether the filter processes the samples too or only the reconstruction
@@ -162,21 +157,20 @@ TEST_F(Residuals, OfAReconstructionAreThoseOfGatedFixesAndGyroSamplesToo) {
   for (const std::string command : {"process", "reconstruct"}) {
     SCOPED_TRACE(command);
     db_ = folder_.path() / (command + ".db");
-    Program program{{command, "--mission", (folder_.path() / "mission.toml").string(),
-                     "--telemetry", folder_.path().string(), "--db", db_.string()}};
-    ASSERT_EQ(program.exit_status(), 0) << program.log();
+    succeeded({command, "--mission", folder_.path() / "mission.toml", "--telemetry", folder_.path(),
+               "--db", db_});
     // `batch` uses the fixes up to two minutes after the first one, `sequential` only that one.
     EXPECT_THAT(
         rows_of(db_,
-                "SELECT estimator, kind, dof, unit, rejected_by, count(*) FROM"
-                " sample_residual WHERE kind IN ('gyro', 'star') AND estimator <> 'mekf'"
-                " GROUP BY 1, 2, 3, 4, 5 ORDER BY 1, 2, 5"),
+                "SELECT estimator, kind, dof, unit, rejected_by, count(*) FROM sample_residual "
+                "WHERE kind IN ('gyro', 'star') AND estimator <> 'mekf' GROUP BY 1, 2, 3, 4, 5 "
+                "ORDER BY 1, 2, 5"),
         ElementsAre("batch|gyro|1|deg_s|saturated|1|", "batch|star|3|deg||24|",
                     "batch|star|3|deg|innovation|1|", "sequential|gyro|1|deg_s|saturated|1|",
                     "sequential|star|3|deg||1|", "sequential|star|3|deg|innovation|1|"));
     EXPECT_THAT(rows_of(db_,
-                        "SELECT * FROM sample_residual WHERE kind = 'gyro' AND"
-                        " (residual_1 <= \"limit\" OR nis IS NOT NULL OR sigma_1 IS NOT NULL)"),
+                        "SELECT * FROM sample_residual WHERE kind = 'gyro' AND (residual_1 <= "
+                        "\"limit\" OR nis IS NOT NULL OR sigma_1 IS NOT NULL)"),
                 IsEmpty());
   }
 }

@@ -17,7 +17,8 @@
 #include "pipelines/frames/angle.h"
 #include "pipelines/frames/rotation_vector.h"
 #include "tests/support/archive_rows.h"
-#include "tests/support/processed_pass.h"
+#include "tests/support/count_rows.h"
+#include "tests/support/processed.h"
 #include "tests/support/test_paths.h"
 #include "tests/support/text_of.h"
 
@@ -72,9 +73,7 @@ class ThreeAxisFaults : public ::testing::TestWithParam<Fault> {};
 
 TEST_P(ThreeAxisFaults, NoRowThatSaysOkIsBeyondFiveSigmaAndTheSensorIsNamed) {
   const Fault& fault = GetParam();
-  const TemporaryFolder folder;
-  const Outcome outcome = process(folder, kFaults / fault.pass);
-  ASSERT_EQ(outcome.status, 0) << outcome.log;
+  const Processed outcome{kFaults / fault.pass};
   const std::vector<Row> rows = rows_beside_truth(kFaults / fault.pass, outcome.db);
   ASSERT_GT(rows.size(), 150U);
   double ok = 0.0;
@@ -87,16 +86,17 @@ TEST_P(ThreeAxisFaults, NoRowThatSaysOkIsBeyondFiveSigmaAndTheSensorIsNamed) {
   }
   EXPECT_GE(ok, fault.least_ok * static_cast<double>(rows.size()));
   EXPECT_EQ(outcome.run["attitude"]["quality"], fault.quality);
-  EXPECT_GT(number_of(outcome.db,
-                      fmt::format("SELECT count(*) FROM rejected_sample WHERE kind = '{}' AND "
-                                  "rejected_by = '{}'",
-                                  fault.sensor, fault.left_out)),
-            25);
   EXPECT_GT(
       number_of(outcome.db,
-                fmt::format("SELECT count(*) FROM attitude WHERE status LIKE '%many {} samples "
-                            "gated%'",
-                            fault.sensor)),
+                fmt::format(
+                    "SELECT count(*) FROM rejected_sample WHERE kind = '{}' AND rejected_by = '{}'",
+                    fault.sensor, fault.left_out)),
+      25);
+  EXPECT_GT(
+      number_of(
+          outcome.db,
+          fmt::format("SELECT count(*) FROM attitude WHERE status LIKE '%many {} samples gated%'",
+                      fault.sensor)),
       80);
 }
 
@@ -118,13 +118,11 @@ TEST(ThreeAxisWithoutGyro, SunAndFieldGiveAnAttitude) {
   for (const char* file : {"mission.toml", "orbit.oem", "sun.csv", "magnetometer.csv"}) {
     pass.write(file, text_of(kFaults / "star-stuck" / file));
   }
-  const TemporaryFolder folder;
-  const Outcome outcome = process(folder, pass.path());
-  ASSERT_EQ(outcome.status, 0) << outcome.log;
+  const Processed outcome{pass.path()};
   EXPECT_EQ(outcome.run["attitude"]["quality"], "CONVERGING");
   // There are 160 pairs of a field and a sun sample 10 ms later.
-  EXPECT_EQ(number_of(outcome.db, "SELECT count(*) FROM attitude"), 160);
-  EXPECT_EQ(number_of(outcome.db, "SELECT count(*) FROM attitude WHERE sigma_deg > 2"), 0);
+  EXPECT_EQ(count_rows(outcome.db, "attitude"), 160);
+  EXPECT_EQ(count_rows(outcome.db, "attitude WHERE sigma_deg > 2"), 0);
 }
 
 }  // namespace spindrift::three_axis_faults_test

@@ -6,24 +6,27 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <ostream>
-#include <sstream>
 #include <string>
 #include <vector>
 
-#include "services/bus/qos.h"
-#include "services/bus/reader.h"
 #include "services/publisher/product_messages.h"
 #include "tests/support/archive_rows.h"
 #include "tests/support/bus_fixture.h"
-#include "tests/support/processed_pass.h"
-#include "tests/support/program.h"
-#include "tests/support/service.h"
+#include "tests/support/count_rows.h"
+#include "tests/support/lines.h"
+#include "tests/support/on_bus.h"
+#include "tests/support/processed.h"
+#include "tests/support/ran.h"
+#include "tests/support/recorded_files.h"
+#include "tests/support/simulated.h"
+#include "tests/support/subscriber.h"
 #include "tests/support/test_paths.h"
 #include "tests/support/text_of.h"
 #include "tests/support/three_axis_files.h"
 
 namespace spindrift::three_axis_test {
 
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
@@ -31,59 +34,41 @@ const std::filesystem::path kSeparation = test_data() / "three-axis" / "separati
 const std::string kMission = (kSeparation / "mission.toml").string();
 
 constexpr const char* kAllSamples =
-    "SELECT (SELECT count(*) FROM gyro_sample), (SELECT count(*) FROM sun_sample),"
-    " (SELECT count(*) FROM star_sample)";
+    "SELECT (SELECT count(*) FROM gyro_sample), (SELECT count(*) FROM sun_sample), (SELECT "
+    "count(*) FROM star_sample)";
 const std::vector<std::string> kWholePass{"961|223|1|"};
 
-Program process_files(const std::filesystem::path& telemetry, const std::filesystem::path& db) {
-  return Program{{"process", "--mission", kMission, "--telemetry", telemetry.string(), "--db",
-                  db.string(), "--json"}};
+Ran process_files(const std::filesystem::path& telemetry, const std::filesystem::path& db) {
+  return succeeded(arguments(kSeparation / "mission.toml", telemetry, db));
 }
 
-TEST(ThreeAxis, ProcessStoresEverySampleAsItWasReceived) {
-  const TemporaryFolder folder;
-  const Outcome outcome = process(folder, kSeparation);
-  ASSERT_EQ(outcome.status, 0) << outcome.log;
+TEST(ThreeAxis, ProcessStoresEverySampleAsItWasReceivedAndTheAttitudeOfItsStarFix) {
+  const Processed outcome{kSeparation};
   EXPECT_EQ(outcome.run["kind"], "three_axis");
   EXPECT_EQ(outcome.run["samples_received"],
             nlohmann::json({{"gyro_samples", 961}, {"sun_vectors", 223}, {"star_fixes", 1}}));
   EXPECT_EQ(rows_of(outcome.db, kAllSamples), kWholePass);
-  EXPECT_EQ(rows_of(outcome.db,
-                    "SELECT spacecraft_id, t_tai_ns, source, seq, printf('%.12g', qx),"
-                    " printf('%.12g', qw) FROM star_sample"),
-            std::vector<std::string>{
-                "LEOSAT|1772337937000000000|star.csv|2|-0.487081521215|0.16712265087|"});
-  EXPECT_EQ(number_of(outcome.db, "SELECT count(*) FROM run WHERE finished_utc IS NOT NULL"), 1);
+  EXPECT_THAT(rows_of(outcome.db,
+                      "SELECT spacecraft_id, t_tai_ns, source, seq, printf('%.12g', qx), "
+                      "printf('%.12g', qw) FROM star_sample"),
+              ElementsAre("LEOSAT|1772337937000000000|star.csv|2|-0.487081521215|0.16712265087|"));
+  EXPECT_EQ(count_rows(outcome.db, "run WHERE finished_utc IS NOT NULL"), 1);
   EXPECT_EQ(number_of(outcome.db, "SELECT first_tai_ns FROM run"), 1772337697000000000);
-}
-
-TEST(ThreeAxis, TheAttitudeOfAPassIsThatOfItsStarFix) {
-  const TemporaryFolder folder;
-  const Outcome outcome = process(folder, kSeparation);
-  ASSERT_EQ(outcome.status, 0) << outcome.log;
   const nlohmann::json& attitude = outcome.run["attitude"];
   EXPECT_EQ(attitude["quality"], "CONVERGING");
   EXPECT_EQ(attitude["utc"], "2026-03-01T04:05:00.000Z");
   EXPECT_NEAR(attitude["sigma_deg"], std::sqrt(3.0) * 20.0 / 3600.0, 1e-9);
   EXPECT_EQ(outcome.run["sensors"]["sun"]["accepted"], 223);
   EXPECT_EQ(outcome.run["sensors"]["sun"]["rejected"], nlohmann::json::object());
-  EXPECT_EQ(
+  EXPECT_THAT(
       rows_of(outcome.db, "SELECT estimator, quality, ra_deg IS NULL, qw, why FROM pass_verdict"),
-      (std::vector<std::string>{
-          fmt::format("mekf|CONVERGING|1|{:a}|CONVERGING|", attitude["qw"].get<double>())}));
+      ElementsAre(fmt::format("mekf|CONVERGING|1|{:a}|CONVERGING|", attitude["qw"].get<double>())));
 }
 
 TEST(ThreeAxis, SunAndMagnetometerGiveTheAttitudeBeforeTheFirstStarFix) {
-  const TemporaryFolder folder;
-  const auto scenario =
-      folder.write("scenario.toml", text_of(scenarios() / "separation.toml") +
-                                        "[three_axis.magnetometer]\nnoise_nt = 100\n");
-  const auto pass = folder.path() / "pass";
-  Program simulate{{"simulate", scenario.string(), "--out", pass.string()}};
-  ASSERT_EQ(simulate.exit_status(), 0) << simulate.log();
-  const Outcome outcome = process(folder, pass);
-  ASSERT_EQ(outcome.status, 0) << outcome.log;
-  const auto truth = nlohmann::json::parse(text_of(pass / "truth.json"));
+  const Simulated simulated{"separation.toml", {}, "[three_axis.magnetometer]\nnoise_nt = 100\n"};
+  const Processed outcome{simulated.pass};
+  const auto truth = nlohmann::json::parse(text_of(simulated.pass / "truth.json"));
   const auto acquisition = truth["T3"]["t_tai_ns"].get<std::int64_t>();
   const auto first_fix = truth["T4"]["t_tai_ns"].get<std::int64_t>();
   const std::string mekf = " FROM attitude WHERE source = 'mekf'";
@@ -92,13 +77,12 @@ TEST(ThreeAxis, SunAndMagnetometerGiveTheAttitudeBeforeTheFirstStarFix) {
   // The last attitude before the first star fix is compared with the truth at T4.
   const auto& q = truth["T4"]["q_icrf_body_xyzw"];
   const std::vector<std::string> last = rows_of(
-      outcome.db,
-      fmt::format("SELECT quality, {} - t_tai_ns < 300000000,"
-                  " 2 * degrees(acos(abs(qx * {} + qy * {} + qz * {} + qw * {}))) < 4 * sigma_deg,"
-                  " sigma_deg < 0.5 {} AND t_tai_ns < {} ORDER BY t_tai_ns DESC LIMIT 1",
-                  first_fix, q[0].get<double>(), q[1].get<double>(), q[2].get<double>(),
-                  q[3].get<double>(), mekf, first_fix));
-  EXPECT_EQ(last, std::vector<std::string>{"OK|1|1|1|"});
+      outcome.db, fmt::format("SELECT quality, {} - t_tai_ns < 300000000, 2 * degrees(acos(abs(qx "
+                              "* {} + qy * {} + qz * {} + qw * {}))) < 4 * sigma_deg, sigma_deg < "
+                              "0.5 {} AND t_tai_ns < {} ORDER BY t_tai_ns DESC LIMIT 1",
+                              first_fix, q[0].get<double>(), q[1].get<double>(), q[2].get<double>(),
+                              q[3].get<double>(), mekf, first_fix));
+  EXPECT_THAT(last, ElementsAre("OK|1|1|1|"));
   EXPECT_GT(outcome.run["sensors"]["magnetometer"]["accepted"], 200);
   EXPECT_EQ(outcome.run["sensors"]["magnetometer"]["rejected"], nlohmann::json::object());
 }
@@ -107,8 +91,8 @@ TEST(ThreeAxis, SunAndMagnetometerGiveTheAttitudeBeforeTheFirstStarFix) {
 std::vector<std::string> pass_rows(const std::filesystem::path& db) {
   std::vector<std::string> rows;
   for (const char* query :
-       {"SELECT t_tai_ns, source, qx, qy, qz, qw, rate_x_rad_s, rate_y_rad_s, rate_z_rad_s,"
-        " sigma_deg, quality, reasons, status FROM attitude ORDER BY 1",
+       {"SELECT t_tai_ns, source, qx, qy, qz, qw, rate_x_rad_s, rate_y_rad_s, rate_z_rad_s, "
+        "sigma_deg, quality, reasons, status FROM attitude ORDER BY 1",
         "SELECT t_tai_ns, kind, rejected_by, squared_innovation FROM rejected_sample ORDER BY 1, 2",
         "SELECT spacecraft_id, finished, estimator, quality, qx, sigma_deg, why FROM pass_verdict",
         kAllSamples}) {
@@ -121,35 +105,26 @@ std::vector<std::string> pass_rows(const std::filesystem::path& db) {
 
 /// Returns the time of the last attitude that a late subscriber receives.
 std::int64_t last_on(const bus::BusConfig& bus) {
-  const auto participant = bus::Participant::create(bus).value();
-  const auto reader = bus::Reader<spindrift_AttitudeEstimate>::create(
-                          participant, product_topic<AttitudeEstimate>(), bus::results_qos())
-                          .value();
-  const auto taken = take_samples(reader, 1);
+  const Subscriber attitudes{bus, product_topic<AttitudeEstimate>()};
+  const auto taken = take_samples(attitudes.reader(), 1);
   return taken.empty() ? 0 : taken.front().t_tai_ns;
 }
 
 TEST(ThreeAxis, ServeGivesWhatProcessGivesAlsoWhenItIsKilledInThePass) {
   const TemporaryFolder pass;
   testing::write_three_axis_pass(pass.path());
-  const TemporaryFolder folder;
-  const Outcome outcome = process(folder, pass.path());
-  ASSERT_EQ(outcome.status, 0) << outcome.log;
+  const Processed outcome{pass.path()};
   const std::vector<std::string> expected = pass_rows(outcome.db);
   const std::int64_t last = number_of(outcome.db, "SELECT max(t_tai_ns) FROM attitude");
-  ASSERT_EQ(number_of(outcome.db, "SELECT count(*) FROM rejected_sample"), 2);
+  ASSERT_EQ(count_rows(outcome.db, "rejected_sample"), 2);
   ASSERT_EQ(outcome.run["attitude"]["quality"], "OK");
 
-  Service service{pass.path().string(), "replay"};
+  ReadyService service{pass.path().string(), "replay"};
   const std::int64_t middle = last - 30'000'000'000;
   for (const bool first : {true, false}) {
-    ASSERT_TRUE(service.ready()) << service.program().log();
     const TemporaryFolder half;
     testing::write_half(pass.path(), middle, first, half.path());
-    Program replay{{"replay", "--mission", service.mission(), "--telemetry", half.path().string(),
-                    "--speed", "0", "--domain", std::to_string(service.bus().domain), "--partition",
-                    service.bus().partition}};
-    ASSERT_EQ(replay.exit_status(), 0) << replay.log();
+    succeeded(service.words({"replay", "--telemetry", half.path(), "--speed", "0"}));
     const std::int64_t reached = first ? middle - 2'000'000'000 : last;
     ASSERT_TRUE(eventually(
         [&] { return number_of(service.db(), "SELECT max(t_tai_ns) FROM attitude") >= reached; }));
@@ -158,17 +133,15 @@ TEST(ThreeAxis, ServeGivesWhatProcessGivesAlsoWhenItIsKilledInThePass) {
         return three_axis_samples_before(service.db(), middle) ==
                three_axis_samples_before(outcome.db, middle);
       }));
-      service.program().signal(SIGKILL);
-      service.program().exit_status();
-      service.start();
+      service.kill_and_go_on();
     }
   }
   EXPECT_TRUE(eventually([&] { return last_on(service.bus()) == last; }));
-  ASSERT_EQ(service.stop(), 0) << service.program().log();
+  ASSERT_EQ(service.stop(), 0) << service.log();
   EXPECT_THAT(service.log(), HasSubstr("continuing run"));
   EXPECT_THAT(service.log(), HasSubstr("attitude ICRF to body, Euler 3-1-2"));
   EXPECT_EQ(pass_rows(service.db()), expected);
-  const auto summary = nlohmann::json::parse(service.program().out())["runs"][0];
+  const auto summary = service.summary()["runs"][0];
   EXPECT_EQ(summary["attitude"], outcome.run["attitude"]);
   EXPECT_EQ(summary["sensors"], outcome.run["sensors"]);
 }
@@ -176,10 +149,10 @@ TEST(ThreeAxis, ServeGivesWhatProcessGivesAlsoWhenItIsKilledInThePass) {
 TEST(ThreeAxis, SamplesOfASecondRunAreStoredOnce) {
   const TemporaryFolder folder;
   for (int run = 1; run <= 2; ++run) {
-    EXPECT_EQ(process(folder, kSeparation).status, 0);
+    process_files(kSeparation, folder.path() / "out.db");
     EXPECT_EQ(rows_of(folder.path() / "out.db", kAllSamples), kWholePass);
   }
-  EXPECT_EQ(number_of(folder.path() / "out.db", "SELECT count(*) FROM run"), 2);
+  EXPECT_EQ(count_rows(folder.path() / "out.db", "run"), 2);
 }
 
 TEST(ThreeAxis, BadRowsAreStoredWithTheirReasonAndTheOthersTakenInAnyOrder) {
@@ -197,15 +170,14 @@ TEST(ThreeAxis, BadRowsAreStoredWithTheirReasonAndTheOthersTakenInAnyOrder) {
   telemetry.write("star.csv", "t_tai_ns,qx,qy,qz,qw\n1772337698000000000,0,0,0,1.002\n");
   telemetry.write("sun.csv", "t_tai_ns,sx,sy,sz\n1772337698000000000,0,0,0\n");
   const auto db = folder.path() / "out.db";
-  Program program = process_files(telemetry.path(), db);
-  ASSERT_EQ(program.exit_status(), 0) << program.log();
-  EXPECT_EQ(rows_of(db, "SELECT t_tai_ns, printf('%g', wx_rad_s) FROM gyro_sample"),
-            (std::vector<std::string>{"1772337697000000000|0.2|", "1772337697500000000|0.1|"}));
-  EXPECT_EQ(rows_of(db, kAllSamples), std::vector<std::string>{"2|0|0|"});
-  EXPECT_EQ(number_of(db, "SELECT count(*) FROM rejected_input"), 6);
-  EXPECT_EQ(rows_of(db, "SELECT line FROM rejected_input WHERE source LIKE '%gyro.csv'"),
-            (std::vector<std::string>{"5|", "6|", "7|", "8|"}));
-  EXPECT_THAT(program.log(), HasSubstr("must have length 1 within 0.001"));
+  const Ran program = process_files(telemetry.path(), db);
+  EXPECT_THAT(rows_of(db, "SELECT t_tai_ns, printf('%g', wx_rad_s) FROM gyro_sample"),
+              ElementsAre("1772337697000000000|0.2|", "1772337697500000000|0.1|"));
+  EXPECT_THAT(rows_of(db, kAllSamples), ElementsAre("2|0|0|"));
+  EXPECT_EQ(count_rows(db, "rejected_input"), 6);
+  EXPECT_THAT(rows_of(db, "SELECT line FROM rejected_input WHERE source LIKE '%gyro.csv'"),
+              ElementsAre("5|", "6|", "7|", "8|"));
+  EXPECT_THAT(program.log, HasSubstr("must have length 1 within 0.001"));
 }
 
 /// Names a kind of telemetry whose sensor the mission file lacks.
@@ -238,13 +210,10 @@ TEST_P(AKindWithoutSensor, IsStoredAndSaidOnce) {
   }
   telemetry.write(kind.file, csv);
   const auto db = folder.path() / "out.db";
-  Program program{{"process", "--mission", mission.string(), "--telemetry",
-                   telemetry.path().string(), "--db", db.string()}};
-  ASSERT_EQ(program.exit_status(), 0) << program.log();
-  EXPECT_EQ(number_of(db, fmt::format("SELECT count(*) FROM {}", kind.table)), 1000);
-  const std::size_t first = program.log().find(kind.warning);
-  ASSERT_NE(first, std::string::npos) << program.log();
-  EXPECT_EQ(program.log().find(kind.warning, first + 1), std::string::npos);
+  const Ran program =
+      succeeded({"process", "--mission", mission, "--telemetry", telemetry.path(), "--db", db});
+  EXPECT_EQ(count_rows(db, kind.table), 1000);
+  expect_said_once(program.log, kind.warning);
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -266,80 +235,59 @@ INSTANTIATE_TEST_SUITE_P(
 
 TEST(ThreeAxis, NormsWithinATenthOfAPercentAreStoredAsReceivedAndChangeNoAttitude) {
   const auto attitudes = [](const std::filesystem::path& pass, const TemporaryFolder& folder) {
-    Program program = process_files(pass, folder.path() / "out.db");
-    EXPECT_EQ(program.exit_status(), 0) << program.log();
+    process_files(pass, folder.path() / "out.db");
     return rows_of(folder.path() / "out.db",
-                   "SELECT t_tai_ns, source, quality,"
-                   " printf('%.6f %.6f %.6f %.6f %.6f', qx, qy, qz, qw, sigma_deg)"
-                   " FROM attitude ORDER BY 1, 2");
+                   "SELECT t_tai_ns, source, quality, printf('%.6f %.6f %.6f %.6f %.6f', qx, qy, "
+                   "qz, qw, sigma_deg) FROM attitude ORDER BY 1, 2");
   };
   const TemporaryFolder unit;
   const TemporaryFolder scaled;
   const TemporaryFolder telemetry;
   telemetry.write("gyro.csv", text_of(kSeparation / "gyro.csv"));
-  const auto write_scaled = [&telemetry](const char* file) {
-    std::istringstream lines{text_of(kSeparation / file)};
-    std::string line;
-    std::getline(lines, line);
-    std::string csv = line + "\n";
-    while (std::getline(lines, line)) {
-      std::istringstream fields{line};
-      std::string field;
-      std::getline(fields, field, ',');
-      csv += field;
-      while (std::getline(fields, field, ',')) {
-        csv += fmt::format(",{:.12f}", std::stod(field) * 1.0009);
-      }
-      csv += "\n";
-    }
-    telemetry.write(file, csv);
-  };
-  write_scaled("sun.csv");
-  write_scaled("star.csv");
+  for (const char* file : {"sun.csv", "star.csv"}) {
+    telemetry.write(file, with_rows(text_of(kSeparation / file), [](const std::string& row) {
+                      return with_numbers(
+                          row, [](double value) { return fmt::format("{:.12f}", value * 1.0009); });
+                    }));
+  }
   const std::vector<std::string> expected = attitudes(kSeparation, unit);
   ASSERT_FALSE(expected.empty());
   EXPECT_EQ(attitudes(telemetry.path(), scaled), expected);
-  EXPECT_EQ(
+  EXPECT_THAT(
       rows_of(
           scaled.path() / "out.db",
           "SELECT printf('%.6f', sqrt(qx * qx + qy * qy + qz * qz + qw * qw)) FROM star_sample"),
-      std::vector<std::string>{"1.000900|"});
-  EXPECT_EQ(
+      ElementsAre("1.000900|"));
+  EXPECT_THAT(
       rows_of(scaled.path() / "out.db",
               "SELECT DISTINCT printf('%.6f', sqrt(sx * sx + sy * sy + sz * sz)) FROM sun_sample"),
-      std::vector<std::string>{"1.000900|"});
+      ElementsAre("1.000900|"));
 }
 
 TEST(ThreeAxis, ServeGoesOnWithTheRunAfterAKillAndStoresWhatComesAgainOnce) {
   const TemporaryFolder folder;
   const auto db = folder.path() / "served.db";
   const bus::BusConfig bus = bus_of_its_own();
-  const auto on_bus = [&bus](std::vector<std::string> arguments) {
-    arguments.insert(arguments.end(), {"--mission", kMission, "--domain",
-                                       std::to_string(bus.domain), "--partition", bus.partition});
-    return arguments;
+  const auto on_bus = [&](const Words& words) {
+    return on(bus, with(words, {"--mission", kMission}));
   };
   const auto replay = [&] {
-    Program sending{on_bus({"replay", "--telemetry", kSeparation.string(), "--speed", "0"})};
-    EXPECT_EQ(sending.exit_status(), 0) << sending.log();
+    succeeded(on_bus({"replay", "--telemetry", kSeparation, "--speed", "0"}));
   };
   {
-    Program service{on_bus({"serve", "--db", db.string()})};
-    ASSERT_TRUE(service.says("ready")) << service.log();
+    Serving service{on_bus({"serve", "--db", db})};
     replay();
     ASSERT_TRUE(eventually([&] { return rows_of(db, kAllSamples) == kWholePass; }));
     service.signal(SIGKILL);
     service.exit_status();
   }
-  Program service{on_bus({"serve", "--db", db.string()})};
-  ASSERT_TRUE(service.says("ready")) << service.log();
+  Serving service{on_bus({"serve", "--db", db})};
   EXPECT_THAT(service.log(), HasSubstr("1185 samples read back"));
   replay();
-  service.signal(SIGTERM);
-  ASSERT_EQ(service.exit_status(), 0) << service.log();
+  stop_in_order(service);
   EXPECT_THAT(service.log(), Not(HasSubstr("samples are missing")));
   EXPECT_EQ(rows_of(db, kAllSamples), kWholePass);
-  EXPECT_EQ(number_of(db, "SELECT count(*) FROM run"), 1);
+  EXPECT_EQ(count_rows(db, "run"), 1);
   EXPECT_EQ(number_of(db, "SELECT sum(received) FROM source_count"), 2 * 1185);
   EXPECT_EQ(number_of(db, "SELECT sum(gaps) FROM source_count"), 0);
 }

@@ -5,12 +5,13 @@
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <sstream>
 #include <string>
 #include <vector>
 
 #include "tests/support/archive_rows.h"
-#include "tests/support/program.h"
+#include "tests/support/count_rows.h"
+#include "tests/support/lines.h"
+#include "tests/support/ran.h"
 #include "tests/support/test_paths.h"
 #include "tests/support/text_of.h"
 
@@ -41,20 +42,17 @@ class TwoSenders : public ::testing::Test {
                             << fmt::format("[sources]\nprefer = \"{}\"\n", prefer);
   }
 
-  Processed process(const std::string& name, std::vector<std::filesystem::path> telemetry) {
+  Processed process(const std::string& name, const Words& telemetry) {
     db_ = folder_.path() / (name + ".db");
-    std::vector<std::string> arguments{"process",    "--mission", mission_.string(), "--db",
-                                       db_.string(), "--json",    "--telemetry"};
-    for (const auto& path : telemetry) {
-      arguments.push_back(path.string());
-    }
-    Program program{arguments};
-    EXPECT_EQ(program.exit_status(), 0) << program.log();
-    return {.run = nlohmann::json::parse(program.out())["runs"][0],
-            .attitudes = rows_of(db_,
-                                 "SELECT t_tai_ns, qx, qy, qz, qw, sigma_deg, quality FROM"
-                                 " attitude ORDER BY t_tai_ns"),
-            .log = program.log()};
+    Words words{"process", "--mission", mission_, "--db", db_, "--json", "--telemetry"};
+    words.insert(words.end(), telemetry.begin(), telemetry.end());
+    const Ran program = succeeded(words);
+    return {
+        .run = program.json()["runs"][0],
+        .attitudes = rows_of(
+            db_,
+            "SELECT t_tai_ns, qx, qy, qz, qw, sigma_deg, quality FROM attitude ORDER BY t_tai_ns"),
+        .log = program.log};
   }
 
   TemporaryFolder folder_;
@@ -74,15 +72,16 @@ TEST_F(TwoSenders, NeitherIsUsedAndBothAreKeptAndNamed) {
     EXPECT_GT(stars, fixes);
     EXPECT_EQ(both.run["sensors"]["star"]["rejected"]["contradicted"], stars);
     EXPECT_EQ(both.run["sensors"]["star"]["accepted"], 0);
+    EXPECT_THAT(
+        rows_of(
+            db_,
+            "SELECT kind, source, used, count(*) FROM contradiction GROUP BY 1, 2, 3 ORDER BY 2"),
+        ElementsAre(fmt::format("star|second/star.csv|0|{}|", stars),
+                    fmt::format("star|two-senders/star.csv|0|{}|", stars)));
     EXPECT_THAT(rows_of(db_,
-                        "SELECT kind, source, used, count(*) FROM contradiction GROUP BY 1, 2, "
-                        "3 ORDER BY 2"),
-                ElementsAre(fmt::format("star|second/star.csv|0|{}|", stars),
-                            fmt::format("star|two-senders/star.csv|0|{}|", stars)));
-    EXPECT_THAT(rows_of(db_,
-                        "SELECT key, severity, state, json_extract(evidence, '$.sources[0]'),"
-                        " json_extract(evidence, '$.sources[1]') FROM alert WHERE key LIKE"
-                        " 'link.contradiction:%' ORDER BY key"),
+                        "SELECT key, severity, state, json_extract(evidence, '$.sources[0]'), "
+                        "json_extract(evidence, '$.sources[1]') FROM alert WHERE key LIKE "
+                        "'link.contradiction:%' ORDER BY key"),
                 ElementsAre("link.contradiction:second/star.csv|warning|active|second/star.csv|"
                             "two-senders/star.csv|",
                             "link.contradiction:two-senders/star.csv|warning|active|"
@@ -101,14 +100,9 @@ TEST_F(TwoSenders, ThePreferredOneIsUsedWhateverItIsCalled) {
     prefer(name);
     const Processed both = process("preferred", {kPass / "second", kPass});
     EXPECT_EQ(both.attitudes, alone.attitudes);
-    EXPECT_EQ(number_of(db_,
-                        "SELECT count(*) FROM contradiction WHERE used = 1 AND source ="
-                        " 'two-senders/star.csv'"),
+    EXPECT_EQ(count_rows(db_, "contradiction WHERE used = 1 AND source = 'two-senders/star.csv'"),
               both.run["contradictions"]["star"]);
-    EXPECT_EQ(number_of(db_,
-                        "SELECT count(*) FROM contradiction WHERE used = 1 AND source ="
-                        " 'second/star.csv'"),
-              0);
+    EXPECT_EQ(count_rows(db_, "contradiction WHERE used = 1 AND source = 'second/star.csv'"), 0);
     EXPECT_THAT(rows_of(db_, "SELECT key FROM alert WHERE key LIKE 'link.contradiction:%'"),
                 ElementsAre("link.contradiction:second/star.csv|"));
     std::filesystem::remove(db_);
@@ -127,37 +121,24 @@ TEST_F(TwoSenders, TheValuesOfALaterRunAreItsOwnAndThatIsSaid) {
   EXPECT_THAT(one.log, Not(HasSubstr("than an earlier run")));
   const Processed other = process("archive", {kPass / "second"});
   EXPECT_THAT(other.log, HasSubstr("star samples have other values than an earlier run has"));
-  EXPECT_GT(number_of(db_, "SELECT count(*) FROM contradiction WHERE used = 1"), 0);
-  EXPECT_GT(number_of(db_, "SELECT count(*) FROM notice WHERE code = 'contradicts_earlier_run'"),
-            0);
+  EXPECT_GT(count_rows(db_, "contradiction WHERE used = 1"), 0);
+  EXPECT_GT(count_rows(db_, "notice WHERE code = 'contradicts_earlier_run'"), 0);
 }
 
 /// The copy has four decimals where the original has twelve.
 TEST_F(TwoSenders, ACopyWithFewerDigitsIsTheSameSample) {
   const auto copy = folder_.path() / "copy";
   std::filesystem::create_directory(copy);
-  std::istringstream lines{text_of(kPass / "star.csv")};
-  std::ofstream csv{copy / "star.csv"};
-  std::string line;
-  std::getline(lines, line);
-  csv << line << '\n';
-  while (std::getline(lines, line)) {
-    std::istringstream fields{line};
-    std::string field;
-    std::getline(fields, field, ',');
-    csv << field;
-    while (std::getline(fields, field, ',')) {
-      csv << ',' << fmt::format("{:.4f}", std::stod(field));
-    }
-    csv << '\n';
-  }
-  csv.close();
+  std::ofstream{copy / "star.csv"}
+      << with_rows(text_of(kPass / "star.csv"), [](const std::string& row) {
+           return with_numbers(row, [](double value) { return fmt::format("{:.4f}", value); });
+         });
   const Processed alone = process("alone", {kPass});
   const Processed both = process("both", {kPass, copy});
   EXPECT_EQ(both.attitudes, alone.attitudes);
   EXPECT_THAT(both.log, HasSubstr("of one of them with fewer digits"));
-  EXPECT_EQ(number_of(db_, "SELECT count(*) FROM contradiction"), 0);
-  EXPECT_EQ(number_of(db_, "SELECT count(*) FROM alert WHERE key LIKE 'link.contradiction:%'"), 0);
+  EXPECT_EQ(count_rows(db_, "contradiction"), 0);
+  EXPECT_EQ(count_rows(db_, "alert WHERE key LIKE 'link.contradiction:%'"), 0);
 }
 
 }  // namespace spindrift::two_senders_test

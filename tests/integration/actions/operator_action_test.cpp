@@ -11,17 +11,16 @@
 #include "pipelines/frames/celestial.h"
 #include "services/alerts/alert_desk.h"
 #include "services/archive/stored_edges.h"
-#include "services/mission/mission.h"
 #include "services/operator/parse_action.h"
-#include "services/processor/processor.h"
-#include "services/telemetry/telemetry_files.h"
-#include "services/telemetry/telemetry_stream.h"
 #include "tests/integration/archive_fixture.h"
 #include "tests/support/archive_rows.h"
+#include "tests/support/recorded_edges.h"
 #include "tests/support/samples.h"
 #include "tests/support/test_paths.h"
 
 namespace spindrift::operator_action_test {
+
+using ::testing::ElementsAre;
 
 using nlohmann::json;
 
@@ -48,33 +47,7 @@ SampleBatch batch_of(json action) {
 
 const json kNoNorthIn{{"action", "exclude_channel"}, {"channel", "north_in"}};
 
-using Samples = std::vector<TelemetrySample<Pulse>>;
-
-Samples edges() {
-  const std::vector<TelemetryFile> files{{.path = kPass / "pulses.csv", .kind = Kind<Pulse>{}}};
-  auto stream = TelemetryStream::open(files, "SPINNER").value();
-  Samples all;
-  while (all.size() < kAll) {
-    const auto next = stream.next().value();
-    const Samples& some = next.samples.of<Pulse>();
-    all.insert(all.end(), some.begin(), some.end());
-  }
-  all.resize(kAll);
-  return all;
-}
-
-void submit(Archive& archive, std::vector<ArchiveBatch> batches) {
-  for (ArchiveBatch& batch : batches) {
-    ASSERT_TRUE(archive.submit(std::move(batch)));
-  }
-}
-
-void work(Processor& processor, Routed routed, Archive& archive) {
-  submit(archive, std::move(routed.samples));
-  for (const PassInput& input : routed.work) {
-    submit(archive, processor.compute(input));
-  }
-}
+testing::Samples edges() { return testing::edges_of(kPass, kAll); }
 
 /// Runs a service that receives the edges and, after the first `kActed` of the pass, the actions.
 struct Serving {
@@ -85,30 +58,28 @@ struct Serving {
   void receive(std::size_t from, std::size_t to, const std::vector<json>& said,
                bool finishes = false) const {
     ASSERT_TRUE(Archive::open(db, {}).value()->close());
-    const Samples all = edges();
+    const testing::Samples all = edges();
     Processor processor = new_processor(partition, mode);
     ASSERT_TRUE(processor.arrive_after(db));
     auto stored = processor.go_on(db);
     ASSERT_TRUE(stored) << stored.error().message;
     auto gone_on = *std::move(stored);
     const auto archive = Archive::open(db, {}).value();
-    work(processor, std::move(gone_on.routed), *archive);
+    testing::work(processor, std::move(gone_on.routed), *archive);
     const auto take = [&](std::size_t first, std::size_t last) {
-      const auto place = [&](std::size_t i) {
-        return all.begin() + static_cast<std::ptrdiff_t>(i);
-      };
-      work(processor,
-           processor.route(testing::batch_of_samples<Pulse>(Samples(place(first), place(last)))),
-           *archive);
+      testing::work(
+          processor,
+          processor.route(testing::batch_of_samples<Pulse>(testing::part_of(all, first, last))),
+          *archive);
     };
     const std::size_t middle = from < kActed && kActed < to ? kActed : to;
     take(from, middle);
     for (const json& action : said) {
-      work(processor, processor.route(batch_of(action)), *archive);
+      testing::work(processor, processor.route(batch_of(action)), *archive);
     }
     take(middle, to);
     if (finishes) {
-      submit(*archive, processor.finish());
+      testing::submit(*archive, processor.finish());
     }
     EXPECT_TRUE(archive->close());
   }
@@ -116,60 +87,53 @@ struct Serving {
 
 struct OperatorActions : testing::ArchiveFixture {
   Serving live() const { return {.db = path()}; }
-  std::int64_t left_out() const {
-    return number("SELECT count(*) FROM pulse_use WHERE rejected_by = 'operator'");
+  std::int64_t left_out() const { return count("pulse_use WHERE rejected_by = 'operator'"); }
+
+  /// Expects a service that is restarted after these actions to make what one that is not makes.
+  /// @return Archive of the latter.
+  std::filesystem::path expect_the_same_restarted(const std::vector<json>& said) const {
+    live().receive(0, kStopped, said);
+    const auto before = product_rows(path());
+    live().receive(kStopped, kStopped, {});
+    EXPECT_EQ(product_rows(path()), before);
+    live().receive(kStopped, kAll, {}, true);
+    const Serving whole{.db = directory() / "whole.db"};
+    whole.receive(0, kAll, said, true);
+    EXPECT_EQ(product_rows(path()), product_rows(whole.db));
+    return whole.db;
   }
 };
 
 TEST_F(OperatorActions, AreStoredAmongTheSamplesWithTheTimeThatTelemetryHadReached) {
   live().receive(0, kAll, {kNoNorthIn}, true);
-  EXPECT_EQ(rows_of(path(), "SELECT by, action, arguments, note FROM operator_action"),
-            std::vector<std::string>{R"(shift|exclude_channel|{"channel":"north_in"}||)"});
-  EXPECT_EQ(
-      number("SELECT count(*) FROM pulse WHERE arrival < (SELECT arrival FROM operator_action)"),
-      kActed);
-  EXPECT_EQ(number("SELECT t_tai_ns = (SELECT max(t_tai_ns) FROM pulse WHERE pulse.arrival <"
-                   " operator_action.arrival) FROM operator_action"),
+  EXPECT_THAT(rows_of(path(), "SELECT by, action, arguments, note FROM operator_action"),
+              ElementsAre(R"(shift|exclude_channel|{"channel":"north_in"}||)"));
+  EXPECT_EQ(count("pulse WHERE arrival < (SELECT arrival FROM operator_action)"), kActed);
+  EXPECT_EQ(number("SELECT t_tai_ns = (SELECT max(t_tai_ns) FROM pulse WHERE pulse.arrival < "
+                   "operator_action.arrival) FROM operator_action"),
             1);
-  EXPECT_EQ(left_out(), number("SELECT count(*) FROM pulse WHERE channel = 'north_in' AND t_tai_ns"
-                               " >= (SELECT t_tai_ns FROM operator_action)"));
+  EXPECT_EQ(left_out(), count("pulse WHERE channel = 'north_in' AND t_tai_ns >= (SELECT t_tai_ns "
+                              "FROM operator_action)"));
   EXPECT_GT(left_out(), 50);
 }
 
 TEST_F(OperatorActions, AreRepeatedByARestartToTheBit) {
-  const std::vector<json> said{
-      kNoNorthIn,
-      {{"action", "set_prior"}, {"ra_deg", 100.0}, {"dec_deg", -55.0}, {"sigma_deg", 1.0}},
-      {{"action", "mark_manoeuvre"}}};
-  live().receive(0, kStopped, said);
-  const auto before = product_rows(path());
-  live().receive(kStopped, kStopped, {});
-  EXPECT_EQ(product_rows(path()), before);
-  live().receive(kStopped, kAll, {}, true);
-
-  const Serving whole{.db = directory() / "whole.db"};
-  whole.receive(0, kAll, said, true);
-  EXPECT_EQ(product_rows(path()), product_rows(whole.db));
-  EXPECT_EQ(number("SELECT count(*) FROM operator_action"), 3);
-  EXPECT_EQ(number("SELECT count(*) FROM run"), 1);
+  expect_the_same_restarted(
+      {kNoNorthIn,
+       {{"action", "set_prior"}, {"ra_deg", 100.0}, {"dec_deg", -55.0}, {"sigma_deg", 1.0}},
+       {{"action", "mark_manoeuvre"}}});
+  EXPECT_EQ(count("operator_action"), 3);
+  EXPECT_EQ(count("run"), 1);
 }
 
 /// A segment of twelve turns is excluded ten turns after its end.
 TEST_F(OperatorActions, LeaveAPastSegmentOutOfBatchAlsoAfterARestart) {
-  const Samples all = edges();
+  const testing::Samples all = edges();
   const TaiTime from = all[108].value.t;
   const TaiTime to = all[180].value.t;
-  const json segment{
-      {"action", "exclude_segment"}, {"from_tai_ns", tai_ns(from)}, {"to_tai_ns", tai_ns(to)}};
-  live().receive(0, kStopped, {segment});
-  const auto before = product_rows(path());
-  live().receive(kStopped, kStopped, {});
-  EXPECT_EQ(product_rows(path()), before);
-  live().receive(kStopped, kAll, {}, true);
-  const Serving whole{.db = directory() / "whole.db"};
-  whole.receive(0, kAll, {segment}, true);
-  EXPECT_EQ(product_rows(path()), product_rows(whole.db));
-  EXPECT_EQ(last_batch_rows(path()), last_batch_rows(whole.db));
+  const auto whole = expect_the_same_restarted(
+      {{{"action", "exclude_segment"}, {"from_tai_ns", tai_ns(from)}, {"to_tai_ns", tai_ns(to)}}});
+  EXPECT_EQ(last_batch_rows(path()), last_batch_rows(whole));
 
   EXPECT_EQ(number("SELECT t_tai_ns FROM operator_action"), tai_ns(from));
   const auto kept = std::move(read_edges(path(), "SPINNER", std::nullopt)->pass).edges();
@@ -212,7 +176,7 @@ TEST_F(OperatorActions, HoldForLaterRunsOfTheSameMode) {
                                                                                 true);
   EXPECT_EQ(left_out(), of_first);
   Serving{.db = path(), .partition = "live-2"}.receive(kStopped, kAll, {}, true);
-  EXPECT_EQ(number("SELECT count(*) FROM run"), 3);
+  EXPECT_EQ(count("run"), 3);
   EXPECT_GT(left_out(), of_first);
 }
 

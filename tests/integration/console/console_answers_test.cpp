@@ -133,8 +133,8 @@ TEST_F(ConsoleAnswers, WhatIsWrongWithASeries) {
   }
   EXPECT_EQ(
       client_
-          ->get("/api/v1/series?spacecraft=SPINNER&quantity=value%20FROM%20run;--&from=0&to=9&"
-                "points=5")
+          ->get("/api/v1/"
+                "series?spacecraft=SPINNER&quantity=value%20FROM%20run;--&from=0&to=9&points=5")
           .result_int(),
       400U);
   EXPECT_EQ(client_->get("/api/v1/quantities").result_int(), 400U);
@@ -148,10 +148,8 @@ TEST_F(ConsoleAnswers, AnAcknowledgementOnceItIsStoredAndTold) {
   EXPECT_EQ(nlohmann::json::parse(reply.body())["state"], "acknowledged");
   EXPECT_EQ(client_->get_json("/api/v1/state")["alerts"][0]["state"], "acknowledged");
   EXPECT_THAT(viewer.until("event: alert\n"), HasSubstr("id: "));
-  SQLite::Database database{path().string()};
-  EXPECT_THAT(testing::column(database,
-                              "SELECT by || ':' || note || ':' || to_state FROM "
-                              "alert_transition WHERE from_state IS NOT NULL"),
+  EXPECT_THAT(texts("SELECT by || ':' || note || ':' || to_state FROM alert_transition "
+                    "WHERE from_state IS NOT NULL"),
               ElementsAre("night shift:seen:acknowledged"));
   EXPECT_EQ(client_->post(kAck, R"({"by":"night shift"})", token()).result_int(),
             400U);  // The alert is already acknowledged.

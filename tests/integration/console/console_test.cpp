@@ -2,10 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <chrono>
 #include <list>
 #include <string>
-#include <thread>
 
 #include "tests/integration/console/console_fixture.h"
 #include "tests/support/eventually.h"
@@ -15,7 +13,6 @@ namespace spindrift::console_test {
 namespace {
 
 using ::testing::HasSubstr;
-using ::testing::Not;
 using Console = ConsoleFixture;
 
 std::uint64_t last_id(const std::string& events) {

@@ -11,11 +11,13 @@
 #include <string>
 #include <thread>
 #include <utility>
-#include <vector>
 
 #include "tests/support/archive_rows.h"
 #include "tests/support/bus_fixture.h"
+#include "tests/support/count_rows.h"
+#include "tests/support/on_bus.h"
 #include "tests/support/program.h"
+#include "tests/support/ran.h"
 #include "tests/support/test_paths.h"
 #include "tests/support/text_of.h"
 
@@ -43,34 +45,22 @@ TEST(Backlog, IsComputedAtTheNextStartBitForBit) {
   const std::string mission = (pass / "mission.toml").string();
   const auto offline = folder.path() / "processed.db";
   const auto served = folder.path() / "served.db";
-  Program simulate{{"simulate", kScenario.string(), "--out", pass.string()}};
-  ASSERT_EQ(simulate.exit_status(), 0) << simulate.log();
-  Program process{
-      {"process", "--mission", mission, "--telemetry", pass.string(), "--db", offline.string()}};
-  ASSERT_EQ(process.exit_status(), 0) << process.log();
+  succeeded({"simulate", kScenario, "--out", pass});
+  succeeded({"process", "--mission", mission, "--telemetry", pass, "--db", offline});
 
   const bus::BusConfig bus = bus_of_its_own();
-  const auto on_bus = [&](std::vector<std::string> arguments) {
-    arguments.insert(arguments.end(),
-                     {"--domain", std::to_string(bus.domain), "--partition", bus.partition});
-    return arguments;
-  };
-  const auto serve = on_bus({"serve", "--mission", mission, "--db", served.string()});
+  const auto serve = on(bus, {"serve", "--mission", mission, "--db", served});
   {
-    Program service{serve};
-    ASSERT_TRUE(service.says("ready")) << service.log();
-    Program replay{
-        on_bus({"replay", "--mission", mission, "--telemetry", pass.string(), "--speed", "0"})};
-    ASSERT_EQ(replay.exit_status(), 0) << replay.log();
-    service.signal(SIGTERM);
-    ASSERT_EQ(service.exit_status(), 0) << service.log();
+    Serving service{serve};
+    succeeded(on(bus, {"replay", "--mission", mission, "--telemetry", pass, "--speed", "0"}));
+    stop_in_order(service);
     if (service.log().find("stored and not computed yet") == std::string::npos) {
       GTEST_SKIP() << "this machine leaves no backlog";
     }
   }
   const std::string pulses = "SELECT count(*) FROM pulse";
   EXPECT_EQ(number_of(served, pulses), number_of(offline, pulses));
-  EXPECT_EQ(number_of(served, "SELECT count(*) FROM run WHERE finished_utc IS NULL"), 1);
+  EXPECT_EQ(count_rows(served, "run WHERE finished_utc IS NULL"), 1);
 
   Program service{serve};
   // The last revolutions are computed only at the end of the pass.
@@ -79,9 +69,8 @@ TEST(Backlog, IsComputedAtTheNextStartBitForBit) {
     return number_of(served, "SELECT ifnull(max(revolution), 0) FROM revolution") >
            revolutions - 1000;
   })) << service.log();
-  service.signal(SIGTERM);
-  ASSERT_EQ(service.exit_status(), 0) << service.log();
-  EXPECT_EQ(number_of(served, "SELECT count(*) FROM run WHERE finished_utc IS NULL"), 0);
+  stop_in_order(service);
+  EXPECT_EQ(count_rows(served, "run WHERE finished_utc IS NULL"), 0);
   EXPECT_TRUE(product_rows(served) == product_rows(offline));  // The rows are too many to print.
 }
 
@@ -102,14 +91,14 @@ class Backlogged {
     start();
   }
 
-  void start() { service_.emplace(on_bus({"serve", "--mission", mission_, "--db", db_.string()})); }
+  void start() { service_.emplace(on(bus_, {"serve", "--mission", mission_, "--db", db_})); }
   Program& service() { return *service_; }
 
   /// Replays the pass.
   /// @return Whether the service has stored all edges.
   bool takes(const std::filesystem::path& pass, std::int64_t edges) {
     Program replay{
-        on_bus({"replay", "--mission", mission_, "--telemetry", pass.string(), "--speed", "0"})};
+        on(bus_, {"replay", "--mission", mission_, "--telemetry", pass, "--speed", "0"})};
     return replay.exit_status() == 0 && has("pulse", edges);
   }
 
@@ -132,16 +121,10 @@ class Backlogged {
   }
 
   bool has(const std::string& table, std::int64_t rows) {
-    return comes([&] { return number_of(db_, "SELECT count(*) FROM " + table) >= rows; });
+    return comes([&] { return count_rows(db_, "" + table) >= rows; });
   }
 
  private:
-  std::vector<std::string> on_bus(std::vector<std::string> arguments) const {
-    arguments.insert(arguments.end(),
-                     {"--domain", std::to_string(bus_.domain), "--partition", bus_.partition});
-    return arguments;
-  }
-
   std::string mission_;
   std::filesystem::path db_;
   bus::BusConfig bus_;
@@ -153,8 +136,7 @@ TEST(Backlog, KilledAtTwentyRandomInstantsGivesWhatNoKillWouldHave) {
   constexpr std::int64_t kSolutions = 119;
   const TemporaryFolder folder;
   const auto pass = folder.path() / "pass";
-  Program simulate{{"simulate", two_hours_in(folder.path()), "--out", pass.string()}};
-  ASSERT_EQ(simulate.exit_status(), 0) << simulate.log();
+  succeeded({"simulate", two_hours_in(folder.path()), "--out", pass});
   const std::string mission = (pass / "mission.toml").string();
   const auto whole_db = folder.path() / "whole.db";
   const auto killed_db = folder.path() / "killed.db";

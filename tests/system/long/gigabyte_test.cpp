@@ -38,9 +38,8 @@ TEST(Process, ReadsAGigabyteBelow400MiB) {
   const auto large = folder.path() / "large.csv";
   write_gigabyte(large, kRows);
   ASSERT_GT(std::filesystem::file_size(large), 1'000'000'000U);
-  Program program{{"process", "--mission", (nominal / "mission.toml").string(), "--telemetry",
-                   large.string(), (nominal / "pulses.csv").string(), "--db",
-                   (folder.path() / "out.db").string(), "--json"}};
+  Program program{{"process", "--mission", nominal / "mission.toml", "--telemetry", large,
+                   nominal / "pulses.csv", "--db", folder.path() / "out.db", "--json"}};
   ASSERT_EQ(program.exit_status(), 0) << program.log();
   EXPECT_LT(program.peak_kib(), 400 * 1024);
   EXPECT_THAT(program.out(),

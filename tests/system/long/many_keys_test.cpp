@@ -2,17 +2,16 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/support/service.h"
+#include "tests/support/on_bus.h"
 
 namespace spindrift::many_keys_test {
 
 /// Returns the peak memory of a service, KiB, that receives samples of this many spacecraft.
 long peak_kib(int spacecraft) {
-  Service service{"nominal"};
-  EXPECT_TRUE(service.ready()) << service.program().log();
+  ReadyService service{"nominal"};
   ForeignWriter sender{service.bus(), "keys", spacecraft};
   EXPECT_EQ(sender.exit_status(), 0);
-  EXPECT_EQ(service.stop(), 0) << service.program().log();
+  EXPECT_EQ(service.stop(), 0) << service.log();
   return service.program().peak_kib();
 }
 

@@ -5,16 +5,18 @@
 #include <csignal>
 #include <cstdint>
 #include <filesystem>
-#include <fstream>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "tests/support/archive_rows.h"
 #include "tests/support/bus_fixture.h"
+#include "tests/support/count_rows.h"
 #include "tests/support/eventually.h"
 #include "tests/support/http_client.h"
-#include "tests/support/program.h"
+#include "tests/support/on_bus.h"
+#include "tests/support/pass_with.h"
+#include "tests/support/ran.h"
 #include "tests/support/recorded_files.h"
 
 namespace spindrift::serve_console_test {
@@ -25,26 +27,18 @@ using ::testing::HasSubstr;
 /// Runs a service with a console on a pass whose target attitude is far from the actual one.
 class ServedConsole : public ::testing::Test {
  protected:
-  ServedConsole() {
-    std::ofstream{copy_.mission(), std::ios::app}
-        << "\n[spin.target]\nra_deg = 10.0\ndec_deg = 20.0\n";
-    start();
-  }
+  ServedConsole() { start(); }
   void start() {
-    service_.emplace(std::vector<std::string>{
-        "serve", "--mission", copy_.mission().string(), "--db", db().string(), "--domain",
-        std::to_string(bus_.domain), "--partition", bus_.partition, "--console", "127.0.0.1:0"});
-    ASSERT_TRUE(service_->says("ready")) << service_->log();
+    service_.emplace(on(
+        bus_, {"serve", "--mission", copy_.mission(), "--db", db(), "--console", "127.0.0.1:0"}));
     const std::string log = service_->log();
     const auto url = log.find("http://127.0.0.1:");
     ASSERT_LT(url, log.find("ready")) << log;
     client_.emplace(log.substr(url, log.find("/\n", url) - url));
   }
   void replay() const {
-    Program replay{{"replay", "--mission", copy_.mission().string(), "--telemetry",
-                    copy_.folder.path().string(), "--speed", "0", "--domain",
-                    std::to_string(bus_.domain), "--partition", bus_.partition}};
-    ASSERT_EQ(replay.exit_status(), 0) << replay.log();
+    succeeded(on(bus_, {"replay", "--mission", copy_.mission(), "--telemetry", copy_.folder.path(),
+                        "--speed", "0"}));
   }
   int stop() {
     service_->signal(SIGTERM);
@@ -53,9 +47,9 @@ class ServedConsole : public ::testing::Test {
   const std::filesystem::path& db() const { return copy_.db; }
   nlohmann::json shown() { return client_->get_json("/api/v1/state")["spacecraft"]["SPINNER"]; }
 
-  const PassCopy copy_{"nominal"};
+  const PassWith copy_{kOffTarget};
   const bus::BusConfig bus_ = bus_of_its_own();
-  std::optional<Program> service_;
+  std::optional<Serving> service_;
   std::optional<HttpClient> client_;
 };
 
@@ -65,7 +59,7 @@ TEST_F(ServedConsole, ShowsWhatTheArchiveHolds) {
   replay();
   const auto is_of_verdict = [&] {
     const auto state = shown();
-    return state.contains("ra_deg") && number_of(db(), "SELECT count(*) FROM revolution") > 590 &&
+    return state.contains("ra_deg") && count_rows(db(), "revolution") > 590 &&
            state["ra_deg"] == real_of(db(), "SELECT ra_deg FROM pass_verdict") &&
            state["spin_rate_rpm"] == real_of(db(), "SELECT spin_rate_rpm FROM pass_verdict");
   };
@@ -75,10 +69,9 @@ TEST_F(ServedConsole, ShowsWhatTheArchiveHolds) {
   const auto points = client_->get_json(
       "/api/v1/series?spacecraft=SPINNER&quantity=sun_angle&from=0&to=9000000000000000000"
       "&points=10000")["points"];
-  EXPECT_EQ(points.size(),
-            number_of(db(),
-                      "SELECT count(*) FROM spin_measurement JOIN revolution USING (run_id, "
-                      "revolution) WHERE quantity = 'sun_angle'"));
+  EXPECT_EQ(points.size(), count_rows(db(),
+                                      "spin_measurement JOIN revolution USING (run_id, revolution) "
+                                      "WHERE quantity = 'sun_angle'"));
   EXPECT_THAT(client_->get("/metrics").body(),
               HasSubstr("spindrift_samples_committed_total 3600\n"));
   EventViewer missed = client_->watch("Last-Event-ID: 1\r\n");
@@ -100,7 +93,7 @@ TEST_F(ServedConsole, TakesAnAcknowledgementAndKnowsItAfterARestart) {
                     R"({"by":"night shift","note":"seen"})", line.substr(0, line.size() - 1));
   ASSERT_EQ(reply.result_int(), 200U) << reply.body();
   viewer->until("event: alert\n");
-  EXPECT_EQ(number_of(db(), "SELECT count(*) FROM alert_transition WHERE by = 'night shift'"), 1);
+  EXPECT_EQ(count_rows(db(), "alert_transition WHERE by = 'night shift'"), 1);
   EXPECT_EQ(stop(), 0) << service_->log();
   viewer.reset();  // The viewer must be destroyed before its client.
   start();
@@ -110,14 +103,13 @@ TEST_F(ServedConsole, TakesAnAcknowledgementAndKnowsItAfterARestart) {
 
 TEST_F(ServedConsole, ShowsTheRunOfBeforeUntilTheNextOneHasTelemetry) {
   replay();
-  ASSERT_TRUE(
-      eventually([&] { return number_of(db(), "SELECT count(*) FROM spin_estimate") > 590; }));
+  ASSERT_TRUE(eventually([&] { return count_rows(db(), "spin_estimate") > 590; }));
   ASSERT_EQ(stop(), 0) << service_->log();
   const std::int64_t first_arrival = number_of(db(), "SELECT first_arrival FROM run");
-  std::ofstream{copy_.mission(), std::ios::app} << "\n# better known now\n";
+  copy_.add("# better known now\n");
   start();
   ASSERT_TRUE(eventually([&] { return shown().contains("quality"); })) << service_->log();
-  EXPECT_EQ(number_of(db(), "SELECT count(*) FROM run"), 1);
+  EXPECT_EQ(count_rows(db(), "run"), 1);
   EXPECT_EQ(shown()["state"], "stale");
   EXPECT_EQ(shown()["t_tai_ns"], number_of(db(), "SELECT last_tai_ns FROM run"));
   EXPECT_EQ(shown()["ra_deg"], real_of(db(), "SELECT ra_deg FROM pass_verdict"));
@@ -128,13 +120,13 @@ TEST_F(ServedConsole, ShowsTheRunOfBeforeUntilTheNextOneHasTelemetry) {
                               "&to=9000000000000000000&points=100")["points"]
                    .empty());
   EXPECT_EQ(stop(), 0) << service_->log();  // A run without samples is not stored.
-  EXPECT_EQ(number_of(db(), "SELECT count(*) FROM run"), 1);
+  EXPECT_EQ(count_rows(db(), "run"), 1);
   start();
   replay();
-  ASSERT_TRUE(eventually([&] { return number_of(db(), "SELECT count(*) FROM run") == 2; }));
+  ASSERT_TRUE(eventually([&] { return count_rows(db(), "run") == 2; }));
   ASSERT_TRUE(eventually([&] { return shown()["state"] == "live"; }));
-  EXPECT_EQ(number_of(db(), fmt::format("SELECT count(*) FROM notice JOIN run USING (run_id)"
-                                        " WHERE code = 'new_run' AND first_arrival > {}",
+  EXPECT_EQ(number_of(db(), fmt::format("SELECT count(*) FROM notice JOIN run USING (run_id) WHERE "
+                                        "code = 'new_run' AND first_arrival > {}",
                                         first_arrival)),
             1);
   EXPECT_EQ(stop(), 0) << service_->log();
@@ -143,14 +135,14 @@ TEST_F(ServedConsole, ShowsTheRunOfBeforeUntilTheNextOneHasTelemetry) {
 TEST_F(ServedConsole, ShowsResidualsThatTheArchiveDoesNotKeep) {
   ASSERT_EQ(stop(), 0) << service_->log();
   std::filesystem::remove(db());
-  std::ofstream{copy_.mission(), std::ios::app} << "\n[archive]\nresiduals = false\n";
+  copy_.add("[archive]\nresiduals = false\n");
   start();
   EventViewer viewer = client_->watch();
   replay();
   ASSERT_TRUE(eventually([&] { return shown()["residuals"].size() > 2; })) << shown();
   EXPECT_THAT(viewer.until("\"off_unit\":\"sigma\""), HasSubstr("event: pulse\n"));
-  EXPECT_GT(number_of(db(), "SELECT count(*) FROM pulse_use"), 0);
-  EXPECT_EQ(number_of(db(), "SELECT count(*) FROM edge_residual"), 0);
+  EXPECT_GT(count_rows(db(), "pulse_use"), 0);
+  EXPECT_EQ(count_rows(db(), "edge_residual"), 0);
   EXPECT_EQ(stop(), 0) << service_->log();
 }
 
@@ -165,10 +157,9 @@ TEST_F(ServedConsole, EndsWithViewersConnected) {
 
 TEST(ServeConsole, RefusesWhatIsNoAddress) {
   const PassCopy copy{"nominal"};
-  Program service{{"serve", "--mission", copy.mission().string(), "--db", copy.db.string(),
-                   "--domain", "99", "--console", "ship"}};
-  EXPECT_EQ(service.exit_status(), 2);
-  EXPECT_THAT(service.log(), HasSubstr("--console ship: must be HOST:PORT"));
+  refused({"serve", "--mission", copy.mission(), "--db", copy.db, "--domain", "99", "--console",
+           "ship"},
+          {"--console ship: must be HOST:PORT"});
   EXPECT_FALSE(std::filesystem::exists(copy.db));
 }
 

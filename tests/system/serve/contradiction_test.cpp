@@ -6,8 +6,6 @@
 
 #include <chrono>
 #include <csignal>
-#include <string>
-#include <utility>
 #include <vector>
 
 #include "services/publisher/telemetry_publisher.h"
@@ -16,8 +14,10 @@
 #include "services/telemetry/telemetry_stream.h"
 #include "tests/support/archive_rows.h"
 #include "tests/support/bus_fixture.h"
+#include "tests/support/count_rows.h"
 #include "tests/support/eventually.h"
-#include "tests/support/program.h"
+#include "tests/support/on_bus.h"
+#include "tests/support/ran.h"
 #include "tests/support/service.h"
 #include "tests/support/test_paths.h"
 
@@ -47,10 +47,7 @@ TEST(ServeContradiction, NeitherIsUsedBeforeAndBehindAKill) {
   const auto db = folder.path() / "served.db";
   auto bus = bus_of_its_own();
   bus.partition = "replay";
-  const std::vector<std::string> serve{
-      "serve",       "--mission", (kPass / "mission.toml").string(), "--db",
-      db.string(),   "--domain",  std::to_string(bus.domain),        "--partition",
-      bus.partition, "--json"};
+  const Words serve = on(bus, {"serve", "--mission", kPass / "mission.toml", "--db", db, "--json"});
   auto participant = bus::Participant::create(bus).value();
   auto gyros = TelemetryPublisher<GyroSample>::create(participant, "front-end A").value();
   auto one = TelemetryPublisher<StarFix>::create(participant, "front-end A").value();
@@ -80,31 +77,28 @@ TEST(ServeContradiction, NeitherIsUsedBeforeAndBehindAKill) {
     ASSERT_TRUE(other.wait_for_acknowledgments(std::chrono::seconds{30}));
   };
   {
-    Program killed{serve};
-    ASSERT_TRUE(killed.says("ready")) << killed.log();
+    Serving killed{serve};
     send(0, star.size() / 2);
     ASSERT_TRUE(eventually([&] {
-      return number_of(db, "SELECT count(*) FROM contradiction") >=
-             static_cast<std::int64_t>(star.size() / 2);
+      return count_rows(db, "contradiction") >= static_cast<std::int64_t>(star.size() / 2);
     }));
     killed.signal(SIGKILL);
     killed.exit_status();
   }
   serve_whole(serve, [&] { send(star.size() / 2, star.size()); });
 
-  EXPECT_EQ(number_of(db, "SELECT count(*) FROM attitude"), 0);
+  EXPECT_EQ(count_rows(db, "attitude"), 0);
   EXPECT_THAT(
       rows_of(db, "SELECT source, used, count(*) FROM contradiction GROUP BY 1, 2 ORDER BY 1"),
       ElementsAre(fmt::format("front-end A|0|{}|", star.size()),
                   fmt::format("front-end B|0|{}|", star.size())));
   EXPECT_THAT(
       rows_of(db,
-              "SELECT key, count(*) FROM alert WHERE key LIKE 'link.contradiction:%'"
-              " GROUP BY 1 ORDER BY 1"),
+              "SELECT key, count(*) FROM alert WHERE key LIKE 'link.contradiction:%' GROUP BY 1 "
+              "ORDER BY 1"),
       ElementsAre("link.contradiction:front-end A|1|", "link.contradiction:front-end B|1|"));
-  EXPECT_EQ(
-      number_of(db, "SELECT count(*) FROM rejected_sample WHERE rejected_by = 'contradicted'"),
-      static_cast<std::int64_t>(star.size()));
+  EXPECT_EQ(count_rows(db, "rejected_sample WHERE rejected_by = 'contradicted'"),
+            static_cast<std::int64_t>(star.size()));
 }
 
 }  // namespace spindrift::serve_contradiction_test

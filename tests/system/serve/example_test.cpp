@@ -1,19 +1,16 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <csignal>
 #include <string>
 
-#include "tests/support/archive_rows.h"
-#include "tests/support/service.h"
+#include "tests/support/on_bus.h"
 
 namespace spindrift::example_test {
 
 using ::testing::HasSubstr;
 
 TEST(Example, FollowsTheAnswersAndTheHealthOfAPass) {
-  Service service{"nominal"};
-  ASSERT_TRUE(service.ready());
+  ReadyService service{"nominal"};
   const std::string loopback =
       "CYCLONEDDS_URI=file://" + (source_folder() / "deploy/cyclonedds/loopback.xml").string();
   Program follow{
@@ -31,8 +28,7 @@ TEST(Example, FollowsTheAnswersAndTheHealthOfAPass) {
   })) << follow.out()
       << follow.log();
   ASSERT_EQ(service.stop_when_computed(), 0);
-  follow.signal(SIGTERM);
-  EXPECT_EQ(follow.exit_status(), 0);
+  stop_in_order(follow);
   EXPECT_EQ(follow.log(), "");
 }
 

@@ -8,10 +8,10 @@
 #include <csignal>
 #include <string>
 #include <utility>
-#include <vector>
 
-#include "tests/support/archive_rows.h"
 #include "tests/support/bus_fixture.h"
+#include "tests/support/count_rows.h"
+#include "tests/support/on_bus.h"
 #include "tests/support/program.h"
 #include "tests/support/recorded_files.h"
 #include "tests/support/temporary_folder.h"
@@ -54,7 +54,7 @@ class Pipe {
 class Listening {
  public:
   Listening(const std::string& out, const std::string& log)
-      : program_{on_bus({"serve", "--mission", mission(), "--db", db().string()}), 0, out, log} {}
+      : program_{on(bus_, {"serve", "--mission", mission(), "--db", db()}), 0, out, log} {}
 
   Program& program() { return program_; }
   std::filesystem::path db() const { return folder_.path() / "served.db"; }
@@ -62,9 +62,9 @@ class Listening {
   /// Replays a whole pass.
   /// @return Exit status of `replay`.
   int replay() const {
-    Program replay{on_bus({"replay", "--mission", mission(), "--telemetry",
-                           (kPasses / "nominal").string(), "--speed", "0"})};
-    return replay.exit_status();
+    return ended(on(bus_, {"replay", "--mission", mission(), "--telemetry", kPasses / "nominal",
+                           "--speed", "0"}))
+        .status;
   }
 
   int stop() {
@@ -72,19 +72,13 @@ class Listening {
     return program_.exit_status();
   }
 
-  std::int64_t stored() const { return number_of(db(), "SELECT count(*) FROM pulse"); }
+  std::int64_t stored() const { return count_rows(db(), "pulse"); }
   std::int64_t finished_runs() const {
-    return number_of(db(), "SELECT count(*) FROM run WHERE finished_utc IS NOT NULL");
+    return count_rows(db(), "run WHERE finished_utc IS NOT NULL");
   }
 
  private:
   static std::string mission() { return (kPasses / "nominal" / "mission.toml").string(); }
-  std::vector<std::string> on_bus(std::vector<std::string> arguments) const {
-    arguments.insert(arguments.end(),
-                     {"--domain", std::to_string(bus_.domain), "--partition", bus_.partition});
-    return arguments;
-  }
-
   TemporaryFolder folder_;
   bus::BusConfig bus_ = bus_of_its_own();
   Program program_;

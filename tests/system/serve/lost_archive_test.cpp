@@ -4,28 +4,29 @@
 #include <gtest/gtest.h>
 #include <spindrift.h>
 
-#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <functional>
 #include <string>
 #include <vector>
 
-#include "services/bus/qos.h"
-#include "services/bus/reader.h"
 #include "tests/support/archive_rows.h"
-#include "tests/support/bus_fixture.h"
+#include "tests/support/count_rows.h"
 #include "tests/support/eventually.h"
-#include "tests/support/program.h"
+#include "tests/support/on_bus.h"
+#include "tests/support/ran.h"
 #include "tests/support/recorded_files.h"
 #include "tests/support/service.h"
+#include "tests/support/subscriber.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/text_of.h"
 
 namespace spindrift::serve_lost_archive_test {
 
 namespace fs = std::filesystem;
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::IsEmpty;
 using ::testing::StartsWith;
 
 fs::path beside(const fs::path& path, const std::string& suffix) { return path.string() + suffix; }
@@ -60,16 +61,11 @@ class ServeLostArchive : public ::testing::Test {
   static constexpr double kBefore = 0.4;
 
   void SetUp() override {
-    Program process{arguments("nominal", offline_)};
-    ASSERT_EQ(process.exit_status(), 0) << process.log();
+    succeeded(arguments("nominal", offline_));
     front_end_.emplace(service_.bus(), "SPINNER", pulses_in(offline_));
-    ASSERT_TRUE(service_.ready()) << log();
     ASSERT_TRUE(front_end_->send_until(kBefore));
-    ASSERT_TRUE(eventually([&] { return number_of(db(), "SELECT count(*) FROM spin_fix") > 100; }));
-    participant_.emplace(bus::Participant::create(service_.bus()).value());
-    health_.emplace(
-        bus::Reader<spindrift_Health>::create(*participant_, bus::kHealthTopic, bus::results_qos())
-            .value());
+    ASSERT_TRUE(eventually([&] { return count_rows(db(), "spin_fix") > 100; }));
+    health_.emplace(service_.bus(), bus::kHealthTopic);
   }
 
   /// Waits for a heartbeat that contains `words` (or not).
@@ -77,11 +73,9 @@ class ServeLostArchive : public ::testing::Test {
   bool health_says(const std::string& words, bool expected = true) const {
     return eventually([&] {
       bool says = !expected;
-      health_
-          ->take([&](const spindrift_Health& beat) {
-            says = std::string{beat.message}.find(words) != std::string::npos;
-          })
-          .value();
+      health_->take([&](const spindrift_Health& beat) {
+        says = std::string{beat.message}.find(words) != std::string::npos;
+      });
       return says == expected;
     });
   }
@@ -89,7 +83,7 @@ class ServeLostArchive : public ::testing::Test {
   /// Returns the number of fixes in the file at the path; 0 if that is not an archive.
   std::int64_t fix_count() const {
     try {
-      return number_of(db(), "SELECT count(*) FROM spin_fix");
+      return count_rows(db(), "spin_fix");
     } catch (const SQLite::Exception&) {
       return 0;
     }
@@ -97,7 +91,7 @@ class ServeLostArchive : public ::testing::Test {
 
   /// Waits until all but the last three fixes are computed: a stop computes for a few seconds only.
   bool is_computed() const {
-    const std::int64_t fixes = number_of(offline_, "SELECT count(*) FROM spin_fix");
+    const std::int64_t fixes = count_rows(offline_, "spin_fix");
     return eventually([&] { return fix_count() + 3 >= fixes; });
   }
 
@@ -105,19 +99,15 @@ class ServeLostArchive : public ::testing::Test {
     ASSERT_TRUE(front_end().send_until(1.0));
     EXPECT_TRUE(is_computed()) << log();
     EXPECT_EQ(service().stop_when_computed(), 0) << log();
-    expect_the_whole_pass();
-  }
-
-  void expect_the_whole_pass() {
-    EXPECT_EQ(rows_of(db(), "PRAGMA integrity_check"), std::vector<std::string>{"ok|"});
-    EXPECT_EQ(rows_of(db(), "PRAGMA foreign_key_check"), std::vector<std::string>{});
-    EXPECT_EQ(number_of(db(), "SELECT count(*) FROM pulse"), 3600);
+    EXPECT_THAT(rows_of(db(), "PRAGMA integrity_check"), ElementsAre("ok|"));
+    EXPECT_THAT(rows_of(db(), "PRAGMA foreign_key_check"), IsEmpty());
+    EXPECT_EQ(count_rows(db(), "pulse"), 3600);
     EXPECT_EQ(product_rows(db()), product_rows(offline_));
     EXPECT_EQ(last_batch_rows(db()), last_batch_rows(offline_));
-    EXPECT_EQ(copies_of(db()), std::vector<fs::path>{});
+    EXPECT_THAT(copies_of(db()), IsEmpty());
   }
 
-  Service& service() { return service_; }
+  ReadyService& service() { return service_; }
   FrontEnd& front_end() { return *front_end_; }
   fs::path db() const { return service_.db(); }
   const fs::path& offline() const { return offline_; }
@@ -126,10 +116,9 @@ class ServeLostArchive : public ::testing::Test {
  private:
   TemporaryFolder folder_;
   const fs::path offline_ = folder_.path() / "processed.db";
-  Service service_{"nominal"};
+  ReadyService service_{"nominal"};
   std::optional<FrontEnd> front_end_;
-  std::optional<bus::Participant> participant_;
-  std::optional<bus::Reader<spindrift_Health>> health_;
+  std::optional<Subscriber<spindrift_Health>> health_;
 };
 
 struct Loss {
@@ -206,11 +195,8 @@ TEST_P(ServeReplacedArchive, GoesOnWithAllThatItHadWhenTheOtherFileIsMovedAway) 
   move_aside(replaced());
   EXPECT_EQ(text_of(aside(replaced())), content());
   EXPECT_TRUE(health_says("not storing", false));
-  ASSERT_TRUE(front_end().send_until(1.0));
-  EXPECT_TRUE(is_computed()) << log();
-  EXPECT_EQ(service().stop_when_computed(), 0) << log();
+  send_the_rest_and_expect_the_whole_pass();
   EXPECT_EQ(text_of(aside(replaced())), content());
-  expect_the_whole_pass();
 }
 
 TEST_P(ServeReplacedArchive, EndsAsACopyWhenTheServiceIsStopped) {
@@ -222,14 +208,13 @@ TEST_P(ServeReplacedArchive, EndsAsACopyWhenTheServiceIsStopped) {
   EXPECT_THAT(log(), HasSubstr("rows that were accepted are not in archive " + db().string()));
   EXPECT_THAT(log(), HasSubstr(copies[0].string()));
   EXPECT_EQ(text_of(replaced()), content());
-  EXPECT_EQ(rows_of(copies[0], "PRAGMA integrity_check"), std::vector<std::string>{"ok|"});
+  EXPECT_THAT(rows_of(copies[0], "PRAGMA integrity_check"), ElementsAre("ok|"));
   // SQLite leaves an empty log when its last reader closes, and the service may have opened it.
   EXPECT_EQ(fs::exists(log_of(db())) && fs::file_size(log_of(db())) > 0, GetParam().of == "-wal");
   // The last samples may not have been acknowledged and are sent again.
   fs::rename(replaced(), aside(replaced()));
   fs::rename(copies[0], db());
-  service().start();
-  ASSERT_TRUE(service().ready()) << log();
+  service().go_on();
   send_the_rest_and_expect_the_whole_pass();
 }
 
@@ -280,8 +265,7 @@ TEST_P(ServeDamagedArchive, StoresNothingMoreAndSaysSoAndTheNextStartHasThePass)
 
   move_aside(db());
   move_aside(log_of(db()));
-  service().start();
-  ASSERT_TRUE(service().ready()) << log();
+  service().go_on();
   send_the_rest_and_expect_the_whole_pass();
 }
 
@@ -298,9 +282,7 @@ INSTANTIATE_TEST_SUITE_P(
 TEST_F(ServeLostArchive, IsNotWrittenByTwoThatHaveDifferentNamesForIt) {
   const fs::path link = beside(db(), ".link");
   fs::create_hard_link(db(), link);
-  Program second{arguments("nominal", link)};
-  EXPECT_EQ(second.exit_status(), 1);
-  EXPECT_THAT(second.log(), HasSubstr("is being written under another name"));
+  refused(arguments("nominal", link), {"is being written under another name"}, 1);
   send_the_rest_and_expect_the_whole_pass();
 }
 

@@ -12,8 +12,11 @@
 #include "services/ingest/rehearsal_clocks.h"
 #include "tests/support/archive_rows.h"
 #include "tests/support/bus_fixture.h"
+#include "tests/support/count_rows.h"
+#include "tests/support/on_bus.h"
 #include "tests/support/program.h"
-#include "tests/support/service.h"
+#include "tests/support/ran.h"
+#include "tests/support/recorded_files.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/test_paths.h"
 
@@ -25,8 +28,6 @@ constexpr double kSlack_s = 30.0;
 /// Runs a service and observes the clocks of rehearsals on its bus.
 class Rehearsal : public ::testing::Test {
  protected:
-  Rehearsal() { EXPECT_TRUE(service_.ready()); }
-
   double offset_s() {
     EXPECT_TRUE(
         eventually([&] { return clocks_.look() && clocks_.offset("SPINNER").has_value(); }));
@@ -43,14 +44,13 @@ class Rehearsal : public ::testing::Test {
     EXPECT_EQ(service_.stop(), 0);
   }
 
-  Service service_{"nominal", "replay"};
+  ReadyService service_{"nominal", "replay"};
   bus::Participant participant_ = bus::Participant::create(service_.bus()).value();
   RehearsalClocks clocks_ = RehearsalClocks::create(participant_).value();
 };
 
 TEST_F(Rehearsal, OfARecordedPassTellsHowFarItIsInThePast) {
-  Program replay{{"replay", "--now", "--mission", service_.mission(), "--telemetry",
-                  (kPasses / "nominal").string(), "--domain", domain()}};
+  Program replay{service_.words({"replay", "--now", "--telemetry", kPasses / "nominal"})};
   const auto first = [&] { return number("SELECT ifnull(min(t_tai_ns), 0) FROM pulse"); };
   ASSERT_TRUE(eventually([&] { return first() > 0; })) << replay.log();
   EXPECT_NEAR(offset_s(), seconds_between(tai_from_ns(first()), tai_now()), kSlack_s);
@@ -59,8 +59,8 @@ TEST_F(Rehearsal, OfARecordedPassTellsHowFarItIsInThePast) {
 
 TEST_F(Rehearsal, OfASimulatedPassIsOfThePresent) {
   const TaiTime before = tai_now();
-  Program simulate{{"simulate", (scenarios() / "gto-nominal.toml").string(), "--publish", "--now",
-                    "--domain", domain()}};
+  Program simulate{
+      {"simulate", scenarios() / "gto-nominal.toml", "--publish", "--now", "--domain", domain()}};
   const auto last = [&] { return number("SELECT ifnull(max(t_tai_ns), 0) FROM pulse"); };
   ASSERT_TRUE(eventually([&] { return last() > 0; })) << simulate.log();
   EXPECT_EQ(offset_s(), 0.0);
@@ -75,28 +75,24 @@ TEST(SimulatedRehearsal, GivesTheServiceOfItsMissionFileAnAxis) {
   const auto db = folder.path() / "served.db";
   const bus::BusConfig bus = bus_of_its_own();
   const std::string domain = std::to_string(bus.domain);
-  Program simulate{{"simulate", (scenarios() / "gto-nominal.toml").string(), "--publish", "--now",
-                    "--out", mission.parent_path().string(), "--domain", domain}};
+  Program simulate{{"simulate", scenarios() / "gto-nominal.toml", "--publish", "--now", "--out",
+                    mission.parent_path(), "--domain", domain}};
   ASSERT_TRUE(eventually([&] { return std::filesystem::exists(mission); })) << simulate.log();
-  Program service{{"serve", "--mission", mission.string(), "--db", db.string(), "--domain", domain,
-                   "--partition", "replay"}};
-  ASSERT_TRUE(service.says("ready")) << service.log();
+  Serving service{
+      {"serve", "--mission", mission, "--db", db, "--domain", domain, "--partition", "replay"}};
   EXPECT_TRUE(eventually([&] {
-    return number_of(db, "SELECT count(*) FROM spin_estimate WHERE quality <> 'DOUBTFUL'") > 0;
+    return count_rows(db, "spin_estimate WHERE quality <> 'DOUBTFUL'") > 0;
   })) << service.log();
-  EXPECT_EQ(number_of(db, "SELECT count(*) FROM pulse_use WHERE rejected_by = 'no_orbit'"), 0);
-  EXPECT_EQ(number_of(db, "SELECT count(*) FROM alert WHERE key = 'data.outdated:orbit'"), 0);
+  EXPECT_EQ(count_rows(db, "pulse_use WHERE rejected_by = 'no_orbit'"), 0);
+  EXPECT_EQ(count_rows(db, "alert WHERE key = 'data.outdated:orbit'"), 0);
   simulate.signal(SIGINT);
   EXPECT_EQ(simulate.exit_status(), 1);
-  service.signal(SIGTERM);
-  EXPECT_EQ(service.exit_status(), 0);
+  stop_in_order(service);
 }
 
 TEST(RehearsalsCommand, IsAtTheSpeedOfTheClock) {
-  Program replay{{"replay", "--now", "--speed", "2", "--mission", "m.toml", "--telemetry", "."}};
-  EXPECT_EQ(replay.exit_status(), 2);
-  Program simulate{{"simulate", "s.toml", "--out", "x", "--now"}};
-  EXPECT_EQ(simulate.exit_status(), 2);
+  refused({"replay", "--now", "--speed", "2", "--mission", "m.toml", "--telemetry", "."}, {});
+  refused({"simulate", "s.toml", "--out", "x", "--now"}, {});
 }
 
 }  // namespace spindrift::rehearsal_test

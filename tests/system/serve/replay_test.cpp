@@ -2,15 +2,15 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <chrono>
 #include <nlohmann/json.hpp>
 #include <string>
-#include <thread>
 #include <vector>
 
-#include "tests/support/archive_rows.h"
 #include "tests/support/bus_fixture.h"
+#include "tests/support/count_rows.h"
+#include "tests/support/on_bus.h"
 #include "tests/support/program.h"
+#include "tests/support/ran.h"
 #include "tests/support/test_paths.h"
 
 namespace spindrift::replay_test {
@@ -28,12 +28,6 @@ const std::vector<std::vector<std::string>> kSenders = {
     {"replay", "--mission", kMission, "--telemetry", kPass, "--json"},
     {"simulate", kScenario, "--publish", "--json"}};
 
-std::vector<std::string> on(const bus::BusConfig& bus, std::vector<std::string> arguments) {
-  arguments.insert(arguments.end(),
-                   {"--domain", std::to_string(bus.domain), "--partition", bus.partition});
-  return arguments;
-}
-
 TEST(Sending, ToldToStopSaysHowFarItCameAndEndsWithOne) {
   for (const auto& sender : kSenders) {
     for (const int signal : {SIGINT, SIGTERM}) {
@@ -41,17 +35,15 @@ TEST(Sending, ToldToStopSaysHowFarItCameAndEndsWithOne) {
       const TemporaryFolder folder;
       const auto db = folder.path() / "served.db";
       const bus::BusConfig bus = bus_of_its_own();
-      Program service{on(bus, {"serve", "--mission", kMission, "--db", db.string()})};
-      ASSERT_TRUE(service.says("ready")) << service.log();
+      Serving service{on(bus, {"serve", "--mission", kMission, "--db", db})};
       Program sending{on(bus, sender)};
       ASSERT_TRUE(sending.says("publishing")) << sending.log();
-      ASSERT_TRUE(eventually([&] { return number_of(db, "SELECT count(*) FROM pulse") > 0; }));
+      ASSERT_TRUE(eventually([&] { return count_rows(db, "pulse") > 0; }));
       sending.signal(signal);
       EXPECT_EQ(sending.exit_status(), 1);
-      service.signal(SIGTERM);
-      ASSERT_EQ(service.exit_status(), 0) << service.log();
+      stop_in_order(service);
 
-      const auto stored = number_of(db, "SELECT count(*) FROM pulse");
+      const auto stored = count_rows(db, "pulse");
       const std::string error = nlohmann::json::parse(sending.out()).at("error");
       EXPECT_THAT(error, HasSubstr("stopped by a signal: " + std::to_string(stored) +
                                    " edges published, up to telemetry of "
@@ -83,27 +75,23 @@ TEST(Sending, DrawsNothingInAPipe) {
   const TemporaryFolder folder;
   const bus::BusConfig bus = bus_of_its_own();
   const auto db = folder.path() / "served.db";
-  Program service{on(bus, {"serve", "--mission", kMission, "--db", db.string()})};
-  ASSERT_TRUE(service.says("ready")) << service.log();
+  Serving service{on(bus, {"serve", "--mission", kMission, "--db", db})};
   for (std::vector<std::string> sender : kSenders) {
     sender.insert(sender.end(), {"--speed", "0"});
-    Program sending{on(bus, sender)};
-    EXPECT_EQ(sending.exit_status(), 0) << sending.log();
-    expect_plain(sending.log());
-    EXPECT_EQ(nlohmann::json::parse(sending.out())["published"], 3600);
+    const Ran sending = succeeded(on(bus, sender));
+    expect_plain(sending.log);
+    EXPECT_EQ(sending.json()["published"], 3600);
   }
-  service.signal(SIGTERM);
-  EXPECT_EQ(service.exit_status(), 0);
+  stop_in_order(service);
   expect_plain(service.log());
 }
 
 TEST(Process, DrawsNothingInAPipe) {
   const TemporaryFolder folder;
-  Program process{{"process", "--mission", kMission, "--telemetry", kPass, "--db",
-                   (folder.path() / "out.db").string()}};
-  ASSERT_EQ(process.exit_status(), 0);
-  expect_plain(process.log());
-  expect_plain(process.out());
+  const Ran process = succeeded(
+      {"process", "--mission", kMission, "--telemetry", kPass, "--db", folder.path() / "out.db"});
+  expect_plain(process.log);
+  expect_plain(process.out);
 }
 
 }  // namespace spindrift::replay_test

@@ -8,77 +8,67 @@
 #include <fstream>
 #include <iterator>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <set>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "services/bus/qos.h"
-#include "services/bus/reader.h"
 #include "services/bus/telemetry_messages.h"
 #include "services/publisher/product_messages.h"
 #include "services/publisher/telemetry_publisher.h"
 #include "tests/support/archive_rows.h"
-#include "tests/support/bus_child.h"
 #include "tests/support/bus_fixture.h"
+#include "tests/support/count_rows.h"
+#include "tests/support/on_bus.h"
 #include "tests/support/program.h"
 #include "tests/support/recorded_files.h"
 #include "tests/support/service.h"
+#include "tests/support/subscriber.h"
 
 namespace spindrift::serve_restart_test {
 
 using namespace std::chrono_literals;
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::IsEmpty;
 using ::testing::Not;
 
 TEST(Serve, LeavesAWholeArchiveWhenKilled) {
-  Service service{"gms5"};
-  ASSERT_TRUE(service.ready()) << service.program().log();
-  Program replay{{"replay", "--mission", service.mission(), "--telemetry",
-                  (kPasses / "gms5").string(), "--speed", "100", "--domain",
-                  std::to_string(service.bus().domain), "--partition", service.bus().partition}};
+  ReadyService service{"gms5"};
+  Program replay{service.words({"replay", "--telemetry", kPasses / "gms5", "--speed", "100"})};
   ASSERT_TRUE(eventually([&] {
-    return std::filesystem::exists(service.db()) &&
-           number_of(service.db(), "SELECT count(*) FROM spin_estimate") > 50;
+    return std::filesystem::exists(service.db()) && count_rows(service.db(), "spin_estimate") > 50;
   }));
-  service.program().signal(SIGKILL);
-  EXPECT_EQ(service.program().exit_status(), -1);
+  service.kill();
   replay.signal(SIGKILL);
 
-  EXPECT_EQ(rows_of(service.db(), "PRAGMA integrity_check"), std::vector<std::string>{"ok|"});
-  EXPECT_EQ(rows_of(service.db(), "PRAGMA foreign_key_check"), std::vector<std::string>{});
+  EXPECT_THAT(rows_of(service.db(), "PRAGMA integrity_check"), ElementsAre("ok|"));
+  EXPECT_THAT(rows_of(service.db(), "PRAGMA foreign_key_check"), IsEmpty());
   // The edges of a source are counted in the transaction that stores them.
   EXPECT_EQ(number_of(service.db(), "SELECT received FROM source_count"),
-            number_of(service.db(), "SELECT count(*) FROM pulse"));
+            count_rows(service.db(), "pulse"));
   // No result may exist without the edges that it is based on.
-  EXPECT_EQ(number_of(service.db(),
-                      "SELECT count(*) FROM pulse_use LEFT JOIN pulse USING"
-                      " (spacecraft_id, t_tai_ns, channel) WHERE pulse.t_tai_ns IS NULL"),
+  EXPECT_EQ(count_rows(service.db(),
+                       "pulse_use LEFT JOIN pulse USING (spacecraft_id, t_tai_ns, channel) WHERE "
+                       "pulse.t_tai_ns IS NULL"),
             0);
 }
 
 TEST(Serve, TellsAfterARestartHowFarTelemetryHadCome) {
   for (const int signal : {SIGKILL, SIGTERM}) {
-    Service service{"nominal"};
-    ASSERT_TRUE(service.ready()) << service.program().log();
+    ReadyService service{"nominal"};
     ASSERT_TRUE((FrontEnd{service.bus(), "SPINNER", pulses_of("nominal")}.send_until(0.1)));
-    ASSERT_TRUE(
-        eventually([&] { return number_of(service.db(), "SELECT count(*) FROM pulse") == 360; }));
+    ASSERT_TRUE(eventually([&] { return count_rows(service.db(), "pulse") == 360; }));
     service.program().signal(signal);
     static_cast<void>(service.program().exit_status());
-    service.start();
-    ASSERT_TRUE(service.ready()) << service.program().log();
+    service.go_on();
 
-    const auto participant = bus::Participant::create(service.bus()).value();
-    const auto health =
-        bus::Reader<spindrift_Health>::create(participant, bus::kHealthTopic, bus::results_qos())
-            .value();
+    const Subscriber health{service.bus(), bus::kHealthTopic};
     std::vector<spindrift_SpacecraftHealth> links;
     ASSERT_TRUE(eventually([&] {
-      health
-          .take([&](const spindrift_Health& beat) { links.push_back(beat.spacecraft._buffer[0]); })
-          .value();
+      health.take(
+          [&](const spindrift_Health& beat) { links.push_back(beat.spacecraft._buffer[0]); });
       return !links.empty();
     }));
     EXPECT_EQ(links.back().link, spindrift_LINK_STALE);
@@ -103,51 +93,40 @@ class ServeRestart : public ::testing::TestWithParam<int> {};
 
 TEST_P(ServeRestart, IntoARunningPassGivesWhatNoRestartWouldHave) {
   const std::vector<Pulse> pulses = disordered_pulses("gms5");
-  Service whole{"gms5"};
-  ASSERT_TRUE(whole.ready()) << whole.program().log();
+  ReadyService whole{"gms5"};
   ASSERT_TRUE((FrontEnd{whole.bus(), "GMS-5", pulses}.send_until(1.0)));
-  ASSERT_EQ(whole.stop_when_computed(), 0) << whole.program().log();
-  ASSERT_GT(number_of(whole.db(), "SELECT count(*) FROM pulse_use WHERE rejected_by = 'late'"), 0);
+  ASSERT_EQ(whole.stop_when_computed(), 0) << whole.log();
+  ASSERT_GT(count_rows(whole.db(), "pulse_use WHERE rejected_by = 'late'"), 0);
 
-  Service service{"gms5"};
+  ReadyService service{"gms5"};
   FrontEnd front_end{service.bus(), "GMS-5", pulses};
   for (const double share : {0.02, 0.5}) {
-    ASSERT_TRUE(service.ready()) << service.program().log();
     ASSERT_TRUE(front_end.send_until(share));
     service.program().signal(GetParam());
     ASSERT_EQ(service.program().exit_status(), GetParam() == SIGKILL ? -1 : 0);
-    service.start();
+    service.go_on();
   }
-  ASSERT_TRUE(service.ready()) << service.program().log();
   ASSERT_TRUE(front_end.send_until(1.0));
-  EXPECT_TRUE(eventually([&] {
-    return number_of(service.db(), "SELECT count(*) FROM run WHERE finished_utc IS NULL") == 1;
-  }));
-  ASSERT_EQ(service.stop_when_computed(), 0) << service.program().log();
+  EXPECT_TRUE(
+      eventually([&] { return count_rows(service.db(), "run WHERE finished_utc IS NULL") == 1; }));
+  ASSERT_EQ(service.stop_when_computed(), 0) << service.log();
 
   EXPECT_THAT(service.log(), HasSubstr("continuing run"));
-  EXPECT_EQ(number_of(service.db(), "SELECT count(*) FROM run WHERE finished_utc IS NOT NULL"), 1);
+  EXPECT_EQ(count_rows(service.db(), "run WHERE finished_utc IS NOT NULL"), 1);
   EXPECT_EQ(product_rows(service.db()), product_rows(whole.db()));
   EXPECT_EQ(last_batch_rows(service.db()), last_batch_rows(whole.db()));
-  const auto report = nlohmann::json::parse(service.program().out());
-  EXPECT_EQ(report["runs"][0]["revolutions"],
-            nlohmann::json::parse(whole.program().out())["runs"][0]["revolutions"]);
+  const auto report = service.summary();
+  EXPECT_EQ(report["runs"][0]["revolutions"], whole.summary()["runs"][0]["revolutions"]);
 }
 
 /// Holds what a KEEP_ALL subscriber received, by kind: revolution numbers of fixes, and times of
 /// the estimates of each estimator.
 using Announced = std::map<std::string, std::vector<std::int64_t>>;
 
-class Listener {
- public:
+struct Listener {
   explicit Listener(const bus::BusConfig& bus)
-      : participant_{bus::Participant::create(bus).value()},
-        fixes_{bus::Reader<spindrift_SpinFix>::create(participant_, product_topic<SpinFix>(),
-                                                      bus::telemetry_reader_qos())
-                   .value()},
-        estimates_{bus::Reader<spindrift_SpinEstimate>::create(
-                       participant_, product_topic<SpinEstimate>(), bus::telemetry_reader_qos())
-                       .value()} {}
+      : fixes{bus, product_topic<SpinFix>(), bus::telemetry_reader_qos()},
+        estimates{bus, product_topic<SpinEstimate>(), bus::telemetry_reader_qos()} {}
 
   Announced take_all() const {
     Announced all;
@@ -157,15 +136,13 @@ class Listener {
     const auto take_estimate = [&](const spindrift_SpinEstimate& estimate) {
       all[estimate.estimator].push_back(estimate.t_tai_ns);
     };
-    while (fixes_.take(take_fix).value() > 0 || estimates_.take(take_estimate).value() > 0) {
+    while (fixes.take(take_fix) > 0 || estimates.take(take_estimate) > 0) {
     }
     return all;
   }
 
- private:
-  bus::Participant participant_;
-  bus::Reader<spindrift_SpinFix> fixes_;
-  bus::Reader<spindrift_SpinEstimate> estimates_;
+  Subscriber<spindrift_SpinFix> fixes;
+  Subscriber<spindrift_SpinEstimate> estimates;
 };
 
 int most_alike(const std::vector<std::int64_t>& times) {
@@ -179,22 +156,19 @@ int most_alike(const std::vector<std::int64_t>& times) {
 
 TEST_P(ServeRestart, AnnouncesNothingTwiceButWhatIsInForce) {
   const std::vector<Pulse> pulses = pulses_of("nominal");
-  Service service{"nominal"};
+  ReadyService service{"nominal"};
   const Listener listener{service.bus()};
   FrontEnd front_end{service.bus(), "SPINNER", pulses};
   for (const auto& [share, fixes] : {std::pair{0.3, 150}, std::pair{0.6, 300}}) {
-    ASSERT_TRUE(service.ready()) << service.program().log();
     ASSERT_TRUE(front_end.send_until(share));
-    ASSERT_TRUE(eventually([db = service.db(), least = fixes] {
-      return number_of(db, "SELECT count(*) FROM spin_fix") > least;
-    }));
+    ASSERT_TRUE(eventually(
+        [db = service.db(), least = fixes] { return count_rows(db, "spin_fix") > least; }));
     service.program().signal(GetParam());
     ASSERT_EQ(service.program().exit_status(), GetParam() == SIGKILL ? -1 : 0);
-    service.start();
+    service.go_on();
   }
-  ASSERT_TRUE(service.ready()) << service.program().log();
   ASSERT_TRUE(front_end.send_until(1.0));
-  ASSERT_EQ(service.stop_when_computed(), 0) << service.program().log();
+  ASSERT_EQ(service.stop_when_computed(), 0) << service.log();
 
   const Announced announced = listener.take_all();
   ASSERT_EQ(announced.size(), 4U);
@@ -213,7 +187,7 @@ TEST_P(ServeRestart, AnnouncesNothingTwiceButWhatIsInForce) {
   const std::vector<std::int64_t>& fixes = announced.at("fix");
   if (GetParam() == SIGTERM) {
     EXPECT_EQ((std::set<std::int64_t>{fixes.begin(), fixes.end()}.size()),
-              number_of(service.db(), "SELECT count(*) FROM spin_fix WHERE accepted"));
+              count_rows(service.db(), "spin_fix WHERE accepted"));
   }
 }
 
@@ -224,19 +198,15 @@ INSTANTIATE_TEST_SUITE_P(Signals, ServeRestart, ::testing::Values(SIGKILL, SIGTE
 
 TEST(Serve, PublishesWhatIsInForceAgainAfterARestart) {
   Service service{"nominal"};
-  ASSERT_TRUE(service.serves_its_pass()) << service.program().log();
+  ASSERT_TRUE(service.serves_its_pass()) << service.log();
   service.start();
-  const auto participant = bus::Participant::create(service.bus()).value();
-  const auto estimates = bus::Reader<spindrift_SpinEstimate>::create(
-                             participant, product_topic<SpinEstimate>(), bus::results_qos())
-                             .value();
-  const auto estimate = take_samples(estimates, 1);
-  ASSERT_FALSE(estimate.empty());
-  ASSERT_EQ(service.stop_when_computed(), 0) << service.program().log();
+  const Subscriber estimates{service.bus(), product_topic<SpinEstimate>()};
+  ASSERT_FALSE(take_samples(estimates.reader(), 1).empty());
+  ASSERT_EQ(service.stop_when_computed(), 0) << service.log();
 }
 
 TEST(Serve, CountsMissingSamplesOnceHoweverOftenTheyAreSentAgain) {
-  Service service{"nominal"};
+  ReadyService service{"nominal"};
   const auto participant = bus::Participant::create(service.bus()).value();
   const auto front_end = bus::Writer<spindrift_Pulse>::create(participant, bus::topic_of<Pulse>(),
                                                               bus::telemetry_writer_qos())
@@ -254,15 +224,13 @@ TEST(Serve, CountsMissingSamplesOnceHoweverOftenTheyAreSentAgain) {
       return number_of(service.db(), "SELECT max(seq) FROM pulse") ==
              static_cast<std::int64_t>(last);
     }));
-    EXPECT_EQ(service.stop_when_computed(), 0) << service.program().log();
+    EXPECT_EQ(service.stop_when_computed(), 0) << service.log();
     return number_of(service.db(), "SELECT gaps FROM source_count");
   };
-  ASSERT_TRUE(service.ready()) << service.program().log();
   send(0, 200);
   EXPECT_EQ(gaps_when_stopped_after(199), 4);
   send(200, 300);  // The service is not running and receives these later.
-  service.start();
-  ASSERT_TRUE(service.ready()) << service.program().log();
+  service.go_on();
   send(300, 500);
   EXPECT_EQ(gaps_when_stopped_after(499), 7);
   service.start();
@@ -273,15 +241,9 @@ TEST(Serve, CountsMissingSamplesOnceHoweverOftenTheyAreSentAgain) {
 TEST(Serve, SaysWhenAChangedMissionFileBeginsANewRun) {
   const PassCopy pass{"nominal"};
   const bus::BusConfig bus = bus_of_its_own();
-  const std::vector<std::string> arguments = {
-      "serve",          "--mission", pass.mission().string(),    "--db",
-      pass.db.string(), "--domain",  std::to_string(bus.domain), "--partition",
-      bus.partition};
   const auto log_of_a_service = [&] {
-    Program service{arguments};
-    EXPECT_TRUE(service.says("ready")) << service.log();
-    service.signal(SIGTERM);
-    EXPECT_EQ(service.exit_status(), 0);
+    Serving service{on(bus, {"serve", "--mission", pass.mission(), "--db", pass.db})};
+    stop_in_order(service);
     return service.log();
   };
   EXPECT_THAT(log_of_a_service(), Not(HasSubstr("have changed")));
@@ -312,30 +274,29 @@ std::vector<Pulse> two_passes() {
 class ServeTwoPasses : public ::testing::TestWithParam<double> {};
 
 TEST_P(ServeTwoPasses, MakesTwoRunsHoweverTheServiceIsRestarted) {
-  Service service{"nominal"};
-  ASSERT_TRUE(service.ready()) << service.program().log();
+  ReadyService service{"nominal"};
   const std::vector<Pulse> pulses = two_passes();
   FrontEnd front_end{service.bus(), "SPINNER", pulses};
   ASSERT_TRUE(front_end.send_until(GetParam()));
   if (GetParam() < 1.0) {
-    ASSERT_EQ(service.stop_when_computed(), 0) << service.program().log();
+    ASSERT_EQ(service.stop_when_computed(), 0) << service.log();
     service.start();
     // The front-end sends its last samples of the old pass again first, which must not end the
     // silence.
     ASSERT_TRUE(front_end.send_until(1.0));
   }
-  ASSERT_EQ(service.stop_when_computed(), 0) << service.program().log();
+  ASSERT_EQ(service.stop_when_computed(), 0) << service.log();
 
-  EXPECT_EQ(rows_of(service.db(),
-                    "SELECT min(t_tai_ns), min(revolution), max(revolution), count(*)"
-                    " FROM revolution GROUP BY run_id ORDER BY 1"),
-            (std::vector<std::string>{std::to_string(tai_ns(pulses.at(0).t)) + "|0|99|100|",
-                                      std::to_string(tai_ns(pulses.at(100).t)) + "|0|99|100|"}));
-  EXPECT_EQ(number_of(service.db(), "SELECT count(*) FROM run WHERE finished_utc IS NOT NULL"), 2);
-  EXPECT_EQ(rows_of(service.db(), "SELECT first_tai_ns FROM run ORDER BY first_arrival"),
-            (std::vector<std::string>{std::to_string(tai_ns(pulses.at(0).t)) + "|",
-                                      std::to_string(tai_ns(pulses.at(100).t)) + "|"}));
-  EXPECT_EQ(number_of(service.db(), "SELECT count(*) FROM pulse_use"), 200);
+  EXPECT_THAT(rows_of(service.db(),
+                      "SELECT min(t_tai_ns), min(revolution), max(revolution), count(*) FROM "
+                      "revolution GROUP BY run_id ORDER BY 1"),
+              ElementsAre(std::to_string(tai_ns(pulses.at(0).t)) + "|0|99|100|",
+                          std::to_string(tai_ns(pulses.at(100).t)) + "|0|99|100|"));
+  EXPECT_EQ(count_rows(service.db(), "run WHERE finished_utc IS NOT NULL"), 2);
+  EXPECT_THAT(rows_of(service.db(), "SELECT first_tai_ns FROM run ORDER BY first_arrival"),
+              ElementsAre(std::to_string(tai_ns(pulses.at(0).t)) + "|",
+                          std::to_string(tai_ns(pulses.at(100).t)) + "|"));
+  EXPECT_EQ(count_rows(service.db(), "pulse_use"), 200);
 }
 
 // Restart before the silence, before the new pass is confirmed, and never.

@@ -4,7 +4,6 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <csignal>
 #include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -14,13 +13,15 @@
 #include "pipelines/frames/angle.h"
 #include "pipelines/frames/rotation_vector.h"
 #include "services/bus/qos.h"
-#include "services/bus/reader.h"
 #include "services/publisher/product_messages.h"
 #include "tests/support/archive_rows.h"
 #include "tests/support/bus_fixture.h"
-#include "tests/support/processed_pass.h"
+#include "tests/support/count_rows.h"
+#include "tests/support/on_bus.h"
+#include "tests/support/processed.h"
+#include "tests/support/ran.h"
 #include "tests/support/recorded_separation.h"
-#include "tests/support/service.h"
+#include "tests/support/subscriber.h"
 #include "tests/support/test_paths.h"
 #include "tests/support/three_axis_files.h"
 
@@ -37,13 +38,13 @@ const std::filesystem::path kSeparation = test_data() / "three-axis" / "separati
 std::vector<std::string> reconstructed_rows(const std::filesystem::path& db) {
   std::vector<std::string> rows;
   for (const char* query :
-       {"SELECT method, event, t_tai_ns, found, qx, qy, qz, qw, rate_x_rad_s, rate_y_rad_s,"
-        " rate_z_rad_s, euler312_orbit_deg_1, euler312_orbit_deg_2, euler312_orbit_deg_3,"
-        " sigma_deg, bound_deg FROM reconstruction_event ORDER BY 1, 2",
-        "SELECT method, t_tai_ns, quality, reasons, status, samples, gyro_samples, sun_vectors,"
-        " star_fixes, bias_x_rad_s, bias_sigma_z_rad_s FROM reconstruction ORDER BY 1",
-        "SELECT t_tai_ns, source, qx, qy, qz, qw, rate_x_rad_s, sigma_deg, quality, status"
-        " FROM attitude ORDER BY 2, 1"}) {
+       {"SELECT method, event, t_tai_ns, found, qx, qy, qz, qw, rate_x_rad_s, rate_y_rad_s, "
+        "rate_z_rad_s, euler312_orbit_deg_1, euler312_orbit_deg_2, euler312_orbit_deg_3, "
+        "sigma_deg, bound_deg FROM reconstruction_event ORDER BY 1, 2",
+        "SELECT method, t_tai_ns, quality, reasons, status, samples, gyro_samples, sun_vectors, "
+        "star_fixes, bias_x_rad_s, bias_sigma_z_rad_s FROM reconstruction ORDER BY 1",
+        "SELECT t_tai_ns, source, qx, qy, qz, qw, rate_x_rad_s, sigma_deg, quality, status FROM "
+        "attitude ORDER BY 2, 1"}) {
     for (std::string& row : rows_of(db, query)) {
       rows.push_back(std::move(row));
     }
@@ -55,36 +56,26 @@ std::vector<std::string> reconstructed_rows(const std::filesystem::path& db) {
 class Listener {
  public:
   explicit Listener(const bus::BusConfig& bus)
-      : participant_{bus::Participant::create(bus).value()},
-        reader_{bus::Reader<spindrift_AttitudeEstimate>::create(
-                    participant_, product_topic<AttitudeEstimate>(), bus::telemetry_reader_qos())
-                    .value()} {}
+      : attitudes_{bus, product_topic<AttitudeEstimate>(), bus::telemetry_reader_qos()} {}
 
   /// Returns the attitudes of an estimator in the order of arrival.
   std::vector<spindrift_AttitudeEstimate> of(const std::string& estimator) {
-    while (reader_
-               .take([&](const spindrift_AttitudeEstimate& one) {
-                 got_[one.estimator].push_back(one);
-               })
-               .value() > 0) {
+    const auto note = [&](const auto& one) { got_[one.estimator].push_back(one); };
+    while (attitudes_.take(note) > 0) {
     }
     return got_[estimator];
   }
 
  private:
-  bus::Participant participant_;
-  bus::Reader<spindrift_AttitudeEstimate> reader_;
+  Subscriber<spindrift_AttitudeEstimate> attitudes_;
   std::map<std::string, std::vector<spindrift_AttitudeEstimate>> got_;
 };
 
 /// Returns the attitudes that a late subscriber receives.
 std::vector<std::int64_t> kept_on(const bus::BusConfig& bus, const std::string& estimator) {
-  const auto participant = bus::Participant::create(bus).value();
-  const auto reader = bus::Reader<spindrift_AttitudeEstimate>::create(
-                          participant, product_topic<AttitudeEstimate>(), bus::results_qos())
-                          .value();
+  const Subscriber attitudes{bus, product_topic<AttitudeEstimate>()};
   std::vector<std::int64_t> times;
-  for (const auto& one : take_samples(reader, 3)) {
+  for (const auto& one : take_samples(attitudes.reader(), 3)) {
     if (one.estimator == estimator) {
       times.push_back(one.t_tai_ns);
     }
@@ -104,9 +95,8 @@ void expect_right(const spindrift_AttitudeEstimate& told, const testing::TrueAtt
 
 TEST(ServeSeparation, IsReconstructedWhenTheStarFixComesAndSentAndStored) {
   const auto pass = testing::recorded_separation("separation");
-  Service service{kSeparation.string(), "replay"};
+  ReadyService service{kSeparation.string(), "replay"};
   Listener listener{service.bus()};
-  ASSERT_TRUE(service.ready()) << service.program().log();
   ASSERT_EQ(service.replay("0"), 0);
   for (const char* const method : {"batch", "sequential"}) {
     EXPECT_TRUE(eventually([&] { return listener.of(method).size() >= 4; })) << method;
@@ -118,17 +108,15 @@ TEST(ServeSeparation, IsReconstructedWhenTheStarFixComesAndSentAndStored) {
     expect_right(sent[place], pass.truth.at(event));
   }
   EXPECT_THAT(kept_on(service.bus(), "batch"), ElementsAre(tai_ns(pass.truth.at("T1").t)));
-  EXPECT_EQ(number_of(service.db(), "SELECT count(*) FROM reconstruction"), 2);
+  EXPECT_EQ(count_rows(service.db(), "reconstruction"), 2);
 
-  ASSERT_EQ(service.stop(), 0) << service.program().log();
+  ASSERT_EQ(service.stop(), 0) << service.log();
   EXPECT_THAT(service.log(),
               HasSubstr("separation reconstructed: T1 2026-03-01T04:00:00.000Z, attitude ICRF to "
                         "body, Euler 3-1-2 "));
-  const TemporaryFolder folder;
-  const Outcome processed = process(folder, kSeparation);
-  ASSERT_EQ(processed.status, 0) << processed.log;
+  const Processed processed{kSeparation};
   EXPECT_THAT(reconstructed_rows(service.db()), Pointwise(Eq(), reconstructed_rows(processed.db)));
-  const auto summary = nlohmann::json::parse(service.program().out())["runs"][0]["reconstruction"];
+  const auto summary = service.summary()["runs"][0]["reconstruction"];
   EXPECT_EQ(summary["batch"]["events"][0]["event"], "T1");
   EXPECT_EQ(summary, processed.run["reconstruction"]);
 }
@@ -136,13 +124,11 @@ TEST(ServeSeparation, IsReconstructedWhenTheStarFixComesAndSentAndStored) {
 TEST(ServeSeparation, KilledBetweenStarFixesGivesWhatProcessGives) {
   const TemporaryFolder pass;
   testing::write_three_axis_pass(pass.path(), {.separation = true});
-  const TemporaryFolder folder;
-  const Outcome processed = process(folder, pass.path());
-  ASSERT_EQ(processed.status, 0) << processed.log;
+  const Processed processed{pass.path()};
   const std::int64_t middle =
       number_of(processed.db, "SELECT max(t_tai_ns) FROM gyro_sample") - 30'000'000'000;
 
-  Service service{pass.path().string(), "replay"};
+  ReadyService service{pass.path().string(), "replay"};
   Listener listener{service.bus()};
   const std::int64_t t1 =
       number_of(processed.db, "SELECT min(t_tai_ns) FROM reconstruction_event WHERE event = 'T1'");
@@ -152,13 +138,9 @@ TEST(ServeSeparation, KilledBetweenStarFixesGivesWhatProcessGives) {
                          [&](const auto& one) { return one.t_tai_ns == t1; });
   };
   for (const bool first : {true, false}) {
-    ASSERT_TRUE(service.ready()) << service.program().log();
     const TemporaryFolder half;
     testing::write_half(pass.path(), middle, first, half.path());
-    Program replay{{"replay", "--mission", service.mission(), "--telemetry", half.path().string(),
-                    "--speed", "0", "--domain", std::to_string(service.bus().domain), "--partition",
-                    service.bus().partition}};
-    ASSERT_EQ(replay.exit_status(), 0) << replay.log();
+    succeeded(service.words({"replay", "--telemetry", half.path(), "--speed", "0"}));
     // Solutions are made at 1, 2, 4, 8 and 16 fixes; after the restart, at 16 again and at 32.
     for (const char* const method : {"batch", "sequential"}) {
       ASSERT_TRUE(eventually([&, all = first ? 5 : 7] { return solutions(method) == all; }))
@@ -169,14 +151,12 @@ TEST(ServeSeparation, KilledBetweenStarFixesGivesWhatProcessGives) {
         return three_axis_samples_before(service.db(), middle) ==
                three_axis_samples_before(processed.db, middle);
       }));
-      service.program().signal(SIGKILL);
-      service.program().exit_status();
-      service.start();
+      service.kill_and_go_on();
     }
   }
-  ASSERT_EQ(service.stop(), 0) << service.program().log();
+  ASSERT_EQ(service.stop(), 0) << service.log();
   EXPECT_THAT(reconstructed_rows(service.db()), Pointwise(Eq(), reconstructed_rows(processed.db)));
-  EXPECT_EQ(number_of(service.db(), "SELECT count(*) FROM run"), 1);
+  EXPECT_EQ(count_rows(service.db(), "run"), 1);
   // The mission names no orbit, so the orbit frame comes from the orbit states.
   EXPECT_EQ(number_of(service.db(), "SELECT count(euler312_orbit_deg_1) FROM reconstruction_event"),
             8);
@@ -184,56 +164,50 @@ TEST(ServeSeparation, KilledBetweenStarFixesGivesWhatProcessGives) {
 }
 
 TEST(ServeSeparation, TheCommandGoesThroughTheServiceThatHoldsTheArchive) {
-  Service service{kSeparation.string(), "replay"};
+  ReadyService service{kSeparation.string(), "replay"};
   Listener listener{service.bus()};
-  ASSERT_TRUE(service.ready()) << service.program().log();
   ASSERT_EQ(service.replay("0"), 0);
-  ASSERT_TRUE(eventually(
-      [&] { return number_of(service.db(), "SELECT count(*) FROM reconstruction") == 2; }));
+  ASSERT_TRUE(eventually([&] { return count_rows(service.db(), "reconstruction") == 2; }));
   const auto plot = service.db().parent_path() / "plot.svg";
-  const auto reconstruct = [&](const std::string& mission, std::vector<std::string> more) {
-    more.insert(more.begin(),
-                {"reconstruct", "--mission", mission, "--db", service.db().string(), "--json"});
-    return Program{more};
+  const auto reconstruct = [&](const std::string& mission, const Words& more) {
+    return ended(with({"reconstruct", "--mission", mission, "--db", service.db(), "--json"}, more));
   };
-  Program held = reconstruct(service.mission(), {"--plot", plot.string(), "--method", "batch"});
-  ASSERT_EQ(held.exit_status(), 0) << held.log();
+  const Ran held = reconstruct(service.mission(), {"--plot", plot, "--method", "batch"});
+  ASSERT_EQ(held.status, 0) << held.log;
   EXPECT_TRUE(std::filesystem::exists(plot));
-  Program refused = reconstruct("/no/such/mission.toml", {});
-  EXPECT_EQ(refused.exit_status(), 2);
-  EXPECT_THAT(refused.out(), HasSubstr("/no/such/mission.toml: cannot be read"));
-  ASSERT_EQ(service.stop(), 0) << service.program().log();
+  const Ran lost = reconstruct("/no/such/mission.toml", {});
+  EXPECT_EQ(lost.status, 2);
+  EXPECT_THAT(lost.out, HasSubstr("/no/such/mission.toml: cannot be read"));
+  ASSERT_EQ(service.stop(), 0) << service.log();
   // The command's solution is not announced. The pass's own solutions stay valid: at the fix, at
   // the end, and on a slow machine also when the stream has fallen silent.
   EXPECT_TRUE(eventually([&] { return listener.of("batch").size() >= 8; }));
   EXPECT_EQ(listener.of("batch").size() % 4, 0U);  // Each solution has T1 to T4.
-  const std::string run_of_command = nlohmann::json::parse(held.out()).at("run_id");
+  const std::string run_of_command = held.json().at("run_id");
   for (const spindrift_AttitudeEstimate& announced : listener.of("batch")) {
     EXPECT_NE(announced.run_id, run_of_command);
   }
 
-  Program free = reconstruct(service.mission(), {"--method", "batch"});
-  ASSERT_EQ(free.exit_status(), 0) << free.log();
-  const auto by_service = nlohmann::json::parse(held.out());
-  const auto by_itself = nlohmann::json::parse(free.out());
+  const Ran free = reconstruct(service.mission(), {"--method", "batch"});
+  ASSERT_EQ(free.status, 0) << free.log;
+  const auto by_service = held.json();
+  const auto by_itself = free.json();
   EXPECT_EQ(by_service["batch"], by_itself["batch"]);
   EXPECT_EQ(by_service["plot"], plot.string());
   EXPECT_TRUE(by_service["sequential"].is_null());
-  EXPECT_EQ(rows_of(service.db(),
-                    "SELECT mode, finished_utc IS NOT NULL, count(*) FROM run"
-                    " GROUP BY 1 ORDER BY 1"),
-            (std::vector<std::string>{"process|1|2|", "replay|1|1|"}));
+  EXPECT_THAT(
+      rows_of(service.db(),
+              "SELECT mode, finished_utc IS NOT NULL, count(*) FROM run GROUP BY 1 ORDER BY 1"),
+      ElementsAre("process|1|2|", "replay|1|1|"));
 }
 
 TEST(ServeSeparation, ProcessSaysWhyThereIsNoneAndDoesTheRest) {
   const TemporaryFolder folder;
-  Program program{{"process", "--mission", (kSeparation / "mission.toml").string(), "--telemetry",
-                   (kSeparation / "gyro.csv").string(), "--db",
-                   (folder.path() / "out.db").string()}};
-  EXPECT_EQ(program.exit_status(), 0);
-  EXPECT_THAT(program.log(),
-              HasSubstr("no reconstruction of the separation: no star fix from T1 on: "
-                        "nothing can be anchored"));
+  const Ran program =
+      succeeded({"process", "--mission", kSeparation / "mission.toml", "--telemetry",
+                 kSeparation / "gyro.csv", "--db", folder.path() / "out.db"});
+  EXPECT_THAT(program.log, HasSubstr("no reconstruction of the separation: no star fix from T1 on: "
+                                     "nothing can be anchored"));
 }
 
 }  // namespace spindrift::serve_separation_test

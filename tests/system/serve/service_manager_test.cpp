@@ -10,9 +10,6 @@
 #include <cstring>
 #include <string>
 
-#include "tests/support/archive_rows.h"
-#include "tests/support/service.h"
-
 namespace spindrift::service_manager_test {
 
 class Manager {

@@ -1,14 +1,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <csignal>
 #include <string>
 #include <vector>
 
 #include "tests/support/archive_rows.h"
 #include "tests/support/eventually.h"
-#include "tests/support/program.h"
-#include "tests/support/recorded_files.h"
+#include "tests/support/on_bus.h"
 #include "tests/support/service.h"
 
 namespace spindrift::serve_silence_test {
@@ -20,8 +18,7 @@ TEST(Serve, ComputesASilentStreamToItsEndAndRepeatsThatAfterAKill) {
   constexpr std::int64_t kEdgesOfARevolution = 6;
   std::vector<Pulse> pulses = pulses_of("nominal");
   pulses.resize(kEdges);
-  Service service{"nominal"};
-  ASSERT_TRUE(service.ready()) << service.program().log();
+  ReadyService service{"nominal"};
   ASSERT_TRUE((FrontEnd{service.bus(), "SPINNER", pulses}.send_until(1.0)));
   const auto number = [&](const std::string& query) { return number_of(service.db(), query); };
   ASSERT_TRUE(eventually([&] {
@@ -36,18 +33,16 @@ TEST(Serve, ComputesASilentStreamToItsEndAndRepeatsThatAfterAKill) {
   ASSERT_TRUE(eventually(
       [&] { return number("SELECT count(*) FROM pulse_use WHERE rejected_by = 'late'") == 1; }));
 
-  service.program().signal(SIGKILL);
-  EXPECT_EQ(service.program().exit_status(), -1);
+  service.kill();
   std::vector<std::string> before = product_rows(service.db());
   std::sort(before.begin(), before.end());
-  service.start();
-  ASSERT_TRUE(service.ready()) << service.program().log();
+  service.go_on();
   EXPECT_TRUE(eventually([&] {
     std::vector<std::string> after = product_rows(service.db());
     std::sort(after.begin(), after.end());
     return std::includes(after.begin(), after.end(), before.begin(), before.end());
   }));
-  ASSERT_EQ(service.stop(), 0) << service.program().log();
+  ASSERT_EQ(service.stop(), 0) << service.log();
 }
 
 }  // namespace spindrift::serve_silence_test

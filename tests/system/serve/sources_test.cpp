@@ -3,15 +3,13 @@
 
 #include <algorithm>
 #include <chrono>
-#include <csignal>
 #include <iterator>
 #include <string>
 #include <vector>
 
 #include "tests/support/archive_rows.h"
 #include "tests/support/eventually.h"
-#include "tests/support/program.h"
-#include "tests/support/recorded_files.h"
+#include "tests/support/on_bus.h"
 #include "tests/support/service.h"
 
 namespace spindrift::serve_sources_test {
@@ -40,7 +38,9 @@ std::vector<std::string> sorted(std::vector<std::string> rows) {
 /// recorded one, sent faster than real time.
 class ServeSources : public ::testing::Test {
  protected:
-  explicit ServeSources(const std::string& partition = "replay") : service_{"nominal", partition} {}
+  explicit ServeSources(const std::string& partition = "replay") : service_{"nominal", partition} {
+    whole();
+  }
 
   struct Whole {
     std::vector<Pulse> pulses;
@@ -51,20 +51,14 @@ class ServeSources : public ::testing::Test {
   static const Whole& whole() {
     static const Whole kWhole = [] {
       Whole whole{.pulses = pulses_of("nominal"), .products = {}, .batch = {}};
-      Service service{"nominal", "replay"};
-      EXPECT_TRUE(service.ready()) << service.program().log();
+      ReadyService service{"nominal", "replay"};
       EXPECT_TRUE((FrontEnd{service.bus(), "SPINNER", whole.pulses}.send_until(1.0)));
-      EXPECT_EQ(service.stop_when_computed(), 0) << service.program().log();
+      EXPECT_EQ(service.stop_when_computed(), 0) << service.log();
       whole.products = sorted(product_rows(service.db()));
       whole.batch = last_batch_rows(service.db());
       return whole;
     }();
     return kWhole;
-  }
-
-  void SetUp() override {
-    whole();
-    ASSERT_TRUE(service_.ready()) << service_.program().log();
   }
 
   FrontEnd honest() const { return {service_.bus(), "SPINNER", whole().pulses}; }
@@ -81,31 +75,24 @@ class ServeSources : public ::testing::Test {
         [&] { return number("SELECT count(*) FROM pulse") == static_cast<std::int64_t>(pulses); });
   }
 
-  void kill_and_restart() {
-    service_.program().signal(SIGKILL);
-    EXPECT_EQ(service_.program().exit_status(), -1);
-    service_.start();
-    ASSERT_TRUE(service_.ready()) << service_.program().log();
-  }
-
   /// Expects the result of the honest source alone, in one run.
   void expect_the_whole_pass() {
-    ASSERT_EQ(service_.stop_when_computed(), 0) << service_.program().log();
+    ASSERT_EQ(service_.stop_when_computed(), 0) << service_.log();
     const std::vector<std::string> rows = sorted(product_rows(service_.db()));
     std::vector<std::string> missing;
     std::set_difference(whole().products.begin(), whole().products.end(), rows.begin(), rows.end(),
                         std::back_inserter(missing));
     EXPECT_THAT(missing, IsEmpty()) << service_.log();
     EXPECT_EQ(last_batch_rows(service_.db()), whole().batch) << service_.log();
-    EXPECT_EQ(number("SELECT count(*) FROM pulse_use WHERE rejected_by IN ('late', 'out_of_time')"
-                     " AND t_tai_ns <= " +
+    EXPECT_EQ(number("SELECT count(*) FROM pulse_use WHERE rejected_by IN ('late', 'out_of_time') "
+                     "AND t_tai_ns <= " +
                      std::to_string(tai_ns(whole().pulses.back().t))),
               0)
         << service_.log();
     EXPECT_EQ(number("SELECT count(DISTINCT run_id) FROM spin_estimate"), 1) << service_.log();
   }
 
-  Service service_;
+  ReadyService service_;
 };
 
 struct AlienBefore {
@@ -125,8 +112,8 @@ TEST_P(ServeAlienBefore, CostsTheHonestSourceNothing) {
   ASSERT_TRUE(front_end.send_until(1.0));
   ASSERT_TRUE(has_stored(whole().pulses.size() + static_cast<std::size_t>(count)));
   ASSERT_TRUE(eventually([&] { return number("SELECT count(*) FROM run") == 2; }))
-      << service_.program().log();
-  kill_and_restart();
+      << service_.log();
+  service_.kill_and_go_on();
   expect_the_whole_pass();
   EXPECT_THAT(service_.log(), AllOf(HasSubstr("a new run begins with source 'front-end'"),
                                     HasSubstr("behind source 'alien'")));
@@ -160,7 +147,7 @@ TEST_P(ServeAlienWithin, IsLeftOutAndNamed) {
   ASSERT_TRUE(has_stored(half + half / 2 + static_cast<std::size_t>(count)));
   // A kill would lose the message if it was not logged yet.
   EXPECT_TRUE(service_.program().says("SPINNER: the samples of source 'alien' (session "));
-  kill_and_restart();
+  service_.kill_and_go_on();
   ASSERT_TRUE(front_end.send_until(1.0));
   expect_the_whole_pass();
   EXPECT_EQ(number("SELECT count(*) FROM run"), 1);
@@ -211,7 +198,7 @@ TEST_F(ServeSources, OneThatBeginsWithItsLastMinutesCatchesUp) {
   FrontEnd other{service_.bus(), "SPINNER", whole().pulses, "other"};
   ASSERT_TRUE(other.send_until(1.0));
   ASSERT_TRUE(has_stored(whole().pulses.size()));
-  ASSERT_EQ(service_.stop_when_computed(), 0) << service_.program().log();
+  ASSERT_EQ(service_.stop_when_computed(), 0) << service_.log();
   const std::string log = service_.log();
   EXPECT_EQ(number("SELECT count(*) FROM run"), 1) << log;
   EXPECT_EQ(number("SELECT count(*) FROM pulse WHERE arrival < 0"), 0) << log;
@@ -219,16 +206,13 @@ TEST_F(ServeSources, OneThatBeginsWithItsLastMinutesCatchesUp) {
 }
 
 TEST(ServeLive, TheClockOfTheHostIsComparedOnce) {
-  Service service{"nominal"};
-  ASSERT_TRUE(service.ready()) << service.program().log();
+  ReadyService service{"nominal"};
   ASSERT_TRUE((FrontEnd{service.bus(), "SPINNER", pulses_of("nominal")}.send_until(1.0)));
-  ASSERT_EQ(service.stop_when_computed(), 0) << service.program().log();
+  ASSERT_EQ(service.stop_when_computed(), 0) << service.log();
   const std::string whole_log = service.log();
   // Log of the first start.
   const std::string log = whole_log.substr(0, whole_log.find("stopping"));
-  const std::string said = "and the clock of this host";
-  EXPECT_THAT(log, HasSubstr(said));
-  EXPECT_EQ(log.find(said, log.find(said) + 1), std::string::npos);
+  expect_said_once(log, "and the clock of this host");
 }
 
 }  // namespace spindrift::serve_sources_test

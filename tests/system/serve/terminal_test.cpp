@@ -7,16 +7,16 @@
 
 #include <array>
 #include <csignal>
-#include <fstream>
 #include <nlohmann/json.hpp>
-#include <sstream>
 #include <string>
 #include <vector>
 
 #include "tests/support/bus_fixture.h"
 #include "tests/support/eventually.h"
+#include "tests/support/lines.h"
+#include "tests/support/on_bus.h"
+#include "tests/support/pass_with.h"
 #include "tests/support/program.h"
-#include "tests/support/recorded_files.h"
 #include "tests/support/service.h"
 
 namespace spindrift::serve_terminal_test {
@@ -65,34 +65,12 @@ class Terminal {
   std::string text_;
 };
 
-/// Holds a pass whose link counts as silent after three seconds.
-struct SoonSilent {
-  PassCopy copy{"nominal"};
-  SoonSilent() {
-    std::ofstream{copy.folder.path() / "mission.toml", std::ios::app}
-        << "\n[alerts.\"link.silent\"]\nseconds = 3.0\n";
-  }
-};
-
-std::vector<std::string> parts_of(const std::string& text, char delimiter) {
-  std::vector<std::string> parts;
-  std::istringstream stream{text};
-  for (std::string part; std::getline(stream, part, delimiter);) {
-    parts.push_back(part);
-  }
-  return parts;
-}
-
 TEST(ServeTerminal, RewritesOneLineAndScrollsWhatChanges) {
-  const SoonSilent pass;
+  const PassWith pass{kSoonSilent};
   const bus::BusConfig bus = bus_of_its_own();
   Terminal terminal;
-  Program service{
-      {"serve", "--mission", pass.copy.mission().string(), "--db", pass.copy.db.string(),
-       "--domain", std::to_string(bus.domain), "--partition", bus.partition},
-      0,
-      "",
-      terminal.name()};
+  Program service{on(bus, {"serve", "--mission", pass.mission(), "--db", pass.db}), 0, "",
+                  terminal.name()};
   ASSERT_TRUE(terminal.shows("SPINNER waiting for telemetry")) << terminal.text();
   FrontEnd front_end{bus, "SPINNER", pulses_of("nominal")};
   ASSERT_TRUE(front_end.send_until(0.5));
@@ -106,7 +84,7 @@ TEST(ServeTerminal, RewritesOneLineAndScrollsWhatChanges) {
 
   // The status line shows the axis instead.
   EXPECT_THAT(terminal.text(), Not(HasSubstr("SPINNER: axis RA ")));
-  for (const std::string& drawn : parts_of(terminal.text(), '\r')) {
+  for (const std::string& drawn : lines_of(terminal.text(), '\r')) {
     if (drawn.starts_with("\x1b[KSPINNER ")) {
       EXPECT_LT(drawn.size(), std::string{"\x1b[K"}.size() + 80U) << drawn;
       EXPECT_THAT(drawn, Not(HasSubstr("\n"))) << drawn;
@@ -115,9 +93,8 @@ TEST(ServeTerminal, RewritesOneLineAndScrollsWhatChanges) {
 }
 
 TEST(ServeTerminal, TellsProgramsAnObjectALine) {
-  const SoonSilent pass;
-  Service service{pass.copy.folder.path().string()};
-  ASSERT_TRUE(service.ready()) << service.log();
+  const PassWith pass{kSoonSilent};
+  ReadyService service{pass.folder.path()};
   FrontEnd front_end{service.bus(), "SPINNER", pulses_of("nominal")};
   ASSERT_TRUE(front_end.send_until(0.1));
   ASSERT_TRUE(service.program().says("\"link.silent\"")) << service.log();
@@ -125,7 +102,7 @@ TEST(ServeTerminal, TellsProgramsAnObjectALine) {
   ASSERT_TRUE(service.program().says("\"cleared\"")) << service.log();
   ASSERT_EQ(service.stop_when_computed(), 0) << service.log();
   std::vector<std::string> states;
-  for (const std::string& line : parts_of(service.log(), '\n')) {
+  for (const std::string& line : lines_of(service.log())) {
     const auto told = nlohmann::json::parse(line, nullptr, false);
     ASSERT_TRUE(told.is_object()) << line;
     if (told.contains("alert_id")) {
@@ -143,7 +120,7 @@ TEST(ServeTerminal, TellsProgramsAnObjectALine) {
   ASSERT_GE(states.size(), 2U);
   EXPECT_EQ(states[0], "active");
   EXPECT_EQ(states[1], "cleared");
-  EXPECT_TRUE(nlohmann::json::parse(service.program().out()).contains("runs"));
+  EXPECT_TRUE(service.summary().contains("runs"));
 }
 
 }  // namespace spindrift::serve_terminal_test

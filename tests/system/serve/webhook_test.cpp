@@ -6,7 +6,6 @@
 #include <boost/asio.hpp>
 #include <boost/beast.hpp>
 #include <csignal>
-#include <fstream>
 #include <mutex>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -15,6 +14,9 @@
 #include <vector>
 
 #include "tests/support/archive_rows.h"
+#include "tests/support/count_rows.h"
+#include "tests/support/on_bus.h"
+#include "tests/support/pass_with.h"
 #include "tests/support/service.h"
 
 namespace spindrift::webhook_test {
@@ -82,37 +84,24 @@ class Receiver {
 
 /// Runs a service with a webhook on a pass whose target attitude is far from the actual one.
 struct Told {
-  PassCopy pass{"nominal"};
-  bus::BusConfig bus{bus_of_its_own()};
-  std::filesystem::path db{pass.folder.path() / "served.db"};
-  Program service;
+  PassWith pass{kOffTarget};
+  bus::BusConfig bus = bus_of_its_own();
+  std::filesystem::path db = pass.folder.path() / "served.db";
+  Serving service;
 
-  Told(const std::string& url, const std::string& partition) : service{arguments(url, partition)} {}
+  Told(const Receiver& receiver, const std::string& partition)
+      : service{serve(receiver, partition)} {}
 
-  std::vector<std::string> arguments(const std::string& url, const std::string& partition) {
-    const auto mission = pass.folder.path() / "mission.toml";
-    if (text_of(mission).find("[spin.target]") == std::string::npos) {
-      std::ofstream{mission, std::ios::app} << "\n[spin.target]\nra_deg = 10.0\ndec_deg = 20.0\n";
-    }
+  Words serve(const Receiver& receiver, const std::string& partition) {
     bus.partition = partition;
-    return {"serve",
-            "--mission",
-            (pass.folder.path() / "mission.toml").string(),
-            "--db",
-            db.string(),
-            "--domain",
-            std::to_string(bus.domain),
-            "--partition",
-            partition,
-            "--webhook",
-            url};
+    return on(bus, {"serve", "--mission", pass.mission(), "--db", db, "--webhook", receiver.url()});
   }
 
   void send_pass() const {
     FrontEnd front_end{bus, "SPINNER", pulses_of("nominal")};
     ASSERT_TRUE(front_end.send_until(1.0));
     ASSERT_TRUE(eventually([&] {
-      return number_of(db, "SELECT count(*) FROM alert WHERE key = 'spin.off_target'") == 1;
+      return count_rows(db, "alert WHERE key = 'spin.off_target'") == 1;
     })) << service.log();
   }
 };
@@ -127,12 +116,10 @@ bool tells_off_target(const Receiver& receiver) {
 
 TEST(Webhook, IsToldOfTheAlertsOfALiveService) {
   const Receiver receiver;
-  Told told{receiver.url(), "live"};
-  ASSERT_TRUE(told.service.says("ready")) << told.service.log();
+  Told told{receiver, "live"};
   told.send_pass();
   EXPECT_TRUE(eventually([&] { return tells_off_target(receiver); })) << told.service.log();
-  told.service.signal(SIGTERM);
-  EXPECT_EQ(told.service.exit_status(), 0);
+  stop_in_order(told.service);
 }
 
 std::set<nlohmann::json> labels_of_off_target(const Receiver& receiver) {
@@ -147,15 +134,14 @@ std::set<nlohmann::json> labels_of_off_target(const Receiver& receiver) {
 
 TEST(Webhook, IsToldTheSameLabelsAfterARestart) {
   const Receiver first;
-  Told told{first.url(), "live"};
-  ASSERT_TRUE(told.service.says("ready")) << told.service.log();
+  Told told{first, "live"};
   told.send_pass();
   ASSERT_TRUE(eventually([&] { return tells_off_target(first); })) << told.service.log();
   told.service.signal(SIGKILL);
   static_cast<void>(told.service.exit_status());
 
   const Receiver second;
-  Program again{told.arguments(second.url(), "live")};
+  Program again{told.serve(second, "live")};
   EXPECT_TRUE(eventually([&] { return tells_off_target(second); })) << again.log();
   EXPECT_EQ(labels_of_off_target(first).size(), 1U);
   EXPECT_EQ(labels_of_off_target(second), labels_of_off_target(first));
@@ -163,27 +149,21 @@ TEST(Webhook, IsToldTheSameLabelsAfterARestart) {
 
 TEST(Webhook, IsToldNothingOfARehearsal) {
   const Receiver receiver;
-  Told told{receiver.url(), "replay"};
-  ASSERT_TRUE(told.service.says("ready")) << told.service.log();
+  Told told{receiver, "replay"};
   EXPECT_THAT(told.service.log(), HasSubstr("a rehearsal: nothing is told to " + receiver.url()));
   told.send_pass();
-  told.service.signal(SIGTERM);
-  EXPECT_EQ(told.service.exit_status(), 0);
+  stop_in_order(told.service);
   EXPECT_TRUE(receiver.alerts().empty());
 }
 
 TEST(Webhook, IsNotToldWhatARehearsalHasLeftOpen) {
   const Receiver receiver;
-  Told rehearsal{receiver.url(), "replay"};
-  ASSERT_TRUE(rehearsal.service.says("ready")) << rehearsal.service.log();
+  Told rehearsal{receiver, "replay"};
   rehearsal.send_pass();
-  rehearsal.service.signal(SIGTERM);
-  ASSERT_EQ(rehearsal.service.exit_status(), 0);
-  ASSERT_GT(number_of(rehearsal.db, "SELECT count(*) FROM alert WHERE state <> 'cleared'"), 0);
+  stop_in_order(rehearsal.service);
+  ASSERT_GT(count_rows(rehearsal.db, "alert WHERE state <> 'cleared'"), 0);
 
-  std::vector<std::string> live = rehearsal.arguments(receiver.url(), "live");
-  Program service{live};
-  ASSERT_TRUE(service.says("ready")) << service.log();
+  Serving service{rehearsal.serve(receiver, "live")};
   FrontEnd front_end{rehearsal.bus, "SPINNER", pulses_of("nominal")};
   ASSERT_TRUE(front_end.send_until(1.0));
   // The live run raises its own alert anew.
@@ -197,25 +177,23 @@ TEST(Webhook, IsNotToldWhatARehearsalHasLeftOpen) {
       return rows_of(rehearsal.db, mode_of_alert) == std::vector<std::string>{"live|"};
     })) << alert;
   }
-  service.signal(SIGTERM);
-  EXPECT_EQ(service.exit_status(), 0);
+  stop_in_order(service);
 }
 
 TEST(Webhook, ThatRefusesIsSaidAndHoldsNobodyUp) {
   const Receiver receiver{http::status::internal_server_error};
-  Told told{receiver.url(), "live"};
-  ASSERT_TRUE(told.service.says("ready")) << told.service.log();
+  Told told{receiver, "live"};
   told.send_pass();
   EXPECT_TRUE(told.service.says("does not take them: it answers with status 500"))
       << told.service.log();
-  told.service.signal(SIGTERM);
-  EXPECT_EQ(told.service.exit_status(), 0);
+  stop_in_order(told.service);
 }
 
 TEST(Webhook, IsAUrl) {
-  Told told{"localhost", "live"};
-  EXPECT_EQ(told.service.exit_status(), 2);
-  EXPECT_THAT(told.service.log(), HasSubstr("--webhook localhost: must be a URL"));
+  const PassCopy pass{"nominal"};
+  refused(on(bus_of_its_own(),
+             {"serve", "--mission", pass.mission(), "--db", pass.db, "--webhook", "localhost"}),
+          {"--webhook localhost: must be a URL"});
 }
 
 }  // namespace spindrift::webhook_test
