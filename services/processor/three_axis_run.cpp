@@ -79,8 +79,8 @@ void ThreeAxisRun::record(const PassInput& input) {
     return;
   }
   in_order_of_arrival(
-      input.values, input.silences, input.actions, [this](const auto& arrived) { record(arrived); },
-      [this](std::int64_t /*silence*/) {
+      input.values, input.silences, input.actions, [this](const auto& placed) { record(placed); },
+      [this](BatchPlace /*silence*/) {
         if (record_->fall_silent(kBetweenSilences) && plan_ == SolvingPlan::Meanwhile) {
           hand_out_solutions();
         }
@@ -88,12 +88,12 @@ void ThreeAxisRun::record(const PassInput& input) {
 }
 
 template <class Value>
-void ThreeAxisRun::record(const Arrived<Value>& arrived) {
-  if constexpr (requires { record_->push(arrived.value); }) {
-    if (excluded_.hold(arrived.value.t, kind_of(arrived.value))) {
+void ThreeAxisRun::record(const Placed<Value>& placed) {
+  if constexpr (requires { record_->push(placed.value); }) {
+    if (excluded_.hold(placed.value.t, kind_of(placed.value))) {
       return;
     }
-    const bool is_due = record_->push(arrived.value);
+    const bool is_due = record_->push(placed.value);
     const bool is_corrected = record_->take_correction(kBetweenSilences);
     has_forgotten_ = has_forgotten_ || is_corrected;
     if ((is_due || is_corrected) && plan_ == SolvingPlan::Meanwhile) {
@@ -102,7 +102,8 @@ void ThreeAxisRun::record(const Arrived<Value>& arrived) {
   }
 }
 
-void ThreeAxisRun::record(const OperatorAction& action) {
+void ThreeAxisRun::record(const Placed<OperatorAction>& placed) {
+  const OperatorAction& action = placed.value;
   if (const auto* const does = std::get_if<AttitudeAction>(&action.does)) {
     std::visit([&](const auto& what) { excluded_.add(action.t.value(), what); }, *does);
     if (record_->forget(excluded_)) {

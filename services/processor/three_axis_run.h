@@ -41,8 +41,8 @@ class ThreeAxisRun : public PassRun<ThreeAxisRun, ThreeAxisPass> {
   void note(const ThreeAxisOutput& output);
   void record(const PassInput& input);
   template <class Value>
-  void record(const Arrived<Value>& arrived);
-  void record(const OperatorAction& action);
+  void record(const Placed<Value>& placed);
+  void record(const Placed<OperatorAction>& placed);
   void hand_out_solutions();
   BackgroundTask solving(std::shared_ptr<const ReconstructionRequest> request,
                          std::optional<ReconstructionMethod> method) const;

@@ -38,9 +38,9 @@ std::vector<TelemetrySample<Pulse>> edges_of(const std::string& spacecraft) {
 /// Gives an edge an impossible channel, as after a memory fault. The archive has the right one, but
 /// the tables of the computation have no place for it.
 void spoil(PassInput& input, TaiTime bad) {
-  for (Arrived<Pulse>& arrived : input.values.of<Pulse>()) {
-    if (arrived.value.t == bad) {
-      arrived.value.channel = static_cast<PulseChannel>(kPulseChannels);
+  for (Placed<Pulse>& placed : input.values.of<Pulse>()) {
+    if (placed.value.t == bad) {
+      placed.value.channel = static_cast<PulseChannel>(kPulseChannels);
     }
   }
 }
