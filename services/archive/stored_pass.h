@@ -16,7 +16,6 @@
 #include "pipelines/core/expected.h"
 #include "services/archive/records.h"
 #include "services/telemetry/by_kind.h"
-#include "services/telemetry/last_origins.h"
 #include "services/telemetry/sender_names.h"
 
 namespace spindrift {

@@ -18,7 +18,6 @@
 #include "services/ingest/from_idl.h"
 #include "services/ingest/rejection_limit.h"
 #include "services/ingest/sequence_tracker.h"
-#include "services/telemetry/last_origins.h"
 #include "services/telemetry/sample_batch.h"
 
 namespace spindrift {

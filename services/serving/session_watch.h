@@ -13,7 +13,7 @@
 
 #include "pipelines/supervision/service_conditions.h"
 #include "services/archive/records.h"
-#include "services/telemetry/last_origins.h"
+#include "services/telemetry/by_kind.h"
 
 namespace spindrift {
 

@@ -197,6 +197,10 @@ void in_order_of_arrival(All&& all, const std::vector<Place>& silences, const Mo
   see_those_before({std::numeric_limits<std::int64_t>::max()});
 }
 
+/// The highest seq of each session in the archive before a restart, for each kind in the order of
+/// TelemetryKinds.
+using LastOrigins = std::array<std::vector<Origin>, kTelemetryKindCount>;
+
 /// Sorts the samples of a spacecraft: the natural key of stored samples, and the order in which
 /// samples of equal time are read from files.
 struct TelemetryOrder {

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "services/archive/stored_faults.h"
+#include "services/archive/verdict.h"
 #include "services/mission/mission.h"
 #include "services/processor/processor.h"
 #include "services/processor/what_is_thrown.h"
