@@ -119,15 +119,17 @@ void AlertDesk::begin(Supervised& supervised) {
   }
 }
 
-/// A negative arrival marks samples that are left out, whose times must not advance the conditions.
-/// @param samples TelemetrySamples or TelemetryValues.
+/// Samples that are left out must not advance the conditions: their times are wrong.
+/// @param samples ArrivedSamples or PlacedValues.
 template <class Samples>
 ConditionChanges AlertDesk::changes_by(const Samples& samples, Supervised& supervised) {
   auto* const attitude = std::get_if<AttitudeConditions>(&supervised.conditions);
   ConditionChanges all;
   in_order_of_arrival(samples, [&](const auto& sample) {
-    if (sample.arrival < 0) {
-      return;
+    if constexpr (requires { sample.is_left_out; }) {
+      if (sample.is_left_out) {
+        return;
+      }
     }
     using Value = std::remove_cvref_t<decltype(sample.value)>;
     if constexpr (requires { kind_of(sample.value); }) {
@@ -196,7 +198,7 @@ void AlertDesk::tell(const ConditionChanges& changes, ArchiveBatch& batch) {
 }
 
 void AlertDesk::go_on(const std::string& spacecraft, const std::string& run_id,
-                      const TelemetryValues& samples) {
+                      const PlacedValues& samples) {
   const std::lock_guard lock{mutex_};
   const auto desk = desks_.find(spacecraft);
   if (desk == desks_.end() || !desk->second.supervised ||

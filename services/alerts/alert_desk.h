@@ -66,8 +66,7 @@ class AlertDesk {
 
   /// Processes samples from before a restart, which do not come again. Call it after the batch that
   /// continues the run.
-  void go_on(const std::string& spacecraft, const std::string& run_id,
-             const TelemetryValues& samples);
+  void go_on(const std::string& spacecraft, const std::string& run_id, const PlacedValues& samples);
 
   /// Keeps the alerts of a batch that was not stored for the next batch.
   void take_back(const ArchiveBatch& batch);

@@ -133,7 +133,7 @@ void BatchWriter::insert(const ArchiveBatch& batch) {
     for (const auto& [arrival, value] : of_kind) {
       insert(
           batch,
-          TelemetrySample<Value>{
+          ArrivedSample<Value>{
               .spacecraft = batch.spacecraft_id, .origin = {}, .value = value, .arrival = arrival},
           Came::Before);
     }
@@ -144,7 +144,7 @@ void BatchWriter::insert(const ArchiveBatch& batch) {
   for (const OperatorAction& action : batch.actions) {
     insert(batch.run_id, action);
   }
-  for (const std::int64_t arrival : batch.silences) {
+  for (const RunPlace arrival : batch.silences) {
     execute(stream_silence_, batch.run_id, arrival);
   }
   for (const RejectedInput& rejected : batch.rejected) {
@@ -213,20 +213,20 @@ void BatchWriter::insert(const ArchiveBatch& batch, const RunStart& start) {
 }
 
 template <class Value>
-void BatchWriter::insert(const ArchiveBatch& batch, const TelemetrySample<Value>& sample,
-                         Came came) {
+void BatchWriter::insert(const ArchiveBatch& batch, const ArrivedSample<Value>& sample, Came came) {
+  const RunPlace arrival{sample.is_left_out ? -sample.arrival.number : sample.arrival.number};
   const auto store = [&](const std::string& run_id) {
     std::apply(
         [&](const auto&... column) {
           execute(samples_[kTelemetryKind<Value>], sample.spacecraft, tai_ns(sample.value.t),
-                  sample.arrival, run_id, std::int64_t{came == Came::Now}, sample.origin.source,
+                  arrival, run_id, std::int64_t{came == Came::Now}, sample.origin.source,
                   as_signed(sample.origin.session), as_signed(sample.origin.seq),
                   column.of(sample.value)...);
         },
         Telemetry<Value>::kColumns);
   };
   if constexpr (HasSender<Value>) {
-    if (sample.arrival >= 0) {
+    if (!sample.is_left_out) {
       store({});
       if (database_.getChanges() > 0 || contradictions_.see(batch, sample)) {
         return;

@@ -32,7 +32,7 @@ class ContradictionWriter {
   /// table; so does what another source says about an instant that is already in it.
   /// @return Whether the table of the sample's kind needs no change.
   template <class Value>
-  bool see(const ArchiveBatch& batch, const TelemetrySample<Value>& sample);
+  bool see(const ArchiveBatch& batch, const ArrivedSample<Value>& sample);
 
   /// Returns the notices on the samples seen since the last call.
   std::vector<RunNotice> take_notices() { return std::exchange(notices_, {}); }
@@ -48,14 +48,14 @@ class ContradictionWriter {
     std::string_view kind;
     TaiTime t;
     Origin origin;
-    std::int64_t arrival;
+    RunPlace arrival;
   };
   bool is_contested(const std::string& run_id, const Entry& entry);
-  std::int64_t first_arrival(const std::string& run_id);
+  RunPlace first_arrival(const std::string& run_id);
   void add_both(const ArchiveBatch& batch, const Entry& there, const std::string& there_value,
                 const Entry& came, const std::string& came_value);
   void add(const ArchiveBatch& batch, const Entry& entry, const std::string& value, bool used,
-           std::optional<std::int64_t> arrival);
+           std::optional<RunPlace> arrival);
   void say_rounded(const ArchiveBatch& batch, const Entry& there, const Entry& came);
   void say_once(const ArchiveBatch& batch, std::string_view code, const Entry& there,
                 const Entry& came, const char* what);
@@ -63,7 +63,7 @@ class ContradictionWriter {
   std::vector<SQLite::Statement> find_;  ///< One per kind of telemetry, in kTelemetryKind order.
   std::vector<SQLite::Statement> take_over_;  ///< In the same order.
   SQLite::Statement find_first_arrival_;
-  std::pair<std::string, std::int64_t> first_arrival_;  ///< Cached for the run asked for last.
+  std::pair<std::string, RunPlace> first_arrival_;  ///< Cached for the run asked for last.
   SQLite::Statement contested_;
   SQLite::Statement add_;
   SQLite::Statement use_none_;
@@ -90,7 +90,7 @@ class BatchWriter {
   /// Whether a sample came now, or came before and was left out then.
   enum class Came { Now, Before };
   template <class Value>
-  void insert(const ArchiveBatch& batch, const TelemetrySample<Value>& sample, Came came);
+  void insert(const ArchiveBatch& batch, const ArrivedSample<Value>& sample, Came came);
   void insert(const std::string& run_id, const OperatorAction& action);
   void insert(const std::string& run_id, const RejectedInput& rejected);
   void insert(const std::string& run_id, const SourceCount& count);

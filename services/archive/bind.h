@@ -11,11 +11,15 @@
 #include <string_view>
 
 #include "pipelines/spin/types/pulse.h"
+#include "services/telemetry/places.h"
 
 namespace spindrift {
 
 inline void bind(SQLite::Statement& statement, int index, std::int64_t value) {
   statement.bind(index, value);
+}
+inline void bind(SQLite::Statement& statement, int index, RunPlace place) {
+  statement.bind(index, place.number);
 }
 inline void bind(SQLite::Statement& statement, int index, bool value) {
   statement.bind(index, value ? 1 : 0);

@@ -51,13 +51,14 @@ ContradictionWriter::ContradictionWriter(SQLite::Database& database)
            " AND source = ?"} {}
 
 template <class Value>
-bool ContradictionWriter::see(const ArchiveBatch& batch, const TelemetrySample<Value>& sample) {
+bool ContradictionWriter::see(const ArchiveBatch& batch, const ArrivedSample<Value>& sample) {
   SQLite::Statement& find = find_[kTelemetryKind<Value>];
   find.tryReset();
   find.bindNoCopy(1, sample.spacecraft);
   find.bind(2, tai_ns(sample.value.t));
   find.executeStep();
   const Arrived<Value> stored = read_arrived<Value>(find);
+  const bool is_left_out = is_row_left_out(find);
   const int origin = find.getColumnCount() - 3;
   const Entry there{
       .kind = contradiction_kind<Value>(),
@@ -67,7 +68,7 @@ bool ContradictionWriter::see(const ArchiveBatch& batch, const TelemetrySample<V
                  .seq = static_cast<std::uint64_t>(find.getColumn(origin + 2).getInt64())},
       .arrival = stored.arrival};
   find.reset();
-  if (stored.arrival < 0) {
+  if (is_left_out) {
     return false;  // Left out because its source's time is wrong, so its real instant is another.
   }
   const Entry came{
@@ -94,13 +95,12 @@ bool ContradictionWriter::see(const ArchiveBatch& batch, const TelemetrySample<V
   return true;
 }
 
-template bool ContradictionWriter::see(const ArchiveBatch&, const TelemetrySample<CodedFrame>&);
-template bool ContradictionWriter::see(const ArchiveBatch&, const TelemetrySample<GyroSample>&);
-template bool ContradictionWriter::see(const ArchiveBatch&, const TelemetrySample<StarFix>&);
-template bool ContradictionWriter::see(const ArchiveBatch&, const TelemetrySample<SunDirection>&);
-template bool ContradictionWriter::see(const ArchiveBatch&, const TelemetrySample<MagneticField>&);
-template bool ContradictionWriter::see(const ArchiveBatch&,
-                                       const TelemetrySample<TimedOrbitState>&);
+template bool ContradictionWriter::see(const ArchiveBatch&, const ArrivedSample<CodedFrame>&);
+template bool ContradictionWriter::see(const ArchiveBatch&, const ArrivedSample<GyroSample>&);
+template bool ContradictionWriter::see(const ArchiveBatch&, const ArrivedSample<StarFix>&);
+template bool ContradictionWriter::see(const ArchiveBatch&, const ArrivedSample<SunDirection>&);
+template bool ContradictionWriter::see(const ArchiveBatch&, const ArrivedSample<MagneticField>&);
+template bool ContradictionWriter::see(const ArchiveBatch&, const ArrivedSample<TimedOrbitState>&);
 
 void ContradictionWriter::settle(const std::string& run_id,
                                  const SampleContradiction& contradiction) {
@@ -126,12 +126,12 @@ bool ContradictionWriter::is_contested(const std::string& run_id, const Entry& e
   return is_contested;
 }
 
-std::int64_t ContradictionWriter::first_arrival(const std::string& run_id) {
+RunPlace ContradictionWriter::first_arrival(const std::string& run_id) {
   if (first_arrival_.first != run_id) {
     find_first_arrival_.tryReset();
     bind(find_first_arrival_, 1, run_id);
     find_first_arrival_.executeStep();
-    first_arrival_ = {run_id, find_first_arrival_.getColumn(0).getInt64()};
+    first_arrival_ = {run_id, {find_first_arrival_.getColumn(0).getInt64()}};
     find_first_arrival_.reset();
   }
   return first_arrival_.second;
@@ -192,7 +192,7 @@ void ContradictionWriter::end_write(bool is_stored) {
 
 void ContradictionWriter::add(const ArchiveBatch& batch, const Entry& entry,
                               const std::string& value, bool used,
-                              std::optional<std::int64_t> arrival) {
+                              std::optional<RunPlace> arrival) {
   execute(add_, batch.run_id, batch.spacecraft_id, entry.kind, tai_ns(entry.t), entry.origin.source,
           static_cast<std::int64_t>(entry.origin.session),
           static_cast<std::int64_t>(entry.origin.seq), value, used, arrival);

@@ -47,14 +47,14 @@ Expected<std::optional<LastRun>> find_last_run(const std::filesystem::path& arch
   });
 }
 
-Expected<std::optional<std::int64_t>> find_last_first_arrival(const std::filesystem::path& archive,
-                                                              const std::string& spacecraft_id) {
-  return read_archive(archive, [&](SQLite::Database& database) -> std::optional<std::int64_t> {
+Expected<std::optional<RunPlace>> find_last_first_arrival(const std::filesystem::path& archive,
+                                                          const std::string& spacecraft_id) {
+  return read_archive(archive, [&](SQLite::Database& database) -> std::optional<RunPlace> {
     SQLite::Statement query{database, "SELECT max(first_arrival) FROM run WHERE spacecraft_id = ?"};
     query.bind(1, spacecraft_id);
     query.executeStep();
     const SQLite::Column last = query.getColumn(0);
-    return last.isNull() ? std::nullopt : std::optional{last.getInt64()};
+    return last.isNull() ? std::nullopt : std::optional<RunPlace>{{last.getInt64()}};
   });
 }
 

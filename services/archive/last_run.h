@@ -3,7 +3,6 @@
 
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -29,9 +28,9 @@ struct LastRun {
 Expected<std::optional<LastRun>> find_last_run(const std::filesystem::path& archive,
                                                const std::string& spacecraft_id, RunMode mode);
 
-/// Returns the first arrival number of the spacecraft's newest run in any mode.
+/// Returns the first arrival of the spacecraft's newest run in any mode.
 /// @return Empty when there is none; errors as find_stored_passes.
-Expected<std::optional<std::int64_t>> find_last_first_arrival(const std::filesystem::path& archive,
-                                                              const std::string& spacecraft_id);
+Expected<std::optional<RunPlace>> find_last_first_arrival(const std::filesystem::path& archive,
+                                                          const std::string& spacecraft_id);
 
 }  // namespace spindrift

@@ -102,11 +102,11 @@ class TableWriter {
     for_each_row<Table>(product, [&](const auto& row) {
       with_columns<Table>([&](const auto&... column) {
         if constexpr (kOfSpacecraft<Table>) {
-          execute(insert_, run.run_id, run.spacecraft_id, column.get(row)...);
+          execute(insert_, run.run_id, run.spacecraft_id, column.of(row)...);
         } else if constexpr (kSaysWhenAnnounced<Table>) {
-          execute(insert_, run.run_id, announced_utc, column.get(row)...);
+          execute(insert_, run.run_id, announced_utc, column.of(row)...);
         } else {
-          execute(insert_, run.run_id, column.get(row)...);
+          execute(insert_, run.run_id, column.of(row)...);
         }
       });
     });

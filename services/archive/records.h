@@ -40,7 +40,7 @@ struct RunStart {
   std::optional<std::string> label = {};             ///< Label that the user gave the run.
   std::vector<std::string> telemetry;                ///< File paths, or DDS domain and partition.
   std::string started_utc;                           ///< ISO 8601, ending in Z.
-  std::int64_t first_arrival = 0;  ///< Higher than any arrival number of an earlier run.
+  RunPlace first_arrival = {};                       ///< After every arrival of an earlier run.
 };
 
 struct RunReach {
@@ -76,20 +76,19 @@ struct ArchiveBatch {
   std::optional<RunStart> start = {};
   std::optional<Continuation> continuation = {};
   std::optional<RunReach> reach = {};  ///< Set when it has changed.
-  /// Samples with their order of arrival in the run; negative when the run leaves the sample out.
-  TelemetrySamples samples = {};
+  ArrivedSamples samples = {};
   /// Operator actions of this run, and earlier ones that are still in force.
   std::vector<OperatorAction> actions = {};
   /// Source stored with a sample that several sources give; empty: the first of them.
   std::string preferred_source = {};
   TelemetryValues moved = {};  ///< Stored samples that the run takes now, with their new arrival.
-  std::vector<std::int64_t> silences = {};  ///< Each is the arrival of the sample after it.
+  std::vector<RunPlace> silences = {};  ///< Each is the arrival of the sample after it.
   std::vector<RejectedInput> rejected = {};
   std::vector<Product> products = {};
   bool stores_residuals = true;  ///< Whether products store residuals in the estimators.
   std::vector<SourceCount> source_counts = {};
   std::optional<std::string> finished_utc = {};  ///< ISO 8601, ending in Z.
-  /// Arrival of the last sample that the products rest on; not stored. Empty: there is none.
+  /// When the last sample came that the products rest on; not stored. Empty: there is none.
   std::optional<std::chrono::steady_clock::time_point> came = {};
 };
 

@@ -26,7 +26,7 @@ std::vector<OperatorAction> read_all(SQLite::Statement& query, SpacecraftKind ki
                           .arguments = query.getColumn(6).getString(),
                           .note = query.getColumn(7).getString(),
                           .does = {},
-                          .arrival = query.getColumn(8).getInt64()};
+                          .arrival = {query.getColumn(8).getInt64()}};
     auto does =
         what_it_does(kind, action.action, nlohmann::json::parse(action.arguments, nullptr, false));
     if (does) {

@@ -57,9 +57,10 @@ std::vector<StoredPass> find_runs(const SQLite::Database& database,
   while (query.executeStep()) {
     const SQLite::Column next_arrival = query.getColumn(3);
     runs.push_back({.run_id = query.getColumn(0).getString(),
-                    .first_arrival = query.getColumn(1).getInt64(),
-                    .next_arrival = next_arrival.isNull() ? std::nullopt
-                                                          : std::optional{next_arrival.getInt64()},
+                    .first_arrival = {query.getColumn(1).getInt64()},
+                    .next_arrival = next_arrival.isNull()
+                                        ? std::nullopt
+                                        : std::optional<RunPlace>{{next_arrival.getInt64()}},
                     .earliest = time_of(query.getColumn(2)),
                     .last_made = time_of(query.getColumn(4)),
                     .rejected_inputs = query.getColumn(5).getInt64(),
@@ -87,7 +88,7 @@ void read_silences(const SQLite::Database& database, StoredPass& pass) {
                           "SELECT arrival FROM stream_silence WHERE run_id = ? ORDER BY arrival"};
   query.bind(1, pass.run_id);
   while (query.executeStep()) {
-    pass.silences.push_back(query.getColumn(0).getInt64());
+    pass.silences.push_back({query.getColumn(0).getInt64()});
   }
 }
 
@@ -116,9 +117,9 @@ void bind_extent(SQLite::Statement& query, const std::string& spacecraft_id,
                  const StoredPass& pass) {
   query.bind(1, spacecraft_id);
   query.bind(2, tai_ns(*pass.earliest));
-  query.bind(3, pass.first_arrival);
+  query.bind(3, pass.first_arrival.number);
   if (pass.next_arrival) {
-    query.bind(4, *pass.next_arrival);
+    query.bind(4, pass.next_arrival->number);
   }
 }
 
@@ -163,7 +164,7 @@ LeftOut& left_out_of(StoredPass& pass, Origin origin) {
              : pass.left_out.emplace_back(LeftOut{.last = std::move(origin), .values = {}});
 }
 
-/// Reads the samples left out. Their arrivals are negative, so the query gives the latest first.
+/// Reads the samples left out. Stored arrivals are negative, so the query gives the latest first.
 template <class Value>
 void read_left_out(const SQLite::Database& database, const std::string& spacecraft_id,
                    SenderNames& senders, StoredPass& pass) {
@@ -172,12 +173,11 @@ void read_left_out(const SQLite::Database& database, const std::string& spacecra
                             " AND arrival < 0 AND arrival <= ? ORDER BY arrival LIMIT ?",
                             arrived_columns<Value>(), Telemetry<Value>::kTable)};
   query.bind(1, spacecraft_id);
-  query.bind(2, -pass.first_arrival);
+  query.bind(2, -pass.first_arrival.number);
   query.bind(3, StoredPass::kMostLeftOut);
   while (query.executeStep()) {
     const int source = query.getColumnCount() - 3;
     Arrived<Value> arrived = read_arrived<Value>(query);
-    arrived.arrival = -arrived.arrival;
     const auto seq = static_cast<std::uint64_t>(query.getColumn(source + 2).getInt64());
     LeftOut& left_out = left_out_of(
         pass, {.source = query.getColumn(source).getString(),

@@ -16,7 +16,6 @@
 #include "pipelines/core/expected.h"
 #include "services/archive/records.h"
 #include "services/telemetry/by_kind.h"
-#include "services/telemetry/last_origins.h"
 #include "services/telemetry/sender_names.h"
 
 namespace spindrift {
@@ -35,9 +34,9 @@ struct StoredPass {
   static constexpr std::int64_t kMostLeftOut = 1'000'000;
 
   std::string run_id;
-  std::int64_t first_arrival;
+  RunPlace first_arrival;
   /// First arrival of the next run; empty for the newest run.
-  std::optional<std::int64_t> next_arrival;
+  std::optional<RunPlace> next_arrival;
   std::optional<TaiTime> earliest;  ///< Time of the earliest sample; empty without samples.
   /// Products of times before this are all stored. It is the start of the last revolution whose
   /// products are complete, or the time of the last attitude; empty when there is none.
@@ -50,7 +49,7 @@ struct StoredPass {
   TelemetryValues values = {};    ///< Samples of each kind in order of arrival.
   /// Samples that the newest run left out; it may still take them.
   std::vector<LeftOut> left_out = {};
-  std::vector<std::int64_t> silences = {};  ///< Each is the arrival of the sample after it.
+  std::vector<RunPlace> silences = {};  ///< Each is the arrival of the sample after it.
 };
 
 /// Finds the runs of `spacecraft_id` that agree with `start` (mode, telemetry, program, mission

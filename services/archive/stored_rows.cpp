@@ -5,16 +5,16 @@
 
 namespace spindrift {
 
-Expected<TelemetryValues> find_telemetry(const std::filesystem::path& archive,
-                                         const std::string& spacecraft_id,
-                                         const std::string& preferred_source, TaiTime from,
-                                         TaiTime to) {
+Expected<PlacedValues> find_telemetry(const std::filesystem::path& archive,
+                                      const std::string& spacecraft_id,
+                                      const std::string& preferred_source, TaiTime from,
+                                      TaiTime to) {
   return read_archive(archive, [&](SQLite::Database& database) {
     SenderNames senders{preferred_source};
-    TelemetryValues all;
-    all.for_each([&]<class Value>(std::vector<Arrived<Value>>& of_kind) {
+    PlacedValues all;
+    all.for_each([&]<class Value>(PlacedOfKind<Value>& of_kind) {
       for (const Value& value : read_between<Value>(database, spacecraft_id, from, to, senders)) {
-        of_kind.push_back({.arrival = 0, .value = value});
+        of_kind.push_back({.place = {}, .value = value});
       }
     });
     put_in_order(all);

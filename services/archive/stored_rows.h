@@ -46,9 +46,15 @@ std::string arrived_columns() {
   return columns;
 }
 
+/// Returns whether a row of arrived_columns is of a sample that its run left out: only in the
+/// archive a negative arrival says so.
+inline bool is_row_left_out(const SQLite::Statement& row) {
+  return row.getColumn(0).getInt64() < 0;
+}
+
 template <class Value>
 Arrived<Value> read_arrived(SQLite::Statement& row) {
-  Arrived<Value> arrived{.arrival = row.getColumn(0).getInt64(), .value = {}};
+  Arrived<Value> arrived{.arrival = {std::abs(row.getColumn(0).getInt64())}, .value = {}};
   arrived.value.t = tai_from_ns(row.getColumn(1).getInt64());
   for_each_column(arrived.value, [&, column = 1](std::string_view /*name*/, auto& member) mutable {
     read_member(row.getColumn(++column), member);
@@ -78,7 +84,7 @@ constexpr std::string_view contradiction_kind() {
 /// Reads a sample from arrival, t_tai_ns, source and value of the table `contradiction`.
 template <class Value>
 Arrived<Value> read_contradicting(const SQLite::Statement& row, SenderNames& senders) {
-  Arrived<Value> arrived{.arrival = row.getColumn(0).getInt64(), .value = {}};
+  Arrived<Value> arrived{.arrival = {row.getColumn(0).getInt64()}, .value = {}};
   arrived.value.t = tai_from_ns(row.getColumn(1).getInt64());
   arrived.value.sender = senders.number_of(row.getColumn(2).getString());
   put_json(row.getColumn(3).getString(), arrived.value);
@@ -135,9 +141,9 @@ std::vector<Value> read_between(const SQLite::Database& database, const std::str
 /// Reads the samples of all kinds as read_between does, each kind in order of time.
 /// @param preferred_source Empty when there is none.
 /// @return Errors as open_for_reading; Unavailable when reading fails.
-Expected<TelemetryValues> find_telemetry(const std::filesystem::path& archive,
-                                         const std::string& spacecraft_id,
-                                         const std::string& preferred_source, TaiTime from,
-                                         TaiTime to);
+Expected<PlacedValues> find_telemetry(const std::filesystem::path& archive,
+                                      const std::string& spacecraft_id,
+                                      const std::string& preferred_source, TaiTime from,
+                                      TaiTime to);
 
 }  // namespace spindrift

@@ -1,16 +1,20 @@
 /// @file
-/// Reads the judgement on a run from the archive's views, which alone define its rules.
+/// Reads the judgement on a run from the archive's views, which alone define its rules, and what
+/// failed or contradicted itself in it.
 
 #pragma once
 
 #include <SQLiteCpp/Database.h>
 
+#include <cstdint>
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
 #include "pipelines/core/expected.h"
 #include "services/products/pass_verdict.h"
+#include "services/products/run_fault.h"
 
 namespace spindrift {
 
@@ -33,5 +37,13 @@ Expected<PassVerdict> find_verdict(const std::filesystem::path& archive, const s
 /// spin_comparison flags them from the last stored estimates; errors as find_stored_passes.
 Expected<std::vector<Disagreement>> find_disagreements(const std::filesystem::path& archive,
                                                        const std::string& run_id);
+
+/// Returns the faults of a run in order of time; errors as find_stored_passes.
+Expected<std::vector<RunFault>> find_faults(const std::filesystem::path& archive,
+                                            const std::string& run_id);
+
+/// Counts a run's instants with several values, by kind; errors as find_stored_passes.
+Expected<std::map<std::string, std::int64_t>> count_contradictions(
+    const std::filesystem::path& archive, const std::string& run_id);
 
 }  // namespace spindrift

@@ -11,6 +11,7 @@
 #include "pipelines/time/tai_time.h"
 #include "pipelines/time/utc.h"
 #include "services/base/duration.h"
+#include "services/base/filled.h"
 
 namespace spindrift {
 namespace {
@@ -69,6 +70,7 @@ constexpr std::array<Words, kAlertCodes> kWords{{
     {ClockJump, "the clock of this host was stepped", "look at its time service"},
     {DataOutdated, "what the service needs ends", "get it anew"},
 }};
+static_assert(are_by_code(kWords));
 
 /// Data of limited validity that the service needs.
 struct Ending {

@@ -21,8 +21,8 @@ struct Pattern {
 };
 
 /// Checks at compile time that every code has its pattern, in the order of the codes.
-template <class Code, std::size_t kCodes>
-constexpr bool are_by_code(const std::array<Pattern<Code>, kCodes>& patterns) {
+template <class OfCode, std::size_t kCodes>
+constexpr bool are_by_code(const std::array<OfCode, kCodes>& patterns) {
   for (std::size_t i = 0; i < kCodes; ++i) {
     if (static_cast<std::size_t>(patterns[i].code) != i) {
       return false;
@@ -31,8 +31,8 @@ constexpr bool are_by_code(const std::array<Pattern<Code>, kCodes>& patterns) {
   return true;
 }
 
-template <class Code, std::size_t kCodes>
-std::string_view pattern_of(const std::array<Pattern<Code>, kCodes>& patterns, Code code) {
+template <class OfCode, std::size_t kCodes, class Code>
+std::string_view pattern_of(const std::array<OfCode, kCodes>& patterns, Code code) {
   return patterns.at(static_cast<std::size_t>(code)).text;
 }
 

@@ -8,142 +8,177 @@
 #include <vector>
 
 #include "services/base/filled.h"
-#include "services/base/no_fix_words.h"
 
 namespace spindrift {
 namespace {
 
+/// A notice with its name, by which programs know it, and its sentence pattern.
+struct NoticePattern {
+  NoticeCode code;
+  std::string_view name;
+  std::string_view text;
+};
+
+using enum NoFixCode;
+constexpr std::array<Pattern<NoFixCode>, kNoFixCodes> kNoFixPatterns{{
+    {BothChordsAlone, "both chords without a sun pulse: a cone about the Earth only"},
+    {SunAngleAlone, "a sun angle without a chord: a cone about the Sun only"},
+    {OneChordAlone, "a chord alone: one or two cones about the Earth only"},
+    {NothingMeasured, "no measurement that an axis could be found from"},
+    {SunEarthInLine,
+     "Sun and Earth stand {sun_earth_deg:.3f} deg apart: the axis needs between 3 and 177 deg"},
+    {ChordTooWide,
+     "chord {chord_deg:.4f} deg is wider than the Earth's disc of half-angle {disc_deg:.4f} deg "
+     "allows at mounting angle {mount_angle_deg:.4f} deg"},
+    {NoEarthAngle, "no earth angle in (0, 180) deg gives the measured chord"},
+    {OneChordContradicts,
+     "the measured sun angle, chord and dihedral contradict each other: no earth angle in "
+     "(0, 180) deg fits them"},
+    {ConesApart,
+     "the cones of {sun_angle_deg:.4f} deg about the Sun and {earth_angle_deg:.4f} deg about the "
+     "Earth do not meet, which stand {sun_earth_deg:.4f} deg apart"},
+    {NoSunAngle, "no sun angle in (0, 180) deg fits the measured earth angle and dihedral"},
+    {NoSunAngleOfSlit2,
+     "no sun angle that sun slit 2 can see fits the measured earth angle and azimuth"},
+    {LostInNoise,
+     "the solution is lost in the noise of its edges: it exists only within one sigma of them, or "
+     "no measurement fixes one of its directions"},
+}};
+static_assert(are_by_code(kNoFixPatterns));
+
 using enum NoticeCode;
-constexpr std::array<Pattern<NoticeCode>, kNoticeCodes> kNoticePatterns{{
-    {LateEdges, "pulses arrive after their time was processed: they are stored and left out"},
-    {EdgesOutOfTime,
+constexpr std::array<NoticePattern, kNoticeCodes> kNoticePatterns{{
+    {LateEdges, "late_edges",
+     "pulses arrive after their time was processed: they are stored and left out"},
+    {EdgesOutOfTime, "edges_out_of_time",
      "pulses stamped far from the times of all others are left out: a sender's clock is wrong"},
-    {InterferenceBegins,
+    {InterferenceBegins, "interference_begins",
      "{t_tai_ns}: {one} and {other} come too near to each other (spin.screening.interference_s "
      "= {interference_s}): as long as they do, their edges are left out"},
-    {Interfered,
+    {Interfered, "interfered",
      "{one} and {other} were too near to each other in {revolutions} revolutions from "
      "{first_tai_ns} to {last_tai_ns}: their edges there are left out"},
-    {CopiesBegin,
+    {CopiesBegin, "copies_begin",
      "{t_tai_ns}: the edges of {channel} come several times (are two receivers heard?): the "
      "earliest of a revolution counts, the others are left out as 'copy'"},
-    {Copied,
+    {Copied, "copied",
      "{edges} edges of {channels} are copies, on average {apart_s:.3g} s from the edge of their "
      "revolution that counts: they are left out as 'copy'; look for a second receiver"},
-    {CountUncertain,
+    {CountUncertain, "count_uncertain",
      "after a silence the count of revolutions is uncertain by about {turns:.1f}, from "
      "revolution {revolution} on"},
-    {NoPeriod,
+    {NoPeriod, "no_period",
      "no spin period was found in the edges, of rates from {slowest_rpm} to {fastest_rpm} rpm: "
      "no revolution, and no axis"},
-    {TimesOnGrid,
+    {TimesOnGrid, "times_on_grid",
      "{t_tai_ns}: the times of the edges lie on a grid of {grid_s:g} s: the steps of a counter on "
      "board, or cut on the way, where nanoseconds are to be kept. What that leaves open of each is "
      "in "
      "every sigma, as an error that does not average out"},
-    {EdgesLeftOut,
+    {EdgesLeftOut, "edges_left_out",
      "{percent:.0f} % of all edges do not fit and are left out, most as '{most}': the count of "
      "revolutions, and what is made of the others, may be wrong"},
-    {SilentChannels, "no edge at all came from {channels}"},
-    {ChannelsWithoutSensor,
+    {SilentChannels, "silent_channels", "no edge at all came from {channels}"},
+    {ChannelsWithoutSensor, "channels_without_sensor",
      "the mission describes no sensor for {channels}: their edges are left out; a beam needs "
      "[spin.ir.north] or [spin.ir.south]"},
-    {OutsideOrbit,
+    {OutsideOrbit, "outside_orbit",
      "{t_tai_ns}: the orbit of the mission file does not cover the revolution that begins here: "
      "revolutions outside it give no axis"},
-    {RangeImpossible,
+    {RangeImpossible, "range_impossible",
      "{t_tai_ns}: the orbit of the mission file lies below the infrared horizon or beyond a "
      "million km: such revolutions give no axis"},
-    {OrbitStepsInPass,
+    {OrbitStepsInPass, "orbit_steps_in_pass",
      "{t_tai_ns}: the orbit steps by {km:.3f} km and {m_s:.2f} m/s within the pass: segments of "
      "the "
      "OEM do not meet, or its states do not follow from each other. Ask whoever made the orbit; "
      "was "
      "it a manoeuvre, mark it"},
-    {MuchOutsideOrbit,
+    {MuchOutsideOrbit, "much_outside_orbit",
      "orbit: {revolutions} revolutions outside it gave no axis, the last at {t_tai_ns}"},
-    {NoFix, "revolution {revolution} is the first that gives no fix: {why}"},
-    {NoAxis, "no axis: {revolutions} revolutions gave no fix, the last: {why}"},
-    {DispersionSettles,
+    {NoFix, "no_fix", "revolution {revolution} is the first that gives no fix: {why}"},
+    {NoAxis, "no_axis", "no axis: {revolutions} revolutions gave no fix, the last: {why}"},
+    {DispersionSettles, "dispersion_settles",
      "{t_tai_ns}: the dispersion settles on the axis near ra {ra_deg:.2f} dec {dec_deg:.2f} "
      "deg: over {fixes:.0f} fixes its candidates stay where they are and the others drift, "
      "ratio of the scatters {scatter_ratio:.1f} (F-test)"},
-    {LikelihoodSettles,
+    {LikelihoodSettles, "likelihood_settles",
      "{t_tai_ns}: the dispersion settles on the axis near ra {ra_deg:.2f} dec {dec_deg:.2f} "
      "deg: over {fixes:.0f} fixes its candidates stay where they are and the others drift, "
      "ratio of the scatters {scatter_ratio:.1f} (likelihood ratio e^{log_likelihood_ratio:.0f})"},
-    {RevolutionsContradict,
+    {RevolutionsContradict, "revolutions_contradict",
      "the measurements of most revolutions contradict each other: no fix is accepted, as "
      "others may agree by accident; check the mission's mounting angles, azimuths and orbit"},
-    {FixContradictsItself,
+    {FixContradictsItself, "fix_contradicts_itself",
      "measurements contradict each other, their fixes are not accepted: the length of the axis "
      "or the size of the Earth's disc comes out wrong; check the mission's mounting angles, "
      "azimuths and orbit"},
-    {HealthyBeamSilent,
+    {HealthyBeamSilent, "healthy_beam_silent",
      "the {beam} beam, said to be healthy, is silent where the axis says it must see the "
      "Earth: such fixes are not accepted; if the beam has failed, say healthy = false"},
-    {PriorContradicted,
+    {PriorContradicted, "prior_contradicted",
      "{t_tai_ns}: the edges contradict the prior of the mission: the axis is another one, the "
      "mean begins anew"},
-    {PriorFar,
+    {PriorFar, "prior_far",
      "{t_tai_ns}: the axis is {deg:.1f} deg from the prior of the mission (spin.prior), "
      "{sigmas:.0f} times the sigma of both: the edges decide without it"},
-    {AxisMoved,
+    {AxisMoved, "axis_moved",
      "{t_tai_ns}: the axis is {deg:.2f} deg from the mean so far: it has moved, or the mean "
      "was wrong; the mean begins anew"},
-    {MeanNeverBegan,
+    {MeanNeverBegan, "mean_never_began",
      "the estimator 'mean' never began: of {fixes} fixes, {near_tangent} are near-tangent (their "
      "candidates "
      "come together within the noise), {ambiguous} are ambiguous, {not_accepted} are not "
      "accepted"},
-    {SequentialNeverBegan,
+    {SequentialNeverBegan, "sequential_never_began",
      "the estimator 'sequential' never began: its fixes leave the axis, or a candidate for it, "
      "uncertain by more than 3 deg"},
-    {LittleLeverage,
+    {LittleLeverage, "little_leverage",
      "poor leverage: errors of {error_deg:.2f} deg in mounting or limb move the axis by "
      "{moved_deg:.1f} deg; sigma includes no more of them than the edges show"},
-    {NotFinite,
+    {NotFinite, "not_finite",
      "results are withheld: {column} of {table} is not a finite number. The samples are stored; "
      "look for a value in the mission file that no instrument has"},
-    {AmbiguousNoPrior,
+    {AmbiguousNoPrior, "ambiguous_no_prior",
      "the axis is ambiguous to the end{missing}: a prior in the mission file would choose "
      "among the candidates"},
-    {AmbiguousNearTangent,
+    {AmbiguousNearTangent, "ambiguous_near_tangent",
      "the axis is ambiguous to the end{missing}: nearly all fixes are near-tangent: the true axis "
      "may be "
      "missing among their candidates, so that no prior would settle it"},
-    {AmbiguousPriorNoHelp,
+    {AmbiguousPriorNoHelp, "ambiguous_prior_no_help",
      "the axis is ambiguous to the end{missing}: nearly all fixes are near-tangent: the true axis "
      "may be "
      "missing among their candidates, so that the prior of the mission (spin.prior) does not "
      "settle it"},
-    {AmbiguousAgainstPrior,
+    {AmbiguousAgainstPrior, "ambiguous_against_prior",
      "the axis is ambiguous to the end{missing}: the edges contradict the prior of the mission "
      "(spin.prior)"},
-    {AmbiguousFarFromPrior,
+    {AmbiguousFarFromPrior, "ambiguous_far_from_prior",
      "the axis is ambiguous to the end{missing}: the prior of the mission (spin.prior) does "
      "not settle it: no candidate is within three sigmas of it"},
-    {AmbiguousNearPrior,
+    {AmbiguousNearPrior, "ambiguous_near_prior",
      "the axis is ambiguous to the end{missing}: the prior of the mission (spin.prior) does "
      "not settle it: within its sigma of {prior_sigma_deg:g} deg, several candidates are "
      "equally near to it"},
-    {AmbiguousPriorNotBorne,
+    {AmbiguousPriorNotBorne, "ambiguous_prior_not_borne",
      "the axis is ambiguous to the end{missing}: the edges do not bear out the candidate that "
      "the prior of the mission (spin.prior) chooses"},
-    {LateSamples, "samples arrive after their time was processed: they are stored and left out"},
-    {SamplesOutOfTime,
+    {LateSamples, "late_samples",
+     "samples arrive after their time was processed: they are stored and left out"},
+    {SamplesOutOfTime, "samples_out_of_time",
      "samples stamped far from the times of all others are left out: a sender's clock is wrong"},
-    {FieldWithoutOrbit,
+    {FieldWithoutOrbit, "field_without_orbit",
      "{t_tai_ns}: no orbit says where the spacecraft is: samples of the magnetometer are left out; "
      "it takes [orbit] or orbit states"},
-    {OutsideFieldModel,
+    {OutsideFieldModel, "outside_field_model",
      "{t_tai_ns}: the model of the Earth's field does not reach here (it ends with its years, and "
      "at the core): samples of the magnetometer are left out; get a newer program"},
-    {AttitudeNeverBegan,
+    {AttitudeNeverBegan, "attitude_never_began",
      "no attitude: {star} star fixes, {sun} sun vectors, {magnetometer} fields and {gyro} gyro "
      "samples do not anchor one; it takes a star fix, or two directions that agree and are not in "
      "line within 5 s, without a gyro within 1 s"},
-    {MostLeftOut,
+    {MostLeftOut, "most_left_out",
      "{percent:.0f} % of the {sensor} samples so far are left out as '{rejected_by}': "
      "{what_to_do}"},
 }};
@@ -204,52 +239,11 @@ std::string_view what_is_missing(std::int64_t geometry_case) {
 }  // namespace
 
 std::string_view name_of(NoticeCode code) {
-  static constexpr std::array<std::string_view, kNoticeCodes> kNames = {
-      "late_edges",
-      "edges_out_of_time",
-      "interference_begins",
-      "interfered",
-      "copies_begin",
-      "copied",
-      "count_uncertain",
-      "no_period",
-      "times_on_grid",
-      "edges_left_out",
-      "silent_channels",
-      "channels_without_sensor",
-      "outside_orbit",
-      "range_impossible",
-      "orbit_steps_in_pass",
-      "much_outside_orbit",
-      "no_fix",
-      "no_axis",
-      "dispersion_settles",
-      "likelihood_settles",
-      "revolutions_contradict",
-      "fix_contradicts_itself",
-      "healthy_beam_silent",
-      "prior_contradicted",
-      "prior_far",
-      "axis_moved",
-      "mean_never_began",
-      "sequential_never_began",
-      "little_leverage",
-      "not_finite",
-      "ambiguous_no_prior",
-      "ambiguous_near_tangent",
-      "ambiguous_prior_no_help",
-      "ambiguous_against_prior",
-      "ambiguous_far_from_prior",
-      "ambiguous_near_prior",
-      "ambiguous_prior_not_borne",
-      "late_samples",
-      "samples_out_of_time",
-      "field_without_orbit",
-      "outside_field_model",
-      "attitude_never_began",
-      "most_left_out",
-  };
-  return kNames.at(static_cast<std::size_t>(code));
+  return kNoticePatterns.at(static_cast<std::size_t>(code)).name;
+}
+
+std::string sentence_of(const WhyNoFix& why) {
+  return filled(pattern_of(kNoFixPatterns, why.code), why.values, 0);
 }
 
 nlohmann::json values_of(const Notice& notice) {

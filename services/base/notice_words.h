@@ -1,5 +1,5 @@
 /// @file
-/// The notices of a pass as sentences for people.
+/// The notices of a pass, and why a revolution gives no spin axis, as sentences for people.
 
 #pragma once
 
@@ -18,5 +18,6 @@ std::string_view name_of(NoticeCode code);
 nlohmann::json values_of(const Notice& notice);
 
 std::string sentence_of(const Notice& notice);
+std::string sentence_of(const WhyNoFix& why);
 
 }  // namespace spindrift

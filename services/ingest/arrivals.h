@@ -18,7 +18,6 @@
 #include "services/ingest/from_idl.h"
 #include "services/ingest/rejection_limit.h"
 #include "services/ingest/sequence_tracker.h"
-#include "services/telemetry/last_origins.h"
 #include "services/telemetry/sample_batch.h"
 
 namespace spindrift {
@@ -43,7 +42,7 @@ class Arrivals {
   template <class Value>
   void take(const bus::MessageOf<Value>& message, std::int64_t written_ns, SampleBatch& batch) {
     if (auto sample = from_idl<Value>(message)) {
-      sample->arrival = written_ns;
+      sample->place = {written_ns};
       batch.samples.template of<Value>().push_back(*std::move(sample));
     } else {
       const std::lock_guard lock{mutex_};

@@ -22,7 +22,6 @@
 #include "services/bus/wait_set.h"
 #include "services/ingest/arrivals.h"
 #include "services/ingest/writing_order.h"
-#include "services/telemetry/last_origins.h"
 #include "services/telemetry/sample_batch.h"
 
 namespace spindrift {

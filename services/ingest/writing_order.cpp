@@ -10,7 +10,7 @@ namespace {
 // The number of sessions that the bus is required to tell apart.
 constexpr std::size_t kMostSessions = 256;
 
-constexpr auto kEarlier = [](const auto& a, const auto& b) { return a.arrival < b.arrival; };
+constexpr auto kEarlier = [](const auto& a, const auto& b) { return a.place < b.place; };
 
 template <class Samples>
 void move_all(Samples& from, Samples& to) {
@@ -18,11 +18,11 @@ void move_all(Samples& from, Samples& to) {
   from.clear();
 }
 
-std::int64_t last_written(const TelemetrySamples& samples) {
-  std::int64_t last = std::numeric_limits<std::int64_t>::min();
+BatchPlace last_written(const TelemetrySamples& samples) {
+  BatchPlace last{std::numeric_limits<std::int64_t>::min()};
   samples.for_each([&](const auto& of_kind) {
     for (const auto& sample : of_kind) {
-      last = std::max(last, sample.arrival);
+      last = std::max(last, sample.place);
     }
   });
   return last;
@@ -60,11 +60,11 @@ SampleBatch WritingOrder::pass_on(SampleBatch taken, Instant now) {
   }
   until_.reset();
   out.samples = std::exchange(held_.samples, std::move(taken.samples));
-  const std::int64_t last = last_written(out.samples);
+  const BatchPlace last = last_written(out.samples);
   TelemetryKinds::for_each([&]<class Value>(Kind<Value> /*kind*/) {
     auto& newer = held_.samples.of<Value>();
     const auto older = std::stable_partition(
-        newer.begin(), newer.end(), [last](const auto& sample) { return sample.arrival > last; });
+        newer.begin(), newer.end(), [last](const auto& sample) { return sample.place > last; });
     std::move(older, newer.end(), std::back_inserter(out.samples.of<Value>()));
     newer.erase(older, newer.end());
   });

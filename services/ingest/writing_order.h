@@ -26,8 +26,8 @@ class WritingOrder {
   /// At most this many samples wait for kLastMinutes.
   static constexpr std::size_t kMost = 16'384;
 
-  /// @param taken Samples of all topics, with the time of writing by the writer's clock in
-  /// `arrival`. @return Samples that need not wait any longer.
+  /// @param taken Samples of all topics; their places are the times of writing. @return Samples
+  /// that need not wait any longer.
   SampleBatch pass_on(SampleBatch taken, Instant now);
 
   SampleBatch rest();

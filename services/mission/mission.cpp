@@ -16,7 +16,6 @@
 #include "services/mission/mission_schema.h"
 #include "services/mission/mission_spin.h"
 #include "services/mission/mission_three_axis.h"
-#include "services/mission/orbit_doubts.h"
 #include "services/mission/values.h"
 
 namespace spindrift {

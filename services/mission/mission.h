@@ -30,7 +30,7 @@ struct Mission {
   std::string sha256;                                ///< Hash of toml_text, hexadecimal.
   std::optional<std::string> orbit_sha256;           ///< Hash of the orbit file, if named.
   std::set<std::string> tables;                      ///< Non-empty tables, "three_axis.gyro".
-  std::vector<std::string> orbit_doubts;             ///< Orbit file sentences (orbit_doubts.h).
+  std::vector<std::string> orbit_doubts;             ///< Orbit file sentences (mission_orbit.h).
   AlertLimits alerts = {};
   std::optional<SpinTarget> target = {};
   std::optional<Contact> contact = {};

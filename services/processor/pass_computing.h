@@ -142,8 +142,8 @@ class PassComputing {
   void compute(const PassInput& input, const Note& note, Computed& computed) {
     in_order_of_arrival(
         input.values, input.silences, input.actions,
-        [&](const auto& arrived) { take(arrived, note, computed); },
-        [&](std::int64_t /*place*/) {
+        [&](const auto& placed) { take(placed, note, computed); },
+        [&](BatchPlace /*place*/) {
           Output output = pass_.fall_silent();
           std::vector<RunNotice> notices = see(output, note);
           keep(std::move(output), std::move(notices), std::nullopt, computed);
@@ -154,19 +154,20 @@ class PassComputing {
   }
 
   template <class Value, class Note>
-  void take(const Arrived<Value>& arrived, const Note& note, Computed& computed) {
+  void take(const Placed<Value>& placed, const Note& note, Computed& computed) {
     // A pass ignores the kinds of telemetry that it has no `push` for.
-    if constexpr (requires { pass_.push(arrived.value); }) {
-      reached_ = arrived.value.t;
-      Output output = pass_.push(arrived.value);
+    if constexpr (requires { pass_.push(placed.value); }) {
+      reached_ = placed.value.t;
+      Output output = pass_.push(placed.value);
       std::vector<RunNotice> notices = see(output, note);
-      keep(std::move(output), std::move(notices), arrived.value.t, computed);
+      keep(std::move(output), std::move(notices), placed.value.t, computed);
     }
   }
 
   /// An action gives no products itself; it only affects the samples after it.
   template <class Note>
-  void take(const OperatorAction& action, const Note& note, Computed& /*computed*/) {
+  void take(const Placed<OperatorAction>& placed, const Note& note, Computed& /*computed*/) {
+    const OperatorAction& action = placed.value;
     std::visit(
         [&](const auto& does) {
           if constexpr (requires { pass_.act(action.t.value(), does); }) {

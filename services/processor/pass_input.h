@@ -17,25 +17,25 @@
 namespace spindrift {
 
 struct PassInput {
-  std::size_t spacecraft = 0;                ///< Index of the spacecraft's mission.
-  std::string run_id;                        ///< A change of this begins a new pass.
-  TelemetryValues values = {};               ///< Their `arrival` is the place within this input.
-  std::vector<OperatorAction> actions = {};  ///< Their `arrival` is a place of the same series.
-  std::vector<std::int64_t> silences = {};   ///< Place of the element that follows each silence.
-  NamesOfSenders senders = {};               ///< Names of the senders of `values`.
-  /// Arrival time of the last sample. Empty after a restart, or when no sample made the input due.
+  std::size_t spacecraft = 0;  ///< Index of the spacecraft's mission.
+  std::string run_id;          ///< A change of this begins a new pass.
+  PlacedValues values = {};
+  std::vector<Placed<OperatorAction>> actions = {};  ///< With places among the `values`.
+  std::vector<BatchPlace> silences = {};  ///< Place of the element that follows each silence.
+  NamesOfSenders senders = {};            ///< Names of the senders of `values`.
+  /// When the last sample came. Empty after a restart, or when no sample made the input due.
   std::optional<std::chrono::steady_clock::time_point> came = {};
 };
 
 inline std::size_t sample_count(const PassInput& input) { return count_of(input.values); }
 
 /// Returns the place that the next element of this input gets.
-inline std::int64_t next_place(const PassInput& input) {
-  return static_cast<std::int64_t>(sample_count(input) + input.actions.size());
+inline BatchPlace next_place(const PassInput& input) {
+  return {static_cast<std::int64_t>(sample_count(input) + input.actions.size())};
 }
 
 inline bool is_empty(const PassInput& input) {
-  return next_place(input) == 0 && input.silences.empty();
+  return next_place(input) == BatchPlace{} && input.silences.empty();
 }
 
 }  // namespace spindrift

@@ -58,7 +58,7 @@ SpacecraftRun::SpacecraftRun(const Mission& mission, const TelemetrySource& sour
              .started_utc = {},
              // The clock keeps arrivals of different archives apart in case they are merged. Order
              // within an archive does not rest on it: see arrive_after.
-             .first_arrival = tai_ns(tai_now())},
+             .first_arrival = {tai_ns(tai_now())}},
       orbit_doubts_{mission.orbit_doubts},
       run_id_{unique_id()},
       next_arrival_{start_.first_arrival},
@@ -71,8 +71,8 @@ SpacecraftRun::SpacecraftRun(const Mission& mission, const TelemetrySource& sour
       pace_{source.mode == RunMode::Live ? kLivePace : kReplayPace},
       sources_{pace_} {}
 
-void SpacecraftRun::arrive_after(std::int64_t first_arrival) {
-  next_arrival_ = std::max(next_arrival_, first_arrival + kArrivalsOfARun);
+void SpacecraftRun::arrive_after(RunPlace first_arrival) {
+  next_arrival_ = std::max(next_arrival_, {first_arrival.number + kArrivalsOfARun});
   silent_before_ = start_.first_arrival = next_arrival_;
 }
 
@@ -129,9 +129,9 @@ SpacecraftRun::Taken SpacecraftRun::go_on(const std::vector<StoredPass>& stored,
 }
 
 void SpacecraftRun::restore_sources(const StoredPass& stored, const Moment& moment) {
-  std::int64_t last_in_time = 0;
+  RunPlace last_in_time;
   stored.values.for_each([&](const auto& of_kind) {
-    last_in_time = std::max(last_in_time, of_kind.empty() ? 0 : of_kind.back().arrival);
+    last_in_time = std::max(last_in_time, of_kind.empty() ? RunPlace{} : of_kind.back().arrival);
   });
   for (const std::vector<Origin>& of_kind : stored.last_origins) {
     for (const Origin& origin : of_kind) {
@@ -140,7 +140,7 @@ void SpacecraftRun::restore_sources(const StoredPass& stored, const Moment& mome
   }
   for (const LeftOut& left_out : stored.left_out) {
     in_order_of_arrival(left_out.values, [&](const auto& arrived) {
-      next_arrival_ = std::max(next_arrival_, arrived.arrival + 1);
+      next_arrival_ = std::max(next_arrival_, place_after(arrived.arrival));
       sources_.restore_apart(left_out.last, arrived, arrived.arrival > last_in_time, moment);
     });
   }
@@ -178,7 +178,7 @@ void SpacecraftRun::go_on(const StoredPass& stored, const Moment& moment, Taken&
   in_order_of_arrival(
       stored.values, stored.silences, of_this_run,
       [&]<class Element>(const Element& arrived) {
-        next_arrival_ = std::max(next_arrival_, arrived.arrival + 1);
+        next_arrival_ = std::max(next_arrival_, place_after(arrived.arrival));
         if constexpr (std::is_same_v<Element, OperatorAction>) {
           hand_on(arrived, out.inputs);
         } else {
@@ -188,7 +188,7 @@ void SpacecraftRun::go_on(const StoredPass& stored, const Moment& moment, Taken&
           place(arrived, out);
         }
       },
-      [&](std::int64_t arrival) { hand_on_silence(arrival, out.inputs); });
+      [&](RunPlace arrival) { hand_on_silence(arrival, out.inputs); });
 }
 
 SpacecraftRun::Taken SpacecraftRun::take(SampleBatch samples, const Moment& moment) {
@@ -257,7 +257,7 @@ SpacecraftRun::Taken SpacecraftRun::fall_silent() {
   return out;
 }
 
-void SpacecraftRun::hand_on_silence(std::int64_t arrival, std::vector<PassInput>& inputs) {
+void SpacecraftRun::hand_on_silence(RunPlace arrival, std::vector<PassInput>& inputs) {
   silent_before_ = arrival;
   // Repeated samples have an arrival but are not stored, so the next one is behind them.
   next_arrival_ = std::max(next_arrival_, arrival);
@@ -265,14 +265,13 @@ void SpacecraftRun::hand_on_silence(std::int64_t arrival, std::vector<PassInput>
 }
 
 void SpacecraftRun::hand_on(OperatorAction action, std::vector<PassInput>& inputs) {
-  action.arrival = next_place(inputs.back());
-  inputs.back().actions.push_back(std::move(action));
+  inputs.back().actions.push_back({.place = next_place(inputs.back()), .value = std::move(action)});
 }
 
 /// An action without a time applies from the time that the telemetry has reached.
 void SpacecraftRun::accept(OperatorAction&& action, Taken& out) {
   action.t = action.t ? *action.t : watch_.reached().value_or(tai_now());
-  action.arrival = next_arrival_++;
+  action.arrival = new_arrival();
   spdlog::info("{}: {} from {} on, by {}: {} {} {}", spacecraft_id_, action.action,
                format_utc(*action.t), action.by, action.arguments, action.note, action.action_id);
   hand_on(action, out.inputs);
@@ -281,7 +280,7 @@ void SpacecraftRun::accept(OperatorAction&& action, Taken& out) {
 }
 
 /// Hands earlier actions to the run that begins in `out`; they apply to its telemetry too.
-void SpacecraftRun::repeat_actions_before(std::int64_t first_arrival, Taken& out) {
+void SpacecraftRun::repeat_actions_before(RunPlace first_arrival, Taken& out) {
   for (const OperatorAction& action : actions_) {
     if (action.arrival < first_arrival) {
       hand_on(action, out.inputs);
@@ -330,8 +329,8 @@ void SpacecraftRun::sort(TelemetrySample<Value>&& sample, const Moment& moment, 
   senders_.put_into(sample);
   switch (judge(sample, moment)) {
     case SourceWatch::Verdict::Apart:
-      sample.arrival = -next_arrival_++;
-      out.batches.back().samples.of<Value>().push_back(std::move(sample));
+      out.batches.back().samples.of<Value>().push_back(arrived(std::move(sample)));
+      out.batches.back().samples.of<Value>().back().is_left_out = true;
       return;
     case SourceWatch::Verdict::Healed:
       accept(sources_.take_held(sample.origin), out);
@@ -340,6 +339,14 @@ void SpacecraftRun::sort(TelemetrySample<Value>&& sample, const Moment& moment, 
       break;
   }
   accept(std::move(sample), out);
+}
+
+template <class Value>
+ArrivedSample<Value> SpacecraftRun::arrived(TelemetrySample<Value>&& sample) {
+  return {.spacecraft = std::move(sample.spacecraft),
+          .origin = std::move(sample.origin),
+          .value = std::move(sample.value),
+          .arrival = new_arrival()};
 }
 
 template <class Value>
@@ -356,10 +363,10 @@ SourceWatch::Verdict SpacecraftRun::judge(const TelemetrySample<Value>& sample,
                       Arrived<Value>{.arrival = next_arrival_, .value = sample.value}, moment);
 }
 
-/// Accepts held samples in the order in which they came, with new arrival numbers.
+/// Accepts held samples in the order in which they came, with new arrivals.
 void SpacecraftRun::accept(const TelemetryValues& held, Taken& out) {
   in_order_of_arrival(held, [&]<class Value>(const Arrived<Value>& left_out) {
-    const Arrived<Value> arrived{.arrival = next_arrival_++, .value = left_out.value};
+    const Arrived<Value> arrived{.arrival = new_arrival(), .value = left_out.value};
     received_.count(arrived.value);
     reach_.note(arrived.value.t);
     out.batches.back().moved.of<Value>().push_back(arrived);
@@ -369,14 +376,14 @@ void SpacecraftRun::accept(const TelemetryValues& held, Taken& out) {
 
 template <class Value>
 void SpacecraftRun::accept(TelemetrySample<Value>&& sample, Taken& out) {
-  sample.arrival = next_arrival_++;
-  received_.count(sample.value);
-  reach_.note(sample.value.t);
-  if (!is_known(sample.value)) {
-    place(Arrived<Value>{.arrival = sample.arrival, .value = sample.value}, out);
+  ArrivedSample<Value> taken = arrived(std::move(sample));
+  received_.count(taken.value);
+  reach_.note(taken.value.t);
+  if (!is_known(taken.value)) {
+    place(Arrived<Value>{.arrival = taken.arrival, .value = taken.value}, out);
   }
   // A new pass that the sample begins has appended a batch of its own.
-  out.batches.back().samples.of<Value>().push_back(std::move(sample));
+  out.batches.back().samples.of<Value>().push_back(std::move(taken));
 }
 
 /// Returns whether the sample was sent before: a repeated sample must not count as two.
@@ -421,11 +428,11 @@ void SpacecraftRun::hand_on(const Value& value, std::vector<PassInput>& inputs) 
   if (sample_count(inputs.back()) >= kSamplesPerInput) {
     inputs.push_back({.spacecraft = index_, .run_id = run_id_});
   }
-  const std::int64_t place = next_place(inputs.back());
+  const BatchPlace place = next_place(inputs.back());
   if (inputs.back().senders != senders_.names()) {
     inputs.back().senders = senders_.names();
   }
-  inputs.back().values.of<Value>().push_back({.arrival = place, .value = value});
+  inputs.back().values.of<Value>().push_back({.place = place, .value = value});
 }
 
 void SpacecraftRun::begin_new_pass_of_held(Taken& out) {

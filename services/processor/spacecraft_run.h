@@ -61,7 +61,7 @@ struct Received {
 /// once, independently of what is computed from it and when.
 /// A new run begins after a silence that ends a pass (PassWatch), or when the time of another
 /// source turns out to be right (SourceWatch). It begins in the batch of the sample that decides
-/// this; the samples held until then get new places in the order of arrival, so that the samples of
+/// this; the samples held until then arrive anew, so that the samples of
 /// a run are numbered without gaps. Files are read in order of time, whatever source they name.
 class SpacecraftRun {
  public:
@@ -78,7 +78,7 @@ class SpacecraftRun {
   SenderNames& senders() { return senders_; }
 
   /// Makes new arrivals later than all of the stored run that begins at `first_arrival`.
-  void arrive_after(std::int64_t first_arrival);
+  void arrive_after(RunPlace first_arrival);
 
   /// Takes over operator actions of earlier runs, in order of arrival; new runs obey them too.
   void take_up(std::vector<OperatorAction> actions) { actions_ = std::move(actions); }
@@ -120,10 +120,13 @@ class SpacecraftRun {
 
  private:
   Taken nothing_taken() const;
+  RunPlace new_arrival() { return std::exchange(next_arrival_, place_after(next_arrival_)); }
   template <class Value>
   void sort(TelemetrySample<Value>&& sample, const Moment& moment, Taken& out);
   template <class Value>
   SourceWatch::Verdict judge(const TelemetrySample<Value>& sample, const Moment& moment);
+  template <class Value>
+  ArrivedSample<Value> arrived(TelemetrySample<Value>&& sample);
   template <class Value>
   void accept(TelemetrySample<Value>&& sample, Taken& out);
   void accept(const TelemetryValues& held, Taken& out);
@@ -138,9 +141,9 @@ class SpacecraftRun {
   template <class Value>
   void hand_on(const Value& value, std::vector<PassInput>& inputs) const;
   static void hand_on(OperatorAction action, std::vector<PassInput>& inputs);
-  void hand_on_silence(std::int64_t arrival, std::vector<PassInput>& inputs);
+  void hand_on_silence(RunPlace arrival, std::vector<PassInput>& inputs);
   void accept(OperatorAction&& action, Taken& out);
-  void repeat_actions_before(std::int64_t first_arrival, Taken& out);
+  void repeat_actions_before(RunPlace first_arrival, Taken& out);
   void release_held(std::vector<PassInput>& inputs);
   void note_reach(ArchiveBatch& batch);
   void end_reach(ArchiveBatch& batch);
@@ -156,8 +159,8 @@ class SpacecraftRun {
   std::vector<std::string> orbit_doubts_;
   std::string run_id_;
   std::optional<RunNotice> begins_with_;  ///< Empty once the run has begun.
-  std::int64_t next_arrival_;
-  std::int64_t silent_before_;  ///< Arrival number at the last silence.
+  RunPlace next_arrival_;
+  RunPlace silent_before_;  ///< Arrival that was next at the last silence.
   Received received_;
   std::map<std::string, Received> received_before_;  ///< Counts of the earlier runs, by run_id.
   std::optional<Contact> contact_;

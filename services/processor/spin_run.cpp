@@ -10,7 +10,6 @@
 #include <variant>
 
 #include "pipelines/spin/batch/batch_estimator.h"
-#include "services/base/wall_clock.h"
 #include "services/processor/told.h"
 
 namespace spindrift {
@@ -43,39 +42,17 @@ Expected<std::vector<Product>> batch_products(BatchSolution solution, bool keeps
 }  // namespace
 
 SpinRun::SpinRun(const Mission& mission, const std::string& run_id, SolvingPlan plan)
-    : config_{*mission.spin()},
-      orbit_{*mission.orbit},
-      computing_{mission.spacecraft_id, run_id, SpinPass{config_, orbit_},
-                 mission.stores_residuals},
-      plan_{plan} {
+    : PassRun{mission, run_id, SpinPass{*mission.spin(), *mission.orbit}, plan},
+      config_{*mission.spin()},
+      orbit_{*mission.orbit} {
   begin(run_id);
 }
 
-void SpinRun::begin(const std::string& run_id) {
-  computing_.begin(run_id, SpinPass{config_, orbit_});
-  summary_ = {};
-  summary_.run_id = run_id;
-  summary_.spacecraft_id = computing_.spacecraft_id();
+void SpinRun::forget() {
   edges_ = {};
   next_batch_.reset();
   last_batch_.reset();
   last_silence_.reset();
-}
-
-void SpinRun::go_on(const std::string& first, AllMadeBefore made) {
-  computing_.go_on(std::move(made));
-  begin(first);
-}
-
-std::vector<ArchiveBatch> SpinRun::compute(const PassInput& input) {
-  std::vector<ArchiveBatch> batches;
-  if (input.run_id != computing_.run_id()) {
-    end_run(batches);
-    begin(input.run_id);
-  }
-  auto computed = computing_.compute(input, [this](const auto& made) { note(made); });
-  std::move(computed.begin(), computed.end(), std::back_inserter(batches));
-  return batches;
 }
 
 /// Uses telemetry time, so that the same telemetry gives the same solutions.
@@ -119,8 +96,6 @@ bool SpinRun::is_stored(TaiTime batch) const {
          std::binary_search(made->batches.begin(), made->batches.end(), batch);
 }
 
-std::vector<BackgroundTask> SpinRun::take_background_tasks() { return std::exchange(due_, {}); }
-
 /// Only the last solution keeps residuals of the edges: each would replace those before.
 Expected<std::vector<Product>> SpinRun::solve(const PassEdges& edges, const Known& known,
                                               Solution which) const {
@@ -137,7 +112,7 @@ Expected<std::vector<Product>> SpinRun::solve(const PassEdges& edges, const Know
 /// Ends the pass and drops the solutions that this makes due: the last solution covers them.
 void SpinRun::settle(std::vector<Product>& products) {
   const std::size_t due = due_.size();
-  computing_.finish(products, [this](const SpinOutput& output) { note(output); });
+  PassRun::settle(products);
   due_.erase(due_.begin() + static_cast<std::ptrdiff_t>(due), due_.end());
   if (plan_ == SolvingPlan::Meanwhile) {
     edges_.keep_last(kLastRevolutions);
@@ -151,51 +126,17 @@ void SpinRun::settle(std::vector<Product>& products) {
   }
 }
 
-ArchiveBatch SpinRun::finish() {
-  ArchiveBatch last = computing_.batch();
-  settle(last.products);
-  if (!computing_.failed()) {
-    if (auto products = solve(std::exchange(edges_, {}), known(), Solution::Last)) {
-      summary_.count_solution(*products);
-      std::move(products->begin(), products->end(), std::back_inserter(last.products));
-    } else if (summary_.edges_accepted > 0 || !summary_.edges_rejected.empty()) {
-      last.products.emplace_back(
-          told("no_batch_solution",
-               {{"spacecraft", computing_.spacecraft_id()}, {"why", products.error().message}},
-               fmt::format("{}: no batch solution: {}", computing_.spacecraft_id(),
-                           products.error().message)));
-    }
-  }
-  last.finished_utc = utc_now();
-  return last;
+std::optional<BackgroundTask> SpinRun::last_solution() {
+  return BackgroundTask{.batch = computing_.batch(),
+                        .solve = [this, failed = computing_.failed(),
+                                  edges = std::exchange(edges_, {}), known = known()] {
+                          return failed ? std::vector<Product>{}
+                                        : solve(edges, known, Solution::Last);
+                        }};
 }
 
-/// When solutions of the run may still wait to be solved, the run is finished by a task behind
-/// them, so that a finished run lacks none.
-void SpinRun::end_run(std::vector<ArchiveBatch>& batches) {
-  if (plan_ == SolvingPlan::AtTheEnd) {
-    batches.push_back(finish());
-    finished_.push_back(std::move(summary_));
-    return;
-  }
-  ArchiveBatch held = computing_.batch();
-  settle(held.products);
-  BackgroundTask last{.batch = computing_.batch(),
-                      .solve = [this, failed = computing_.failed(),
-                                edges = std::exchange(edges_, {}), known = known()] {
-                        return failed ? std::vector<Product>{}
-                                      : solve(edges, known, Solution::Last);
-                      }};
-  last.batch.finished_utc = utc_now();
-  last.summary = &finished_.emplace_back(std::move(summary_));
-  batches.push_back(std::move(held));
-  due_.push_back(std::move(last));
-}
-
-std::vector<RunSummary> SpinRun::summaries() const {
-  std::vector<RunSummary> summaries{finished_.begin(), finished_.end()};
-  summaries.push_back(summary_);
-  return summaries;
+bool SpinRun::expects_solution() const {
+  return summary_.edges_accepted > 0 || !summary_.edges_rejected.empty();
 }
 
 void SpinRun::note(const SpinOutput& output) {

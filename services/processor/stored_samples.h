@@ -19,7 +19,15 @@ namespace spindrift {
 /// again; such samples are not new and say nothing about the time of the pass.
 class StoredSamples {
  public:
-  explicit StoredSamples(const StoredPass& stored);
+  explicit StoredSamples(const StoredPass& stored) {
+    keys_.reserve(count_of(stored.values));
+    stored.values.for_each([this](const auto& of_kind) {
+      for (const auto& arrived : of_kind) {
+        keys_.push_back(key_of(arrived.value, is_preferred(arrived.value)));
+      }
+    });
+    std::sort(keys_.begin(), keys_.end());
+  }
 
   /// Returns whether this sample is stored already. A sample of the preferred sender is new even if
   /// another sender gave the same values.

@@ -4,14 +4,12 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
-#include <iterator>
 #include <memory>
 #include <utility>
 #include <variant>
 
 #include "pipelines/three_axis/sample_kind.h"
 #include "pipelines/time/utc.h"
-#include "services/base/wall_clock.h"
 #include "services/mission/igrf.h"
 #include "services/processor/separation_solving.h"
 #include "services/processor/told.h"
@@ -38,26 +36,23 @@ Expected<std::vector<Product>> products_of(const std::string& spacecraft_id,
   return products;
 }
 
+ThreeAxisPass fresh_pass(const Mission& mission) {
+  const auto& config = std::get<ThreeAxisConfig>(mission.config);
+  return {config, mission.orbit,
+          config.magnetometer ? std::optional{igrf().value()} : std::nullopt};
+}
+
 }  // namespace
 
-ThreeAxisPass ThreeAxisRun::new_pass() const { return {config_, orbit_, field_}; }
-
 ThreeAxisRun::ThreeAxisRun(const Mission& mission, const std::string& run_id, SolvingPlan plan)
-    : config_{std::get<ThreeAxisConfig>(mission.config)},
+    : PassRun{mission, run_id, fresh_pass(mission), plan},
+      config_{std::get<ThreeAxisConfig>(mission.config)},
       orbit_{mission.orbit},
-      field_{config_.magnetometer ? std::optional{igrf().value()} : std::nullopt},
-      separation_{mission.separation},
-      computing_{mission.spacecraft_id, run_id, new_pass(), mission.stores_residuals},
-      plan_{plan} {
+      separation_{mission.separation} {
   begin(run_id);
 }
 
-void ThreeAxisRun::begin(const std::string& run_id) {
-  computing_.begin(run_id, new_pass());
-  summary_ = {};
-  summary_.run_id = run_id;
-  summary_.spacecraft_id = computing_.spacecraft_id();
-  summary_.kind = SpacecraftKind::ThreeAxis;
+void ThreeAxisRun::forget() {
   excluded_ = {};
   has_forgotten_ = false;
   if (separation_) {
@@ -72,20 +67,8 @@ void ThreeAxisRun::begin(const std::string& run_id) {
   }
 }
 
-void ThreeAxisRun::go_on(const std::string& first, AllMadeBefore made) {
-  computing_.go_on(std::move(made));
-  begin(first);
-}
-
 std::vector<ArchiveBatch> ThreeAxisRun::compute(const PassInput& input) {
-  std::vector<ArchiveBatch> batches;
-  if (input.run_id != computing_.run_id()) {
-    end_run(batches);
-    begin(input.run_id);
-  }
-  auto computed =
-      computing_.compute(input, [this](const ThreeAxisOutput& output) { note(output); });
-  std::move(computed.begin(), computed.end(), std::back_inserter(batches));
+  std::vector<ArchiveBatch> batches = PassRun::compute(input);
   record(input);
   return batches;
 }
@@ -96,8 +79,8 @@ void ThreeAxisRun::record(const PassInput& input) {
     return;
   }
   in_order_of_arrival(
-      input.values, input.silences, input.actions, [this](const auto& arrived) { record(arrived); },
-      [this](std::int64_t /*silence*/) {
+      input.values, input.silences, input.actions, [this](const auto& placed) { record(placed); },
+      [this](BatchPlace /*silence*/) {
         if (record_->fall_silent(kBetweenSilences) && plan_ == SolvingPlan::Meanwhile) {
           hand_out_solutions();
         }
@@ -105,12 +88,12 @@ void ThreeAxisRun::record(const PassInput& input) {
 }
 
 template <class Value>
-void ThreeAxisRun::record(const Arrived<Value>& arrived) {
-  if constexpr (requires { record_->push(arrived.value); }) {
-    if (excluded_.hold(arrived.value.t, kind_of(arrived.value))) {
+void ThreeAxisRun::record(const Placed<Value>& placed) {
+  if constexpr (requires { record_->push(placed.value); }) {
+    if (excluded_.hold(placed.value.t, kind_of(placed.value))) {
       return;
     }
-    const bool is_due = record_->push(arrived.value);
+    const bool is_due = record_->push(placed.value);
     const bool is_corrected = record_->take_correction(kBetweenSilences);
     has_forgotten_ = has_forgotten_ || is_corrected;
     if ((is_due || is_corrected) && plan_ == SolvingPlan::Meanwhile) {
@@ -119,7 +102,8 @@ void ThreeAxisRun::record(const Arrived<Value>& arrived) {
   }
 }
 
-void ThreeAxisRun::record(const OperatorAction& action) {
+void ThreeAxisRun::record(const Placed<OperatorAction>& placed) {
+  const OperatorAction& action = placed.value;
   if (const auto* const does = std::get_if<AttitudeAction>(&action.does)) {
     std::visit([&](const auto& what) { excluded_.add(action.t.value(), what); }, *does);
     if (record_->forget(excluded_)) {
@@ -166,67 +150,16 @@ BackgroundTask ThreeAxisRun::solving(std::shared_ptr<const ReconstructionRequest
 }
 
 /// Returns the solution of all samples that have arrived, by both methods.
-BackgroundTask ThreeAxisRun::solving_at_end() const {
-  return solving(std::make_shared<const ReconstructionRequest>(record_->request()), std::nullopt);
-}
-
-std::vector<BackgroundTask> ThreeAxisRun::take_background_tasks() {
-  return std::exchange(due_, {});
-}
-
-bool ThreeAxisRun::has_separation() const {
-  return record_ && sample_count(record_->request()) > 0;
-}
-
-ArchiveBatch ThreeAxisRun::finish() {
-  ArchiveBatch last = computing_.batch();
-  computing_.finish(last.products, [this](const ThreeAxisOutput& output) { note(output); });
-  if (has_separation()) {
-    if (auto products = solving_at_end().solve()) {
-      summary_.count_solution(*products);
-      std::move(products->begin(), products->end(), std::back_inserter(last.products));
-    } else {
-      last.products.emplace_back(
-          told("no_reconstruction",
-               {{"spacecraft", computing_.spacecraft_id()}, {"why", products.error().message}},
-               fmt::format("{}: no {}: {}", computing_.spacecraft_id(), kReconstruction,
-                           products.error().message)));
-    }
-  } else if (record_) {
+std::optional<BackgroundTask> ThreeAxisRun::last_solution() const {
+  if (expects_solution()) {
+    return solving(std::make_shared<const ReconstructionRequest>(record_->request()), std::nullopt);
+  }
+  if (record_) {
     spdlog::info("{}: no {}: no sample to use within {} after T1, {}", computing_.spacecraft_id(),
                  kReconstruction, SeparationRecord::kLongest,
                  format_utc(separation_->times.separation));
   }
-  last.finished_utc = utc_now();
-  return last;
-}
-
-/// Finishes the run behind its waiting solutions, as SpinRun does.
-void ThreeAxisRun::end_run(std::vector<ArchiveBatch>& batches) {
-  if (plan_ == SolvingPlan::AtTheEnd || !has_separation()) {
-    batches.push_back(finish());
-    finished_.push_back(summary());
-    return;
-  }
-  ArchiveBatch held = computing_.batch();
-  computing_.finish(held.products, [this](const ThreeAxisOutput& output) { note(output); });
-  batches.push_back(std::move(held));
-  BackgroundTask last = solving_at_end();
-  last.batch.finished_utc = utc_now();
-  last.summary = &finished_.emplace_back(summary());
-  due_.push_back(std::move(last));
-}
-
-std::vector<RunSummary> ThreeAxisRun::summaries() const {
-  std::vector<RunSummary> summaries{finished_.begin(), finished_.end()};
-  summaries.push_back(summary());
-  return summaries;
-}
-
-RunSummary ThreeAxisRun::summary() const {
-  RunSummary summary = summary_;
-  summary.sensors = computing_.pass().sensors();
-  return summary;
+  return std::nullopt;
 }
 
 void ThreeAxisRun::note(const ThreeAxisOutput& output) {

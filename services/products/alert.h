@@ -26,34 +26,31 @@ struct AlertTable {
   static constexpr bool kOfSpacecraft = true;
   static constexpr std::string_view kReplaces = "excluded.revision > revision";
   static constexpr auto kColumns = columns(
-      ProductColumn{"alert_id", [](const Alert& alert) { return alert.alert_id; }},
-      ProductColumn{"key", [](const Alert& alert) { return alert.key; }},
+      ProductColumn{"alert_id", &Alert::alert_id}, ProductColumn{"key", &Alert::key},
       ProductColumn{"severity", [](const Alert& alert) { return name_of(alert.severity); }},
       ProductColumn{"state", [](const Alert& alert) { return name_of(alert.state); }},
-      ProductColumn{"revision", [](const Alert& alert) { return alert.revision; }},
+      ProductColumn{"revision", &Alert::revision},
       ProductColumn{"raised_tai_ns", [](const Alert& alert) { return tai_ns(alert.raised); }},
       ProductColumn{"updated_tai_ns", [](const Alert& alert) { return tai_ns(alert.updated); }},
       ProductColumn{"cleared_tai_ns", [](const Alert& alert) { return tai_ns_if(alert.cleared); }},
       ProductColumn{"shelved_until_tai_ns",
                     [](const Alert& alert) { return tai_ns_if(alert.shelved_until); }},
-      ProductColumn{"count", [](const Alert& alert) { return alert.count; }},
-      ProductColumn{"message", [](const Alert& alert) { return alert.message; }},
-      ProductColumn{"evidence", [](const Alert& alert) { return alert.evidence; }});
+      ProductColumn{"count", &Alert::count}, ProductColumn{"message", &Alert::message},
+      ProductColumn{"evidence", &Alert::evidence});
 };
 
 struct AlertTransitionTable {
   static constexpr std::string_view kName = "alert_transition";
   static constexpr std::array<std::string_view, 3> kKey{"alert_id", "t_tai_ns", "to_state"};
   static constexpr auto kColumns = columns(
-      ProductColumn{"alert_id", [](const Alert& alert) { return alert.alert_id; }},
+      ProductColumn{"alert_id", &Alert::alert_id},
       ProductColumn{"t_tai_ns", [](const Alert& alert) { return tai_ns(alert.updated); }},
       ProductColumn{"from_state",
                     [](const Alert& alert) {
                       return alert.from ? std::optional{name_of(*alert.from)} : std::nullopt;
                     }},
       ProductColumn{"to_state", [](const Alert& alert) { return name_of(alert.state); }},
-      ProductColumn{"by", [](const Alert& alert) { return alert.by; }},
-      ProductColumn{"note", [](const Alert& alert) { return alert.note; }});
+      ProductColumn{"by", &Alert::by}, ProductColumn{"note", &Alert::note});
 };
 
 template <>

@@ -20,11 +20,22 @@
 #include "services/base/assessment_words.h"
 #include "services/base/degrees.h"
 #include "services/base/reasons_json.h"
-#include "services/products/attitude_covariance.h"
 #include "services/products/named.h"
 #include "services/products/product_kind.h"
 
 namespace spindrift {
+
+/// Reads the columns cov_xx_deg2 to cov_zz_deg2.
+template <class Row>
+Eigen::Matrix3d attitude_covariance_rad2_of(const Row& row) {
+  const double xy = row.real("cov_xy_deg2");
+  const double xz = row.real("cov_xz_deg2");
+  const double yz = row.real("cov_yz_deg2");
+  Eigen::Matrix3d deg2;
+  deg2 << row.real("cov_xx_deg2"), xy, xz, xy, row.real("cov_yy_deg2"), yz, xz, yz,
+      row.real("cov_zz_deg2");
+  return deg2 * (kRadPerDeg * kRadPerDeg);
+}
 
 struct AttitudeTable {
   static constexpr std::string_view kName = "attitude";

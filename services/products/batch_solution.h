@@ -33,10 +33,10 @@ struct SpinBatchTable {
   static constexpr auto kColumns = columns(
       ProductColumn{"t_tai_ns", &batch_t_tai_ns},
       ProductColumn{"bound_deg", [](const BatchProduct& s) { return s->bound_rad * kDegPerRad; }},
-      ProductColumn{"edges", [](const BatchProduct& s) { return s->edges; }},
-      ProductColumn{"outliers", [](const BatchProduct& s) { return s->outliers; }},
+      ProductColumn{"edges", &BatchSolution::edges},
+      ProductColumn{"outliers", &BatchSolution::outliers},
       ProductColumn{"residual_limit", [](const BatchProduct& /*s*/) { return kOutlierSigmas; }},
-      ProductColumn{"noise", [](const BatchProduct& s) { return s->noise; }},
+      ProductColumn{"noise", &BatchSolution::noise},
       ProductColumn{"iterations",
                     [](const BatchProduct& s) { return std::int64_t{s->iterations}; }},
       ProductColumn{"changed_tai_ns",
@@ -79,8 +79,8 @@ struct NumberedTable {
   /// @param stored Returns the stored form of a value.
   template <class Stored>
   static constexpr auto numbered(std::string_view name, Stored stored) {
-    return columns(ProductColumn{"t_tai_ns", [](const Row& row) { return row.t_tai_ns; }},
-                   ProductColumn{"position", [](const Row& row) { return row.position; }},
+    return columns(ProductColumn{"t_tai_ns", &Row::t_tai_ns},
+                   ProductColumn{"position", &Row::position},
                    ProductColumn{name, [stored](const Row& row) { return stored(row.value); }});
   }
 };
@@ -124,8 +124,8 @@ struct SpinBiasTable {
                       return std::string_view{prior_of(bias.bias).is_angle ? "deg" : "km"};
                     }},
       ProductColumn{"sigma", [](const BiasEstimate& bias) { return bias.sigma * to_unit(bias); }},
-      ProductColumn{"observable", [](const BiasEstimate& bias) { return bias.observable; }},
-      ProductColumn{"estimated", [](const BiasEstimate& bias) { return bias.estimated; }});
+      ProductColumn{"observable", &BiasEstimate::observable},
+      ProductColumn{"estimated", &BiasEstimate::estimated});
 };
 
 /// Makes a column about the nutation that was found; null when none was found.
@@ -223,7 +223,7 @@ struct BatchResidualTable {
                                              : std::nullopt;
                     }},
       ProductColumn{"sigma_ns", [](const BatchEdge& edge) { return whole_ns(edge.sigma_s); }},
-      ProductColumn{"used", [](const BatchEdge& edge) { return edge.used; }});
+      ProductColumn{"used", &BatchEdge::used});
 };
 
 template <>

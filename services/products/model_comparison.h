@@ -44,7 +44,7 @@ struct ModelComparisonTable {
           [](const ChannelComparison& compared) { return std::string{compared.channel.unit}; }},
       ProductColumn{"samples",
                     [](const ChannelComparison& compared) { return compared.residuals.count(); }},
-      ProductColumn{"outside", [](const ChannelComparison& compared) { return compared.outside; }},
+      ProductColumn{"outside", &ChannelComparison::outside},
       residual_column("mean", &ResidualStatistics::mean),
       residual_column("sigma", &ResidualStatistics::sigma),
       residual_column("rms", &ResidualStatistics::rms),

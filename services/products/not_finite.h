@@ -38,11 +38,10 @@ struct NotFinite {
 template <class Kind>
 std::optional<NotFinite> not_finite(const Kind& product) {
   std::optional<NotFinite> found;
-  const auto look = [&]<class Get>(std::string_view table, const ProductColumn<Get>& column,
-                                   const auto& row) {
-    using Value = std::invoke_result_t<Get, decltype(row)>;
+  const auto look = [&](std::string_view table, const auto& column, const auto& row) {
+    using Value = std::remove_cvref_t<decltype(column.of(row))>;
     if constexpr (std::is_same_v<Value, double> || std::is_same_v<Value, std::optional<double>>) {
-      if (!found && !is_finite(column.get(row))) {
+      if (!found && !is_finite(column.of(row))) {
         found = NotFinite{.table = table, .column = column.name};
       }
     }

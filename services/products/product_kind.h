@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <string_view>
 #include <tuple>
 #include <type_traits>
@@ -15,12 +16,18 @@ namespace spindrift {
 /// announced, and nobody waits for them.
 enum class ProductWeight { Result, Detail };
 
-/// Column name and a getter of the value from a row: a std::int64_t, double, bool or std::string, a
-/// std::string_view of a literal, or a std::optional of one of these.
+/// A column by name, with a function or member that gives its value of a row: a std::int64_t,
+/// double, bool or std::string, a std::string_view of a literal, or a std::optional of one of
+/// these.
 template <class Get>
 struct ProductColumn {
   std::string_view name;
   Get get;
+
+  template <class Row>
+  constexpr decltype(auto) of(const Row& row) const {
+    return std::invoke(get, row);
+  }
 };
 template <class Get>
 ProductColumn(std::string_view, Get) -> ProductColumn<Get>;

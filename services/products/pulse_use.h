@@ -44,7 +44,7 @@ struct PulseUseTable {
   static constexpr auto kColumns = columns(
       ProductColumn{"t_tai_ns", [](const PulseUse& use) { return tai_ns(use.pulse.t); }},
       ProductColumn{"channel", [](const PulseUse& use) { return name_of(use.pulse.channel); }},
-      ProductColumn{"revolution", [](const PulseUse& use) { return use.revolution; }},
+      ProductColumn{"revolution", &PulseUse::revolution},
       ProductColumn{"accepted", [](const PulseUse& use) { return !use.rejected_by; }},
       ProductColumn{"rejected_by", [](const PulseUse& use) { return name_of(use.rejected_by); }},
       residual_ns_column("residual_ns", [](const Residual& residual) { return residual.value[0]; }),

@@ -19,7 +19,7 @@
 #include "services/base/assessment_words.h"
 #include "services/base/degrees.h"
 #include "services/base/reasons_json.h"
-#include "services/products/attitude_covariance.h"
+#include "services/products/attitude.h"
 #include "services/products/named.h"
 #include "services/products/product_kind.h"
 #include "services/products/sample_residual.h"
@@ -82,7 +82,7 @@ struct ReconstructionTable {
           [](const Product& one) { return to_json_text(one->solution.assessment.reasons); }},
       ProductColumn{"status",
                     [](const Product& one) { return sentence_of(one->solution.assessment); }},
-      ProductColumn{"samples", [](const Product& one) { return one->samples; }},
+      ProductColumn{"samples", &ReconstructedSeparation::samples},
       ProductColumn{"gyro_samples", [](const Product& one) { return one->solution.gyro.count; }},
       ProductColumn{"sun_vectors", [](const Product& one) { return one->solution.sun.count; }},
       ProductColumn{"star_fixes", [](const Product& one) { return one->solution.star.count; }},
@@ -142,7 +142,7 @@ struct ReconstructionEventTable {
                               : std::nullopt;
   }
   static constexpr auto kColumns = columns(
-      ProductColumn{"method", [](const Row& row) { return row.method; }},
+      ProductColumn{"method", &Row::method},
       ProductColumn{"event", [](const Row& row) { return name_of(row.event.event); }},
       ProductColumn{"t_tai_ns", [](const Row& row) { return tai_ns(row.event.attitude.t); }},
       ProductColumn{"found", [](const Row& row) { return row.event.found; }},
@@ -204,30 +204,28 @@ struct ReconstructedAttitudeTable {
   static double covariance_deg2(const Row& row) {
     return row.attitude.covariance_rad2(kRow, kColumn) * (kDegPerRad * kDegPerRad);
   }
-  static constexpr auto kColumns =
-      columns(ProductColumn{"source", [](const Row& row) { return row.source; }},
-              ProductColumn{"t_tai_ns", [](const Row& row) { return tai_ns(row.attitude.t); }},
-              ProductColumn{"qx", [](const Row& row) { return row.attitude.q_icrf_body.x(); }},
-              ProductColumn{"qy", [](const Row& row) { return row.attitude.q_icrf_body.y(); }},
-              ProductColumn{"qz", [](const Row& row) { return row.attitude.q_icrf_body.z(); }},
-              ProductColumn{"qw", [](const Row& row) { return row.attitude.q_icrf_body.w(); }},
-              ProductColumn{"rate_x_rad_s",
-                            [](const Row& row) { return row.attitude.rate_body_rad_s.x(); }},
-              ProductColumn{"rate_y_rad_s",
-                            [](const Row& row) { return row.attitude.rate_body_rad_s.y(); }},
-              ProductColumn{"rate_z_rad_s",
-                            [](const Row& row) { return row.attitude.rate_body_rad_s.z(); }},
-              ProductColumn{"sigma_deg",
-                            [](const Row& row) { return row.attitude.sigma_rad() * kDegPerRad; }},
-              ProductColumn{"cov_xx_deg2", &covariance_deg2<0, 0>},
-              ProductColumn{"cov_xy_deg2", &covariance_deg2<0, 1>},
-              ProductColumn{"cov_xz_deg2", &covariance_deg2<0, 2>},
-              ProductColumn{"cov_yy_deg2", &covariance_deg2<1, 1>},
-              ProductColumn{"cov_yz_deg2", &covariance_deg2<1, 2>},
-              ProductColumn{"cov_zz_deg2", &covariance_deg2<2, 2>},
-              ProductColumn{"quality", [](const Row& row) { return row.quality; }},
-              ProductColumn{"reasons", [](const Row& row) { return row.reasons; }},
-              ProductColumn{"status", [](const Row& row) { return row.status; }});
+  static constexpr auto kColumns = columns(
+      ProductColumn{"source", &Row::source},
+      ProductColumn{"t_tai_ns", [](const Row& row) { return tai_ns(row.attitude.t); }},
+      ProductColumn{"qx", [](const Row& row) { return row.attitude.q_icrf_body.x(); }},
+      ProductColumn{"qy", [](const Row& row) { return row.attitude.q_icrf_body.y(); }},
+      ProductColumn{"qz", [](const Row& row) { return row.attitude.q_icrf_body.z(); }},
+      ProductColumn{"qw", [](const Row& row) { return row.attitude.q_icrf_body.w(); }},
+      ProductColumn{"rate_x_rad_s",
+                    [](const Row& row) { return row.attitude.rate_body_rad_s.x(); }},
+      ProductColumn{"rate_y_rad_s",
+                    [](const Row& row) { return row.attitude.rate_body_rad_s.y(); }},
+      ProductColumn{"rate_z_rad_s",
+                    [](const Row& row) { return row.attitude.rate_body_rad_s.z(); }},
+      ProductColumn{"sigma_deg",
+                    [](const Row& row) { return row.attitude.sigma_rad() * kDegPerRad; }},
+      ProductColumn{"cov_xx_deg2", &covariance_deg2<0, 0>},
+      ProductColumn{"cov_xy_deg2", &covariance_deg2<0, 1>},
+      ProductColumn{"cov_xz_deg2", &covariance_deg2<0, 2>},
+      ProductColumn{"cov_yy_deg2", &covariance_deg2<1, 1>},
+      ProductColumn{"cov_yz_deg2", &covariance_deg2<1, 2>},
+      ProductColumn{"cov_zz_deg2", &covariance_deg2<2, 2>}, ProductColumn{"quality", &Row::quality},
+      ProductColumn{"reasons", &Row::reasons}, ProductColumn{"status", &Row::status});
 };
 
 /// Rows of table `sample_residual`, which also holds those of filters (sample_residual.h).

@@ -16,9 +16,9 @@ struct RevolutionTable {
   static constexpr std::string_view kName = "revolution";
   static constexpr std::array<std::string_view, 1> kKey{"revolution"};
   static constexpr auto kColumns = columns(
-      ProductColumn{"revolution", [](const RevolutionProduct& turn) { return turn.revolution; }},
+      ProductColumn{"revolution", &RevolutionProduct::revolution},
       ProductColumn{"t_tai_ns", [](const RevolutionProduct& turn) { return tai_ns(turn.t_sun1); }},
-      ProductColumn{"period_s", [](const RevolutionProduct& turn) { return turn.period_s; }});
+      ProductColumn{"period_s", &RevolutionProduct::period_s});
 };
 
 template <>

@@ -23,7 +23,7 @@ struct RunFaultTable {
   static constexpr std::array<std::string_view, 1> kKey{"t_tai_ns"};
   static constexpr auto kColumns =
       columns(ProductColumn{"t_tai_ns", [](const RunFault& fault) { return tai_ns(fault.t); }},
-              ProductColumn{"what", [](const RunFault& fault) { return fault.what; }});
+              ProductColumn{"what", &RunFault::what});
 };
 
 template <>

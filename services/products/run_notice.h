@@ -25,14 +25,13 @@ struct RunNotice {
 struct NoticeTable {
   static constexpr std::string_view kName = "notice";
   static constexpr std::array<std::string_view, 2> kKey{"code", "arguments"};
-  static constexpr auto kColumns =
-      columns(ProductColumn{"t_tai_ns",
-                            [](const RunNotice& notice) {
-                              return notice.t ? std::optional{tai_ns(*notice.t)} : std::nullopt;
-                            }},
-              ProductColumn{"code", [](const RunNotice& notice) { return notice.code; }},
-              ProductColumn{"arguments", [](const RunNotice& notice) { return notice.arguments; }},
-              ProductColumn{"says", [](const RunNotice& notice) { return notice.says; }});
+  static constexpr auto kColumns = columns(
+      ProductColumn{"t_tai_ns",
+                    [](const RunNotice& notice) {
+                      return notice.t ? std::optional{tai_ns(*notice.t)} : std::nullopt;
+                    }},
+      ProductColumn{"code", &RunNotice::code}, ProductColumn{"arguments", &RunNotice::arguments},
+      ProductColumn{"says", &RunNotice::says});
 };
 
 template <>

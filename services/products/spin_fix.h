@@ -27,7 +27,7 @@ struct SpinFixTable {
   }
   using Axis = AxisColumns<SpinFix>;
   static constexpr auto kColumns = columns(
-      ProductColumn{"revolution", [](const SpinFix& fix) { return fix.revolution; }},
+      ProductColumn{"revolution", &SpinFix::revolution},
       ProductColumn{"t_tai_ns", [](const SpinFix& fix) { return tai_ns(fix.t); }},
       ProductColumn{"geometry_case",
                     [](const SpinFix& fix) { return std::int64_t{fix.geometry_case}; }},
@@ -47,9 +47,8 @@ struct SpinFixTable {
                       return place ? std::optional{place->dec_deg} : std::nullopt;
                     }},
       ProductColumn{"resolution", [](const SpinFix& fix) { return name_of(said_resolution(fix)); }},
-      ProductColumn{"norm", [](const SpinFix& fix) { return fix.norm; }},
-      ProductColumn{"accepted", [](const SpinFix& fix) { return fix.accepted; }},
-      ProductColumn{"misfit", [](const SpinFix& fix) { return fix.misfit; }},
+      ProductColumn{"norm", &SpinFix::norm}, ProductColumn{"accepted", &SpinFix::accepted},
+      ProductColumn{"misfit", &SpinFix::misfit},
       ProductColumn{"alternate_misfit", [](const SpinFix& fix) {
                       return fix.alternates.empty() ? std::nullopt
                                                     : std::optional{fix.alternates.front().misfit};
@@ -67,12 +66,11 @@ struct SpinFixOtherTable {
     PlaceDeg place;
     double misfit;
   };
-  static constexpr auto kColumns =
-      columns(ProductColumn{"revolution", [](const Row& row) { return row.revolution; }},
-              ProductColumn{"candidate", [](const Row& row) { return row.candidate; }},
-              ProductColumn{"ra_deg", [](const Row& row) { return row.place.ra_deg; }},
-              ProductColumn{"dec_deg", [](const Row& row) { return row.place.dec_deg; }},
-              ProductColumn{"misfit", [](const Row& row) { return row.misfit; }});
+  static constexpr auto kColumns = columns(
+      ProductColumn{"revolution", &Row::revolution}, ProductColumn{"candidate", &Row::candidate},
+      ProductColumn{"ra_deg", [](const Row& row) { return row.place.ra_deg; }},
+      ProductColumn{"dec_deg", [](const Row& row) { return row.place.dec_deg; }},
+      ProductColumn{"misfit", &Row::misfit});
 
   static std::int64_t group(const SpinFix& fix) { return fix.revolution; }
   static std::vector<Row> rows(const SpinFix& fix) {
@@ -150,7 +148,7 @@ struct AxisChoiceTable {
                       const auto place = other(one);
                       return place ? std::optional{place->dec_deg} : std::nullopt;
                     }},
-      ProductColumn{"delta_chi_square", [](const AxisChoice& one) { return one.delta_chi_square; }},
+      ProductColumn{"delta_chi_square", &AxisChoice::delta_chi_square},
       ProductColumn{"settled_by", [](const AxisChoice& one) { return name_of(one.settled_by); }});
 };
 

@@ -26,7 +26,7 @@ struct SpinMeasurementTable {
     return is_time(measurement) ? 1.0 : kDegPerRad;
   }
   static constexpr auto kColumns = columns(
-      ProductColumn{"revolution", [](const SpinMeasurement& one) { return one.revolution; }},
+      ProductColumn{"revolution", &SpinMeasurement::revolution},
       ProductColumn{"quantity", [](const SpinMeasurement& one) { return name_of(one.quantity); }},
       ProductColumn{"value", [](const SpinMeasurement& one) { return one.value * to_unit(one); }},
       ProductColumn{

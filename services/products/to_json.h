@@ -22,7 +22,7 @@ nlohmann::json json_of_row(const Row& row) {
       object[std::string{name}] = value;
     }
   };
-  with_columns<Table>([&](const auto&... column) { (put(column.name, column.get(row)), ...); });
+  with_columns<Table>([&](const auto&... column) { (put(column.name, column.of(row)), ...); });
   return object;
 }
 

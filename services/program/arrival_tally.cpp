@@ -26,13 +26,12 @@ void note_value(const Value& value, TalliedArrivals& arrivals) {
   }
 }
 
-/// @param samples TelemetrySamples or TelemetryValues.
+/// @param samples ArrivedSamples or TelemetryValues.
 template <class Samples>
 void note_samples(const Samples& samples, TalliedArrivals& arrivals) {
   samples.for_each([&](const auto& of_kind) {
     for (const auto& sample : of_kind) {
-      // The arrival of a sample that is left out is negative.
-      if (sample.arrival >= 0) {
+      if (!is_left_out(sample)) {
         note_value(sample.value, arrivals);
       }
     }

@@ -87,7 +87,7 @@ Expected<void> see_archive(const CompareOptions& options, const Mission& mission
                            Telling& telling) {
   return find_telemetry(options.db, mission.spacecraft_id, mission.preferred_source,
                         telling.span().from, telling.span().to)
-      .map([&](const TelemetryValues& values) {
+      .map([&](const PlacedValues& values) {
         in_order_of_arrival(values, [&](const auto& arrived) { telling.see(arrived.value); });
       });
 }

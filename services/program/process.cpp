@@ -8,8 +8,8 @@
 
 #include "services/alerts/alert_desk.h"
 #include "services/archive/archive.h"
-#include "services/archive/stored_faults.h"
 #include "services/archive/submit_all.h"
+#include "services/archive/verdict.h"
 #include "services/base/counted.h"
 #include "services/base/progress_bar.h"
 #include "services/mission/mission.h"

@@ -123,7 +123,7 @@ Expected<void> to_files(const SimulateOptions& options, const Scenario& scenario
   return {};
 }
 
-Expected<void> publish(const Scenario& scenario, const TelemetryValues& values,
+Expected<void> publish(const Scenario& scenario, const PlacedValues& values,
                        TelemetryOutput& output) {
   ProgressBar progress{"publishing", count_of(values)};
   Expected<void> sent;

@@ -11,7 +11,6 @@
 #include "pipelines/frames/euler312.h"
 #include "pipelines/time/utc.h"
 #include "services/archive/last_run.h"
-#include "services/archive/stored_faults.h"
 #include "services/archive/stored_pass.h"
 #include "services/archive/verdict.h"
 #include "services/base/assessment_words.h"

@@ -5,6 +5,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <random>
 #include <stop_token>
 #include <string>
 #include <string_view>
@@ -17,7 +18,10 @@
 
 namespace spindrift {
 
-std::uint64_t random_session();
+inline std::uint64_t random_session() {
+  std::random_device device;
+  return std::uniform_int_distribution<std::uint64_t>{}(device);
+}
 
 template <class Value>
 class TelemetryPublisher {

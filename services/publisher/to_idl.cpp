@@ -34,6 +34,11 @@ void put_text(std::span<char> field, std::string_view text) {
   }
 }
 
+/// The generated types have no const, but a message that is written is only read.
+char* only_read(const std::string& text) {
+  return const_cast<char*>(text.c_str());  // NOLINT(*-pro-type-const-cast)
+}
+
 template <class Result>
 Expected<void> put_origin(Result& result, const ResultOrigin& origin) {
   return put_name(result.spacecraft, origin.spacecraft, "spacecraft")
@@ -52,9 +57,8 @@ Expected<spindrift_SpacecraftHealth> to_idl(const SpacecraftHealth& health) {
       .estimator = {},
       .quality = {},
       .sigma_deg = verdict.sigma_deg.value_or(kNotAvailable),
-      // The generated types have no const, but a message that is written is only read.
-      .why = const_cast<char*>(verdict.why.c_str()),           // NOLINT(*-pro-type-const-cast)
-      .against = const_cast<char*>(verdict.against.c_str())};  // NOLINT(*-pro-type-const-cast)
+      .why = only_read(verdict.why),
+      .against = only_read(verdict.against)};
   return put_name(out.spacecraft, health.spacecraft, "spacecraft")
       .and_then([&] { return put_name(out.estimator, verdict.estimator, "estimator"); })
       .and_then([&] {
@@ -162,9 +166,8 @@ Expected<spindrift_Alert> to_idl(const ResultOrigin& origin, const Alert& alert)
   out.state = static_cast<spindrift_AlertState>(alert.state);
   out.raised_tai_ns = tai_ns(alert.raised);
   out.updated_tai_ns = tai_ns(alert.updated);
-  // The generated types have no const, but a message that is written is only read.
-  out.message = const_cast<char*>(alert.message.c_str());         // NOLINT(*-pro-type-const-cast)
-  out.evidence_json = const_cast<char*>(alert.evidence.c_str());  // NOLINT(*-pro-type-const-cast)
+  out.message = only_read(alert.message);
+  out.evidence_json = only_read(alert.evidence);
   return put_name(out.spacecraft, origin.spacecraft, "spacecraft")
       .and_then([&] { return put_name(out.dedupe_key, alert.key, "alert key"); })
       .and_then([&] { return put_name(out.alert_id, alert.alert_id, "alert id"); })
@@ -181,22 +184,20 @@ Expected<HealthSample> to_idl(std::string_view service, const Health& health) {
     out.spacecraft.push_back(*sample);
   }
   const auto count = static_cast<std::uint32_t>(out.spacecraft.size());
-  out.sample = {
-      .service = {},
-      .t_tai_ns = tai_ns(health.t),
-      .samples_received = health.samples_received,
-      .samples_committed = health.samples_committed,
-      .gaps = health.gaps,
-      .duplicates = health.duplicates,
-      .queue_depth = health.queue_depth,
-      .commit_p99_ms = health.commit_p99_ms,
-      .status = {},
-      // The generated types have no const, but a message that is written is only read.
-      .message = const_cast<char*>(health.message.c_str()),  // NOLINT(*-pro-type-const-cast)
-      .spacecraft = {._maximum = count,
-                     ._length = count,
-                     ._buffer = out.spacecraft.data(),
-                     ._release = false}};
+  out.sample = {.service = {},
+                .t_tai_ns = tai_ns(health.t),
+                .samples_received = health.samples_received,
+                .samples_committed = health.samples_committed,
+                .gaps = health.gaps,
+                .duplicates = health.duplicates,
+                .queue_depth = health.queue_depth,
+                .commit_p99_ms = health.commit_p99_ms,
+                .status = {},
+                .message = only_read(health.message),
+                .spacecraft = {._maximum = count,
+                               ._length = count,
+                               ._buffer = out.spacecraft.data(),
+                               ._release = false}};
   put_text(out.sample.status, health.status);
   if (const auto named = put_name(out.sample.service, service, "service"); !named) {
     return Unexpected{named.error()};

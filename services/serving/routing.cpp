@@ -17,9 +17,8 @@ void note_arrivals(const std::vector<ArchiveBatch>& samples, Heard& heard, Silen
   for (const ArchiveBatch& batch : samples) {
     heard.sessions.note(batch);
     const auto note = [&](const auto& of_kind) {
-      // A sample that is left out has a negative arrival.
       const auto last = std::find_if(of_kind.rbegin(), of_kind.rend(),
-                                     [](const auto& sample) { return sample.arrival >= 0; });
+                                     [](const auto& sample) { return !is_left_out(sample); });
       if (last != of_kind.rend()) {
         heard.links.note(batch.spacecraft_id, last->value.t, now);
         silences.note(batch.spacecraft_id, now);

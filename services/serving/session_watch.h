@@ -13,8 +13,8 @@
 
 #include "pipelines/supervision/service_conditions.h"
 #include "services/archive/records.h"
-#include "services/telemetry/last_origins.h"
 #include "services/telemetry/sequence_counts.h"
+#include "services/telemetry/by_kind.h"
 
 namespace spindrift {
 

@@ -141,14 +141,14 @@ std::vector<Measure> run_outcome(const Scenario& scenario, const SimulatedPass& 
   return std::move(measures).all();
 }
 
-SampleBatch batch_of(const std::string& spacecraft_id, const TelemetryValues& telemetry) {
+SampleBatch batch_of(const std::string& spacecraft_id, const PlacedValues& telemetry) {
   SampleBatch batch;
-  telemetry.for_each([&]<class Value>(const ArrivedOfKind<Value>& of_kind) {
-    for (const Arrived<Value>& arrived : of_kind) {
+  telemetry.for_each([&]<class Value>(const PlacedOfKind<Value>& of_kind) {
+    for (const Placed<Value>& placed : of_kind) {
       batch.samples.of<Value>().push_back({.spacecraft = spacecraft_id,
                                            .origin = {.source = "simulate"},
-                                           .value = arrived.value,
-                                           .arrival = arrived.arrival});
+                                           .value = placed.value,
+                                           .place = placed.place});
     }
   });
   return batch;

@@ -75,13 +75,13 @@ Expected<void> write_orbit(const std::filesystem::path& path, const Scenario& sc
 
 /// Writes the rows in blocks: a long pass is larger as text than as values.
 template <class Value>
-Expected<void> write_rows(const std::filesystem::path& path, const ArrivedOfKind<Value>& rows) {
+Expected<void> write_rows(const std::filesystem::path& path, const PlacedOfKind<Value>& rows) {
   auto file = OutputFile::create(path);
   if (!file) {
     return Unexpected{std::move(file.error())};
   }
   std::string text = header_of<Value>() + '\n';
-  for (const Arrived<Value>& row : rows) {
+  for (const Placed<Value>& row : rows) {
     append_row(row.value, text);
     if (text.size() >= kBlock) {
       if (auto written = file->write(text); !written) {

@@ -28,7 +28,7 @@ enum class Progress { Shown, Hidden };
 
 struct SimulatedPass {
   std::vector<TelemetryKind> kinds;  ///< Kinds of telemetry that the scenario requests.
-  TelemetryValues telemetry;         ///< Telemetry of these kinds; it arrives in order of time.
+  PlacedValues telemetry;            ///< Telemetry of these kinds; it arrives in order of time.
   std::string mission_toml;
   nlohmann::ordered_json truth;
   std::vector<Counted> made;

@@ -57,11 +57,11 @@ std::vector<TelemetryKind> kinds_of(const SimulatedTelemetry& telemetry) {
   return kinds;
 }
 
-TelemetryValues telemetry_of(const SimulatedTelemetry& telemetry, const ReceivedPass& pass) {
-  TelemetryValues values;
-  std::int64_t arrival = 0;
+PlacedValues telemetry_of(const SimulatedTelemetry& telemetry, const ReceivedPass& pass) {
+  PlacedValues values;
+  std::int64_t place = 0;
   const auto append = [&]<class Value>(const Value& value) {
-    values.of<Value>().push_back({.arrival = arrival++, .value = value});
+    values.of<Value>().push_back({.place = {place++}, .value = value});
   };
   std::vector<CodedFrame> frames;
   if (telemetry.coded) {

@@ -27,7 +27,7 @@ template <class Value>
 void append(const std::vector<Value>& values, SimulatedPass& pass) {
   pass.kinds.emplace_back(Kind<Value>{});
   for (const Value& value : values) {
-    pass.telemetry.of<Value>().push_back({.arrival = 0, .value = value});
+    pass.telemetry.of<Value>().push_back({.place = {}, .value = value});
   }
   pass.made.push_back({Telemetry<Value>::kPlural, static_cast<std::int64_t>(values.size())});
 }

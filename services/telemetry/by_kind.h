@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "pipelines/time/tai_time.h"
+#include "services/telemetry/places.h"
 #include "services/telemetry/telemetry_kinds.h"
 #include "services/telemetry/telemetry_sample.h"
 
@@ -62,22 +63,55 @@ class ByKind {
 template <class Value>
 using SamplesOfKind = std::vector<TelemetrySample<Value>>;
 
-/// Samples by kind; `arrival` orders them across kinds.
 using TelemetrySamples = ByKind<SamplesOfKind>;
 
-/// A value with its place in the order of arrival.
+template <class Value>
+using ArrivedSamplesOfKind = std::vector<ArrivedSample<Value>>;
+using ArrivedSamples = ByKind<ArrivedSamplesOfKind>;
+
+/// A value with its place in the order of arrival, without its origin.
 template <class Value>
 struct Arrived {
-  std::int64_t arrival;
+  RunPlace arrival;
   Value value;
 };
 template <class Value>
 using ArrivedOfKind = std::vector<Arrived<Value>>;
-
-/// Values by kind in the order of arrival, without their origin.
 using TelemetryValues = ByKind<ArrivedOfKind>;
 
-/// Counts the elements of all kinds. @param all TelemetrySamples or TelemetryValues.
+/// A value with its place in a batch of values.
+template <class Value>
+struct Placed {
+  BatchPlace place;
+  Value value;
+};
+template <class Value>
+using PlacedOfKind = std::vector<Placed<Value>>;
+using PlacedValues = ByKind<PlacedOfKind>;
+
+/// Returns the place by which `in_order_of_arrival` orders an element.
+template <class Element>
+constexpr auto place_of(const Element& element) {
+  if constexpr (requires { element.place; }) {
+    return element.place;
+  } else {
+    return element.arrival;
+  }
+}
+
+/// @name Whether the run that took an element leaves it out
+/// @{
+template <class Value>
+constexpr bool is_left_out(const ArrivedSample<Value>& sample) {
+  return sample.is_left_out;
+}
+template <class Value>
+constexpr bool is_left_out(const Arrived<Value>& /*in_time*/) {
+  return false;
+}
+/// @}
+
+/// Counts the elements of all kinds.
 template <template <class> class Content>
 std::size_t count_of(const ByKind<Content>& all) {
   std::size_t count = 0;
@@ -85,23 +119,24 @@ std::size_t count_of(const ByKind<Content>& all) {
   return count;
 }
 
-/// Calls `see` with each element of all kinds in the order of `arrival`. Each kind must be in that
-/// order already.
+/// Calls `see` with each element of all kinds in the order of their places. Each kind must be in
+/// that order already.
 template <class All, class See>
 void in_order_of_arrival(All&& all, See&& see) {
-  constexpr std::int64_t kNone = std::numeric_limits<std::int64_t>::max();
+  using Place = decltype(place_of(all.template of<Pulse>().front()));
+  constexpr Place kNone{std::numeric_limits<std::int64_t>::max()};
   std::array<std::size_t, kTelemetryKindCount> next{};
   while (true) {
     // Find the kind with the earliest next element, and when the next one of another kind comes.
     std::size_t earliest = 0;
-    std::int64_t first = kNone;
-    std::int64_t other = kNone;
+    Place first = kNone;
+    Place other = kNone;
     std::size_t kind = 0;
     all.for_each([&](const auto& of_kind) {
-      const auto arrival = next[kind] < of_kind.size() ? of_kind[next[kind]].arrival : kNone;
-      other = std::min(other, std::max(first, arrival));
-      if (arrival < first) {
-        first = arrival;
+      const Place place = next[kind] < of_kind.size() ? place_of(of_kind[next[kind]]) : kNone;
+      other = std::min(other, std::max(first, place));
+      if (place < first) {
+        first = place;
         earliest = kind;
       }
       ++kind;
@@ -113,7 +148,7 @@ void in_order_of_arrival(All&& all, See&& see) {
     all.for_each([&](auto& of_kind) {
       if (kind++ == earliest) {
         std::size_t& i = next[earliest];
-        for (; i < of_kind.size() && of_kind[i].arrival <= other; ++i) {
+        for (; i < of_kind.size() && place_of(of_kind[i]) <= other; ++i) {
           see(of_kind[i]);
         }
       }
@@ -121,14 +156,14 @@ void in_order_of_arrival(All&& all, See&& see) {
   }
 }
 
-/// Also calls `fall_silent` with each silence, before the element of that arrival.
-/// @param silences Arrivals in increasing order.
-template <class All, class See, class FallSilent>
-void in_order_of_arrival(All&& all, const std::vector<std::int64_t>& silences, See&& see,
+/// Also calls `fall_silent` with each silence, before the element of that place.
+/// @param silences Places in increasing order.
+template <class All, class Place, class See, class FallSilent>
+void in_order_of_arrival(All&& all, const std::vector<Place>& silences, See&& see,
                          FallSilent&& fall_silent) {
   auto next = silences.begin();
   in_order_of_arrival(all, [&](auto& element) {
-    for (; next != silences.end() && *next <= element.arrival; ++next) {
+    for (; next != silences.end() && *next <= place_of(element); ++next) {
       fall_silent(*next);
     }
     see(element);
@@ -139,28 +174,32 @@ void in_order_of_arrival(All&& all, const std::vector<std::int64_t>& silences, S
 }
 
 /// Also calls `see` with the elements of `more`, such as operator's actions.
-/// @param more In order of `arrival`, with no arrival that occurs in `all`.
-template <class All, class More, class See, class FallSilent>
-void in_order_of_arrival(All&& all, const std::vector<std::int64_t>& silences, const More& more,
-                         See&& see, FallSilent&& fall_silent) {
+/// @param more In order of their places, none of which occurs in `all`.
+template <class All, class Place, class More, class See, class FallSilent>
+void in_order_of_arrival(All&& all, const std::vector<Place>& silences, const More& more, See&& see,
+                         FallSilent&& fall_silent) {
   auto next = more.begin();
-  const auto see_those_before = [&](std::int64_t arrival) {
-    for (; next != more.end() && next->arrival < arrival; ++next) {
+  const auto see_those_before = [&](Place place) {
+    for (; next != more.end() && place_of(*next) < place; ++next) {
       see(*next);
     }
   };
   in_order_of_arrival(
       all, silences,
       [&](auto& element) {
-        see_those_before(element.arrival);
+        see_those_before(place_of(element));
         see(element);
       },
-      [&](std::int64_t arrival) {
-        see_those_before(arrival);
-        fall_silent(arrival);
+      [&](Place place) {
+        see_those_before(place);
+        fall_silent(place);
       });
-  see_those_before(std::numeric_limits<std::int64_t>::max());
+  see_those_before({std::numeric_limits<std::int64_t>::max()});
 }
+
+/// The highest seq of each session in the archive before a restart, for each kind in the order of
+/// TelemetryKinds.
+using LastOrigins = std::array<std::vector<Origin>, kTelemetryKindCount>;
 
 /// Sorts the samples of a spacecraft: the natural key of stored samples, and the order in which
 /// samples of equal time are read from files.

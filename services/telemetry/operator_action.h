@@ -3,7 +3,6 @@
 
 #pragma once
 
-#include <cstdint>
 #include <optional>
 #include <string>
 #include <variant>
@@ -11,6 +10,7 @@
 #include "pipelines/spin/types/spin_action.h"
 #include "pipelines/three_axis/attitude_action.h"
 #include "pipelines/time/tai_time.h"
+#include "services/telemetry/places.h"
 
 namespace spindrift {
 
@@ -25,7 +25,7 @@ struct OperatorAction {
   std::string arguments;  ///< A JSON object.
   std::string note;
   std::variant<SpinAction, AttitudeAction> does;  ///< `action` and `arguments`, parsed.
-  std::int64_t arrival = 0;                       ///< Its place among the samples of the run.
+  RunPlace arrival = {};  ///< Its place among the samples of the run that took it.
 };
 
 }  // namespace spindrift

@@ -5,6 +5,7 @@
 
 #include <chrono>
 #include <cstddef>
+#include <cstdint>
 #include <map>
 #include <optional>
 #include <string>
@@ -12,11 +13,24 @@
 
 #include "services/telemetry/by_kind.h"
 #include "services/telemetry/operator_action.h"
-#include "services/telemetry/other_spacecraft.h"
 #include "services/telemetry/rejected_input.h"
 #include "services/telemetry/sequence_counts.h"
 
 namespace spindrift {
+
+/// Counts of samples of spacecraft that have no mission here, by name.
+using OtherSpacecraft = std::map<std::string, std::int64_t>;
+
+inline constexpr std::size_t kMostOtherSpacecraft = 256;
+inline constexpr const char* kStillMoreSpacecraft = "(others)";
+
+/// Returns the count for `spacecraft`. Those beyond kMostOtherSpacecraft share the entry
+/// kStillMoreSpacecraft.
+inline OtherSpacecraft::value_type& entry_of(OtherSpacecraft& others,
+                                             const std::string& spacecraft) {
+  const bool room = others.size() < kMostOtherSpacecraft || others.contains(spacecraft);
+  return *others.try_emplace(room ? spacecraft : kStillMoreSpacecraft).first;
+}
 
 /// Holds samples in order of arrival. All batches together hold everything that arrived.
 struct SampleBatch {

@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <string>
 
+#include "services/telemetry/places.h"
+
 namespace spindrift {
 
 /// Identifies a sample. On the bus: source, session and seq of the IDL. In a file: its unique name,
@@ -16,13 +18,23 @@ struct Origin {
   std::uint64_t seq = 0;
 };
 
-/// `Value` is a kind in telemetry_kinds.h.
+/// A sample as it is taken in. `Value` is a kind in telemetry_kinds.h.
 template <class Value>
 struct TelemetrySample {
   std::string spacecraft;
   Origin origin;
   Value value;
-  std::int64_t arrival = 0;  ///< Rises in the order of its batch, later of its run.
+  BatchPlace place = {};
+};
+
+/// A sample that a run has taken.
+template <class Value>
+struct ArrivedSample {
+  std::string spacecraft;
+  Origin origin;
+  Value value;
+  RunPlace arrival = {};
+  bool is_left_out = false;  ///< The time of its source disagrees with that of the others.
 };
 
 }  // namespace spindrift

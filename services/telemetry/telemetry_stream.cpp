@@ -67,11 +67,11 @@ Expected<SortedRows<Value>> opened(const Opening& opening, const std::string& sp
 }
 
 template <class Value>
-TelemetrySample<Value> head_of(const SortedRows<Value>& rows, std::int64_t arrival) {
+TelemetrySample<Value> head_of(const SortedRows<Value>& rows, BatchPlace place) {
   return {.spacecraft = rows.spacecraft(),
           .origin = {.source = rows.source(), .session = 0, .seq = rows.line()},
           .value = *rows.head(),
-          .arrival = arrival};
+          .place = place};
 }
 
 }  // namespace
@@ -125,7 +125,7 @@ Expected<SampleBatch> TelemetryStream::next() {
     after_stray = is_stray;
     std::visit(
         [&]<class Value>(SortedRows<Value>& rows) {
-          batch.samples.of<Value>().push_back(head_of(rows, static_cast<std::int64_t>(taken)));
+          batch.samples.of<Value>().push_back(head_of(rows, {static_cast<std::int64_t>(taken)}));
           rows.pop();
         },
         files_[first]);

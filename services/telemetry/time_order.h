@@ -12,17 +12,17 @@
 
 namespace spindrift {
 
-/// Sets `arrival` as if files were merged. @param all Each kind is in order already.
-inline void put_in_order(TelemetryValues& all) {
-  std::vector<std::pair<TelemetryOrder, std::int64_t*>> places;
+/// Sets places as if files were merged. @param all Each kind is in order already.
+inline void put_in_order(PlacedValues& all) {
+  std::vector<std::pair<TelemetryOrder, BatchPlace*>> places;
   all.for_each([&](auto& of_kind) {
-    for (auto& arrived : of_kind) {
-      places.emplace_back(order_of(arrived.value), &arrived.arrival);
+    for (auto& placed : of_kind) {
+      places.emplace_back(order_of(placed.value), &placed.place);
     }
   });
   std::sort(places.begin(), places.end());
   for (std::size_t i = 0; i < places.size(); ++i) {
-    *places[i].second = static_cast<std::int64_t>(i);
+    places[i].second->number = static_cast<std::int64_t>(i);
   }
 }
 

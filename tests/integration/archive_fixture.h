@@ -55,7 +55,7 @@ inline ArchiveBatch going_on_from(std::int64_t t_tai_ns) {
   return batch;
 }
 
-inline TelemetrySample<Pulse> pulse_at(std::int64_t t_tai_ns, std::uint64_t seq = 0) {
+inline ArrivedSample<Pulse> pulse_at(std::int64_t t_tai_ns, std::uint64_t seq = 0) {
   return {.spacecraft = "SPINNER",
           .origin = {.source = "station", .session = 7, .seq = seq},
           .value = {.t = tai_from_ns(t_tai_ns), .channel = PulseChannel::Sun1}};

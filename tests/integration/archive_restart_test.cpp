@@ -34,34 +34,34 @@ class ArchiveRestart : public testing::ArchiveFixture {
 
   static ArchiveBatch begun(const std::string& run_id, std::int64_t first_arrival) {
     ArchiveBatch batch = start_of(run_id);
-    batch.start->first_arrival = first_arrival;
+    batch.start->first_arrival = {first_arrival};
     return batch;
   }
 
   static ArchiveBatch arrived(const std::string& run_id, std::int64_t arrival,
-                              std::vector<TelemetrySample<Pulse>> pulses) {
+                              std::vector<ArrivedSample<Pulse>> pulses) {
     ArchiveBatch batch = batch_of(run_id);
-    for (TelemetrySample<Pulse>& sample : pulses) {
-      sample.arrival = arrival++;
+    for (ArrivedSample<Pulse>& sample : pulses) {
+      sample.arrival = {arrival++};
     }
     batch.samples.of<Pulse>() = std::move(pulses);
     const auto [first, last] =
         std::minmax_element(batch.samples.of<Pulse>().begin(), batch.samples.of<Pulse>().end(),
-                            [](const TelemetrySample<Pulse>& a, const TelemetrySample<Pulse>& b) {
+                            [](const ArrivedSample<Pulse>& a, const ArrivedSample<Pulse>& b) {
                               return a.value < b.value;
                             });
     batch.reach = {.first = first->value.t, .last = last->value.t};
     return batch;
   }
 
-  static TelemetrySample<CodedFrame> frame_at(std::int64_t t_tai_ns, std::uint64_t seq,
-                                              std::int64_t arrival = 0) {
+  static ArrivedSample<CodedFrame> frame_at(std::int64_t t_tai_ns, std::uint64_t seq,
+                                            std::int64_t arrival = 0) {
     CodedFrame frame{.t = tai_from_ns(t_tai_ns), .period_s = 0.6, .delay_s = {}};
     frame.delay_s.at(index_of(PulseChannel::SouthOut)) = 0.25;
     return {.spacecraft = "SPINNER",
             .origin = {.source = "station", .session = 7, .seq = seq},
             .value = frame,
-            .arrival = arrival};
+            .arrival = {arrival}};
   }
 
   SenderNames senders_{""};
@@ -99,7 +99,7 @@ TEST_F(ArchiveRestart, SamplesComeBackInTheOrderTheyArrivedIn) {
   EXPECT_THAT(times_of(*pass), ElementsAre(50, 70, 40));
   const auto& frames = pass->values.of<CodedFrame>();
   ASSERT_EQ(frames.size(), 1U);
-  EXPECT_EQ(frames[0].arrival, 103);
+  EXPECT_EQ(frames[0].arrival, RunPlace{103});
   EXPECT_EQ(frames[0].value.period_s, 0.6);
   EXPECT_EQ(frames[0].value.delay_s, frame_at(60, 9).value.delay_s);
 }
@@ -129,15 +129,17 @@ TEST_F(ArchiveRestart, ARunEndsWhereOneOfAnotherModeBegins) {
 TEST_F(ArchiveRestart, WhatWasLeftOutMakesWayForASampleOfItsTime) {
   const auto archive = open();
   ASSERT_TRUE(archive->submit(begun("run-1", 100)));
-  const auto gyro = [](double x, std::int64_t arrival, const std::string& source) {
-    return TelemetrySample<GyroSample>{
+  const auto gyro = [](double x, std::int64_t arrival, const std::string& source,
+                       bool is_left_out = false) {
+    return ArrivedSample<GyroSample>{
         .spacecraft = "SPINNER",
         .origin = {.source = source, .session = 1, .seq = 1},
         .value = {.t = tai_from_ns(10), .rate_body_rad_s = Eigen::Vector3d{x, 0.0, 0.0}},
-        .arrival = arrival};
+        .arrival = {arrival},
+        .is_left_out = is_left_out};
   };
-  for (const auto& sample : {gyro(3.0, -101, "wrong"), gyro(0.1, 102, "right"),
-                             gyro(4.0, -103, "wrong"), gyro(0.2, 104, "again")}) {
+  for (const auto& sample : {gyro(3.0, 101, "wrong", true), gyro(0.1, 102, "right"),
+                             gyro(4.0, 103, "wrong", true), gyro(0.2, 104, "again")}) {
     ArchiveBatch batch = batch_of("run-1");
     batch.samples.of<GyroSample>() = {sample};
     ASSERT_TRUE(archive->submit(batch));
@@ -149,7 +151,7 @@ TEST_F(ArchiveRestart, WhatWasLeftOutMakesWayForASampleOfItsTime) {
 
   // A later run that leaves out a repeated sample does not take it from the run that has it.
   ArchiveBatch again = batch_of("run-2");
-  again.samples.of<GyroSample>() = {gyro(0.1, -201, "right")};
+  again.samples.of<GyroSample>() = {gyro(0.1, 201, "right", true)};
   commit(*archive, {begun("run-2", 200), again});
   EXPECT_EQ(text(rows), "0.1 right 102");
 }
@@ -160,8 +162,11 @@ TEST_F(ArchiveRestart, WhatARunLeftOutComesBackApartUntilARunTakesIt) {
   ASSERT_TRUE(archive->submit(arrived("run-1", 100, {pulse_at(50)})));
   ArchiveBatch left_out = batch_of("run-1");
   left_out.samples.of<Pulse>() = {pulse_at(20, 8), pulse_at(10, 7)};
-  left_out.samples.of<Pulse>()[0].arrival = -101;
-  left_out.samples.of<Pulse>()[1].arrival = -102;
+  left_out.samples.of<Pulse>()[0].arrival = {101};
+  left_out.samples.of<Pulse>()[1].arrival = {102};
+  for (auto& sample : left_out.samples.of<Pulse>()) {
+    sample.is_left_out = true;
+  }
   commit(*archive, left_out);
 
   auto pass = stored();
@@ -173,14 +178,14 @@ TEST_F(ArchiveRestart, WhatARunLeftOutComesBackApartUntilARunTakesIt) {
   EXPECT_EQ(pass->left_out[0].last.seq, 8U);
   const auto& pulses = pass->left_out[0].values.of<Pulse>();
   ASSERT_EQ(pulses.size(), 2U);
-  EXPECT_EQ(pulses[0].arrival, 101);
-  EXPECT_EQ(pulses[1].arrival, 102);
+  EXPECT_EQ(pulses[0].arrival, RunPlace{101});
+  EXPECT_EQ(pulses[1].arrival, RunPlace{102});
   EXPECT_EQ(pulses[1].value.t, tai_from_ns(10));
 
   ArchiveBatch taken = begun("run-2", 200);
   taken.reach = {.first = tai_from_ns(10), .last = tai_from_ns(20)};
-  taken.moved.of<Pulse>() = {{.arrival = 200, .value = pulses[0].value},
-                             {.arrival = 201, .value = pulses[1].value}};
+  taken.moved.of<Pulse>() = {{.arrival = {200}, .value = pulses[0].value},
+                             {.arrival = {201}, .value = pulses[1].value}};
   commit(*archive, taken);
   pass = stored();
   ASSERT_TRUE(pass);
@@ -193,7 +198,7 @@ TEST_F(ArchiveRestart, WhatARunLeftOutComesBackApartUntilARunTakesIt) {
 }
 
 TEST_F(ArchiveRestart, TheLastSampleOfEachSessionComesBack) {
-  TelemetrySample<Pulse> other = pulse_at(30, 2);
+  ArrivedSample<Pulse> other = pulse_at(30, 2);
   other.origin.session = ~std::uint64_t{0};
   ArchiveBatch batch = arrived("run-1", 100, {pulse_at(10, 41), pulse_at(40, 42), other});
   batch.samples.of<CodedFrame>() = {frame_at(50, 9, 103)};

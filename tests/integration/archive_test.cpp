@@ -229,7 +229,7 @@ TEST_F(ArchiveTest, BatchesAreAnnouncedInOrderAndOnlyOnceTheyCanBeRead) {
   ArchiveOptions options;
   options.on_committed = [&](std::span<const ArchiveBatch> batches) {
     for (const ArchiveBatch& batch : batches) {
-      for (const TelemetrySample<Pulse>& sample : batch.samples.of<Pulse>()) {
+      for (const ArrivedSample<Pulse>& sample : batch.samples.of<Pulse>()) {
         announced.push_back(tai_ns(sample.value.t));
       }
     }

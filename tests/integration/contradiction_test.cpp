@@ -22,12 +22,12 @@ using ::testing::IsEmpty;
 using testing::kRunStart;
 using testing::start_of;
 
-TelemetrySample<GyroSample> gyro(std::int64_t t, double wx, const std::string& source,
-                                 std::int64_t arrival) {
+ArrivedSample<GyroSample> gyro(std::int64_t t, double wx, const std::string& source,
+                               std::int64_t arrival) {
   return {.spacecraft = "SPINNER",
           .origin = {.source = source, .session = 7, .seq = static_cast<std::uint64_t>(arrival)},
           .value = {.t = tai_from_ns(t), .rate_body_rad_s = {wx, 0.0, -0.1}},
-          .arrival = arrival};
+          .arrival = {arrival}};
 }
 
 constexpr const char* kContradictions =
@@ -36,7 +36,7 @@ constexpr const char* kContradictions =
 
 class ContradictionTest : public testing::ArchiveFixture {
  protected:
-  void take(const std::string& run_id, std::vector<TelemetrySample<GyroSample>> samples,
+  void take(const std::string& run_id, std::vector<ArrivedSample<GyroSample>> samples,
             std::vector<Product> products = {}) {
     ArchiveBatch batch = batch_of(run_id);
     if (begun_.insert(run_id).second) {
@@ -59,7 +59,7 @@ class ContradictionTest : public testing::ArchiveFixture {
     const auto passes = find_stored_passes(path(), "SPINNER", kRunStart, senders).value();
     for (const Arrived<GyroSample>& arrived : passes.back().values.of<GyroSample>()) {
       rows.push_back(
-          fmt::format("{} {} {} {}", arrived.arrival, tai_ns(arrived.value.t),
+          fmt::format("{} {} {} {}", arrived.arrival.number, tai_ns(arrived.value.t),
                       arrived.value.rate_body_rad_s.x(),
                       (*senders.names())[static_cast<std::size_t>(arrived.value.sender)]));
     }

@@ -248,11 +248,13 @@ TEST_F(ProcessorRestart, ANewRunComesAfterAllThatIsStoredWhateverTheClockSays) {
   const Samples sent = two_passes();
   constexpr std::int64_t kFarAhead = 4'000'000'000'000'000'000;  // Time of a wrong clock, in 2096.
   ArchiveBatch earlier = testing::start_of("earlier");
-  earlier.start->first_arrival = kFarAhead;
-  earlier.samples.of<Pulse>() = sent;
+  earlier.start->first_arrival = {kFarAhead};
   std::int64_t arrival = kFarAhead + static_cast<std::int64_t>(sent.size());
-  for (TelemetrySample<Pulse>& sample : earlier.samples.of<Pulse>()) {
-    sample.arrival = --arrival;
+  for (const TelemetrySample<Pulse>& sample : sent) {
+    earlier.samples.of<Pulse>().push_back({.spacecraft = sample.spacecraft,
+                                           .origin = sample.origin,
+                                           .value = sample.value,
+                                           .arrival = {--arrival}});
   }
   store(db("clock"), {earlier});
 

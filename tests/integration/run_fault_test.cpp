@@ -7,7 +7,9 @@
 #include <utility>
 #include <vector>
 
-#include "services/archive/stored_faults.h"
+#include "services/archive/verdict.h"
+#include "services/mission/mission.h"
+#include "services/processor/processor.h"
 #include "services/processor/what_is_thrown.h"
 #include "tests/integration/archive_fixture.h"
 #include "tests/support/archive_rows.h"
@@ -32,9 +34,9 @@ testing::Samples edges_of(const std::string& spacecraft) {
 /// Gives an edge an impossible channel, as after a memory fault. The archive has the right one, but
 /// the tables of the computation have no place for it.
 void spoil(PassInput& input, TaiTime bad) {
-  for (Arrived<Pulse>& arrived : input.values.of<Pulse>()) {
-    if (arrived.value.t == bad) {
-      arrived.value.channel = static_cast<PulseChannel>(kPulseChannels);
+  for (Placed<Pulse>& placed : input.values.of<Pulse>()) {
+    if (placed.value.t == bad) {
+      placed.value.channel = static_cast<PulseChannel>(kPulseChannels);
     }
   }
 }

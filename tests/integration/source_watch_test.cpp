@@ -22,7 +22,7 @@ class SourceWatchTest : public ::testing::Test {
   Verdict see(const std::string& source, TaiTime t, std::uint64_t session = 1) {
     return watch_.see(
         {.source = source, .session = session, .seq = 0},
-        Arrived<Pulse>{.arrival = ++arrival_, .value = {.t = t, .channel = PulseChannel::Sun1}},
+        Arrived<Pulse>{.arrival = {++arrival_}, .value = {.t = t, .channel = PulseChannel::Sun1}},
         moment_);
   }
 

@@ -55,7 +55,7 @@ TEST_F(ArchiveEdges, HaveThePriorThatOperatorsToldInThePlaceOfTheMissions) {
                              .arguments = arguments,
                              .note = "",
                              .does = does,
-                             .arrival = t_tai_ns});
+                             .arrival = {t_tai_ns}});
     store(batch);
     return read_edges(path(), "SPINNER", std::nullopt)->told_prior;
   };

@@ -87,15 +87,15 @@ class StoredKinds : public testing::ArchiveFixture {};
 
 TEST_F(StoredKinds, EachComesBackFromTheArchiveInTheOrderOfArrival) {
   ArchiveBatch batch = testing::start_of("run-1");
-  batch.start->first_arrival = 100;
+  batch.start->first_arrival = {100};
   batch.reach = {.first = kStart, .last = kStart};
   std::int64_t arrival = 100;
   TelemetryKinds::for_each([&]<class Value>(Kind<Value> kind) {
     for (const int later_ns : {1, 0, 0}) {
-      TelemetrySample<Value> sample{.spacecraft = "SPINNER",
-                                    .origin = {.source = "station", .session = 7, .seq = 41},
-                                    .value = example(kind),
-                                    .arrival = arrival++};
+      ArrivedSample<Value> sample{.spacecraft = "SPINNER",
+                                  .origin = {.source = "station", .session = 7, .seq = 41},
+                                  .value = example(kind),
+                                  .arrival = {arrival++}};
       sample.value.t += std::chrono::nanoseconds{later_ns};
       batch.samples.template of<Value>().push_back(std::move(sample));
     }

@@ -101,7 +101,7 @@ std::vector<SampleBatch> in_batches(const std::vector<AnySample>& samples) {
     }
     std::visit(
         [&]<class Value>(TelemetrySample<Value> sample) {
-          sample.arrival = static_cast<std::int64_t>(i);
+          sample.place = {static_cast<std::int64_t>(i)};
           batches.back().samples.of<Value>().push_back(std::move(sample));
         },
         samples[i]);

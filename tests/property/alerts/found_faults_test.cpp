@@ -140,8 +140,7 @@ void add_magnetometer(std::vector<Sent>& sent) {
                     .sample = TelemetrySample<MagneticField>{
                         .spacecraft = "LEOSAT",
                         .origin = {.source = "front-end", .session = 1, .seq = 0},
-                        .value = {.t = shifted(start, t_s), .field_body_nt = {1e4, 2e4, 3e4}},
-                        .arrival = 0}});
+                        .value = {.t = shifted(start, t_s), .field_body_nt = {1e4, 2e4, 3e4}}}});
   }
   sort(sent);
 }

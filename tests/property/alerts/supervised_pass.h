@@ -61,13 +61,12 @@ inline Flight flown(const std::string& scenario_text, const std::string& more_of
   write_pass(written, scenario, pass).value();
   const auto path = written / "mission.toml";
   Flight flight{.mission = mission_of(path, text_of(path) + more_of_mission).value(), .sent = {}};
-  in_order_of_arrival(pass.telemetry, [&]<class Value>(const Arrived<Value>& arrived) {
+  in_order_of_arrival(pass.telemetry, [&]<class Value>(const Placed<Value>& placed) {
     flight.sent.push_back(
-        {.came = arrived.value.t,
+        {.came = placed.value.t,
          .sample = TelemetrySample<Value>{.spacecraft = scenario.spacecraft_id,
                                           .origin = {.source = "front-end", .session = 1, .seq = 0},
-                                          .value = arrived.value,
-                                          .arrival = 0}});
+                                          .value = placed.value}});
   });
   std::stable_sort(flight.sent.begin(), flight.sent.end(),
                    [](const Sent& a, const Sent& b) { return a.came < b.came; });
@@ -94,9 +93,9 @@ class SupervisedPass {
   /// Processes all samples at once, like `process`.
   RaisedByKey process(const std::vector<Sent>& sent) {
     SampleBatch batch;
-    std::int64_t arrival = 0;
+    std::int64_t place = 0;
     for (const Sent& one : sent) {
-      add(one, arrival++, batch);
+      add(one, {place++}, batch);
     }
     see(processor_.take(std::move(batch)));
     see(processor_.finish());
@@ -111,8 +110,8 @@ class SupervisedPass {
     for (int second = 1; next != sent.end() || second <= end_s_ + kLonger_s; ++second) {
       const TaiTime now = shifted(start, second);
       SampleBatch batch;
-      for (std::int64_t arrival = 0; next != sent.end() && next->came < now; ++next) {
-        add(*next, arrival++, batch);
+      for (std::int64_t place = 0; next != sent.end() && next->came < now; ++next) {
+        add(*next, {place++}, batch);
         note(*next);
         end_s_ = second;
       }
@@ -123,10 +122,10 @@ class SupervisedPass {
   }
 
  private:
-  void add(const Sent& one, std::int64_t arrival, SampleBatch& batch) {
+  void add(const Sent& one, BatchPlace place, SampleBatch& batch) {
     std::visit(
         [&]<class Value>(TelemetrySample<Value> sample) {
-          sample.arrival = arrival;
+          sample.place = place;
           batch.samples.of<Value>().push_back(std::move(sample));
         },
         one.sample);

@@ -114,10 +114,10 @@ ArchiveBatch samples_until(int end_s) {
   std::int64_t arrival = 0;
   for (int t_s = 0; t_s < end_s; ++t_s) {
     batch.samples.of<GyroSample>().push_back(
-        {.spacecraft = "LEOSAT", .origin = {}, .value = {.t = at(t_s)}, .arrival = arrival++});
+        {.spacecraft = "LEOSAT", .origin = {}, .value = {.t = at(t_s)}, .arrival = {arrival++}});
     if (t_s < 10) {
       batch.samples.of<StarFix>().push_back(
-          {.spacecraft = "LEOSAT", .origin = {}, .value = {.t = at(t_s)}, .arrival = arrival++});
+          {.spacecraft = "LEOSAT", .origin = {}, .value = {.t = at(t_s)}, .arrival = {arrival++}});
     }
   }
   return batch;
@@ -163,10 +163,10 @@ TEST(AlertDesk, RaisesWhatWasNotStoredBeforeARestartAgainUnderTheSameId) {
   ArchiveBatch samples = samples_until(20);
   before.desk.see(samples);
   ServedThreeAxis restarted;
-  TelemetryValues again;
-  samples.samples.for_each([&]<class Value>(const SamplesOfKind<Value>& of_kind) {
+  PlacedValues again;
+  samples.samples.for_each([&]<class Value>(const ArrivedSamplesOfKind<Value>& of_kind) {
     for (const auto& sample : of_kind) {
-      again.of<Value>().push_back({.arrival = sample.arrival, .value = sample.value});
+      again.of<Value>().push_back({.place = {sample.arrival.number}, .value = sample.value});
     }
   });
   restarted.desk.go_on("LEOSAT", "run", again);
@@ -201,7 +201,7 @@ class FasterThanItsModel : public ::testing::Test {
         batch.samples.of<Pulse>().push_back({.spacecraft = "SPINNER",
                                              .origin = {},
                                              .value = pulses_[i].value,
-                                             .arrival = pulses_[i].arrival});
+                                             .arrival = {pulses_[i].place.number}});
       }
       desk.see(batch);
     }
@@ -217,7 +217,7 @@ class FasterThanItsModel : public ::testing::Test {
 
   TemporaryFolder folder_;
   GroundModels models_;
-  ArrivedOfKind<Pulse> pulses_;
+  PlacedOfKind<Pulse> pulses_;
 };
 
 TEST_F(FasterThanItsModel, IsToldAsADepartureAndTheSameAfterARestart) {
@@ -234,7 +234,7 @@ TEST_F(FasterThanItsModel, IsToldAsADepartureAndTheSameAfterARestart) {
     ArchiveBatch goes_on = batch_of_run();
     goes_on.continuation.emplace();
     restarted.see(goes_on);
-    TelemetryValues before;
+    PlacedValues before;
     before.of<Pulse>().assign(pulses_.begin(),
                               pulses_.begin() + static_cast<std::ptrdiff_t>(killed));
     restarted.go_on("SPINNER", "run", before);

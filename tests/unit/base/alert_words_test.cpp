@@ -1,6 +1,12 @@
 #include "services/base/alert_words.h"
 
+
+
+
+#include <map>
 #include <nlohmann/json.hpp>
+#include <regex>
+#include <sstream>
 #include <string>
 
 #include "tests/support/matchers.h"
@@ -70,10 +76,22 @@ TEST(AlertWords, GiveEvidenceToPrograms) {
   EXPECT_EQ(evidence["config_sha256"], "00ff");
 }
 
-TEST(AlertWords, AreDocumentedWithTheirKeys) {
-  const std::string documented = text_of(source_folder() / "schemas/alerts.md");
+TEST(AlertWords, AreDocumentedWithTheirKeysAndSeverities) {
+  std::istringstream lines{text_of(source_folder() / "schemas/alerts.md")};
+  std::map<std::string, std::string> severities;
+  const std::regex row{R"(\| `([a-z_.]+)(:[A-Z]+)?` \| ([^|]+) \|.*)"};
+  std::smatch cells;
+  for (std::string line; std::getline(lines, line);) {
+    if (std::regex_match(line, cells, row)) {
+      severities[cells[1]] += cells[3];
+    }
+  }
+  EXPECT_EQ(severities.size(), static_cast<std::size_t>(kAlertCodes));
   for (int i = 0; i < kAlertCodes; ++i) {
-    EXPECT_THAT(documented, HasSubstr("\n| `" + std::string{name_of(static_cast<AlertCode>(i))}));
+    const auto code = static_cast<AlertCode>(i);
+    EXPECT_THAT(severities[std::string{name_of(code)}],
+                HasSubstr(std::string{name_of(severity_of(code))}))
+        << name_of(code);
   }
 }
 

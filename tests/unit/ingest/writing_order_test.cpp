@@ -16,7 +16,7 @@ SampleBatch look(const std::vector<std::int64_t>& gyro, const std::vector<std::i
   SampleBatch taken;
   const auto add = [&]<class Value>(Kind<Value> /*kind*/, std::int64_t written) {
     taken.samples.of<Value>().push_back(
-        {.spacecraft = "SAT", .origin = {.source = source}, .value = {}, .arrival = written});
+        {.spacecraft = "SAT", .origin = {.source = source}, .value = {}, .place = {written}});
   };
   for (const std::int64_t written : gyro) {
     add(Kind<GyroSample>{}, written);
@@ -30,7 +30,8 @@ SampleBatch look(const std::vector<std::int64_t>& gyro, const std::vector<std::i
 /// Returns the writing times in the order of processing.
 std::vector<std::int64_t> written(const SampleBatch& batch) {
   std::vector<std::int64_t> order;
-  in_order_of_arrival(batch.samples, [&](const auto& sample) { order.push_back(sample.arrival); });
+  in_order_of_arrival(batch.samples,
+                      [&](const auto& sample) { order.push_back(sample.place.number); });
   return order;
 }
 
@@ -71,7 +72,7 @@ TEST_F(WritingOrderTest, OneTopicStaysInTheOrderInWhichItWasTaken) {
   const SampleBatch passed = order_.pass_on({}, now_);
   std::vector<std::int64_t> order;
   for (const auto& sample : passed.samples.of<GyroSample>()) {
-    order.push_back(sample.arrival);
+    order.push_back(sample.place.number);
   }
   EXPECT_THAT(order, ElementsAre(3, 5, 2, 4));
 }

@@ -49,12 +49,11 @@ class FakePass {
   TaiTime t_ = {};
 };
 
-PassInput input_at(const std::vector<std::int64_t>& times,
-                   std::vector<std::int64_t> silences = {}) {
+PassInput input_at(const std::vector<std::int64_t>& times, std::vector<BatchPlace> silences = {}) {
   PassInput input{.spacecraft = 0, .run_id = "run", .silences = std::move(silences)};
   for (const std::int64_t t : times) {
-    const auto place = static_cast<std::int64_t>(sample_count(input));
-    input.values.of<GyroSample>().push_back({.arrival = place, .value = {.t = tai_from_ns(t)}});
+    input.values.of<GyroSample>().push_back(
+        {.place = next_place(input), .value = {.t = tai_from_ns(t)}});
   }
   return input;
 }
@@ -71,7 +70,7 @@ std::vector<std::int64_t> times_of(const std::vector<Product>& products) {
 
 TEST(PassComputing, SilencesHaveTheirPlaceAmongTheSamples) {
   PassComputing<FakePass> computing{"SAT", "run", FakePass{}};
-  const auto batches = computing.compute(input_at({1, 2, 3}, {2, 3}), kNote);
+  const auto batches = computing.compute(input_at({1, 2, 3}, {{2}, {3}}), kNote);
   ASSERT_THAT(batches, SizeIs(1));
   EXPECT_THAT(times_of(batches[0].products), ElementsAre(1, 2, 2, 3, 3));
   EXPECT_EQ(batches[0].run_id, "run");
@@ -90,7 +89,7 @@ TEST(PassComputing, SaysWhetherItsResidualsAreStored) {
 TEST(PassComputing, KnowsNothingOfTheOtherKinds) {
   PassComputing<FakePass> computing{"SAT", "run", FakePass{}};
   PassInput input = input_at({});
-  input.values.of<StarFix>().push_back({.arrival = 0, .value = {.t = tai_from_ns(1)}});
+  input.values.of<StarFix>().push_back({.place = {}, .value = {.t = tai_from_ns(1)}});
   EXPECT_THAT(computing.compute(input, kNote), IsEmpty());
 }
 
@@ -118,7 +117,7 @@ TEST(PassComputing, StoresNothingAgainBeforeTheResumePoint) {
   computing.begin("run", FakePass{});
   std::size_t noted = 0;
   const auto note = [&](const ThreeAxisOutput& output) { noted += output.products.size(); };
-  EXPECT_THAT(computing.compute(input_at({1, 2}, {2}), note), IsEmpty());
+  EXPECT_THAT(computing.compute(input_at({1, 2}, {{2}}), note), IsEmpty());
   const auto batches = computing.compute(input_at({3, 4}), note);
   ASSERT_THAT(batches, SizeIs(1));
   EXPECT_EQ(batches[0].continuation.value().t, tai_from_ns(3));

@@ -41,8 +41,7 @@ class SeparationRunTest : public ::testing::Test {
   template <class Value>
   static void add(const std::vector<Value>& values, PassInput& input) {
     for (const Value& value : values) {
-      const auto place = static_cast<std::int64_t>(sample_count(input));
-      input.values.of<Value>().push_back({.arrival = place, .value = value});
+      input.values.of<Value>().push_back({.place = next_place(input), .value = value});
     }
   }
   /// Returns the whole pass with the star fix last.
@@ -94,7 +93,7 @@ TEST_F(SeparationRunTest, RestsOnNothingThatAnOperatorHasLeftOut) {
   OperatorAction no_sun{};
   no_sun.t = TaiTime{};
   no_sun.does = AttitudeAction{ExcludeChannel<SampleKind>{SampleKind::Sun}};
-  run.compute({.spacecraft = 0, .run_id = "run-1", .actions = {no_sun}});
+  run.compute({.spacecraft = 0, .run_id = "run-1", .actions = {{.place = {}, .value = no_sun}}});
   run.compute(whole_pass());
   run.finish();
   EXPECT_EQ(run.summaries().front().reconstructions.front()->samples,

@@ -29,8 +29,7 @@ class ThreeAxisRunTest : public ::testing::Test {
  protected:
   template <class Value>
   void add(const Value& value) {
-    const auto place = static_cast<std::int64_t>(sample_count(input_));
-    input_.values.of<Value>().push_back({.arrival = place, .value = value});
+    input_.values.of<Value>().push_back({.place = next_place(input_), .value = value});
   }
   void gyro(double from_s, double to_s) {
     for (int i = 0; from_s + 0.25 * i < to_s; ++i) {
@@ -71,7 +70,7 @@ TEST_F(ThreeAxisRunTest, ASilenceBringsOutWhatIsHeld) {
   gyro(0.0, 1.0);
   add(sensors_.star(1.0));
   gyro(1.0, 2.0);
-  input_.silences = {static_cast<std::int64_t>(sample_count(input_))};
+  input_.silences = {next_place(input_)};
   EXPECT_THAT(attitudes_in(compute()), ElementsAre(at_s(1.0), at_s(1.25), at_s(1.5), at_s(1.75)));
 }
 

@@ -26,7 +26,7 @@ std::vector<nlohmann::json> rows_of(const ReconstructionProduct& product) {
         object[std::string{name}] = value;
       }
     };
-    with_columns<Table>([&](const auto&... column) { (put(column.name, column.get(row)), ...); });
+    with_columns<Table>([&](const auto&... column) { (put(column.name, column.of(row)), ...); });
     rows.push_back(object);
   });
   return rows;

@@ -9,19 +9,21 @@ using ::testing::Pair;
 TaiTime at(double t_s) { return shifted(tai_from_ns(1'795'143'637'000'000'000), t_s); }
 
 template <class Value>
-void add(ArchiveBatch& batch, std::int64_t arrival, const Value& value) {
-  batch.samples.of<Value>().push_back(
-      {.spacecraft = batch.spacecraft_id, .origin = {}, .value = value, .arrival = arrival});
+void add(ArchiveBatch& batch, const Value& value, bool is_left_out = false) {
+  batch.samples.of<Value>().push_back({.spacecraft = batch.spacecraft_id,
+                                       .origin = {},
+                                       .value = value,
+                                       .is_left_out = is_left_out});
 }
 
 TEST(ArrivalTally, KnowsTheLastOfEachChannelWhateverTheOrder) {
   ArchiveBatch batch{.run_id = "run", .spacecraft_id = "SPINNER"};
-  add(batch, 1, Pulse{.t = at(2.0), .channel = PulseChannel::Sun1});
-  add(batch, 2, Pulse{.t = at(1.0), .channel = PulseChannel::Sun1});
-  add(batch, -1, Pulse{.t = at(9.0), .channel = PulseChannel::NorthIn});
+  add(batch, Pulse{.t = at(2.0), .channel = PulseChannel::Sun1});
+  add(batch, Pulse{.t = at(1.0), .channel = PulseChannel::Sun1});
+  add(batch, Pulse{.t = at(9.0), .channel = PulseChannel::NorthIn}, true);
   CodedFrame frame{.t = at(3.0), .period_s = 1.0, .delay_s = {}};
   frame.delay_s.at(index_of(PulseChannel::Sun2)) = 0.25;
-  add(batch, 3, frame);
+  add(batch, frame);
   ArrivalTally tally;
   tally.note(batch);
   const TalliedArrivals found = tally.of("SPINNER");
@@ -33,9 +35,9 @@ TEST(ArrivalTally, KnowsTheLastOfEachChannelWhateverTheOrder) {
 
 TEST(ArrivalTally, KnowsTheKindsOfSensorsAndWhatARehearsalBringsAgain) {
   ArchiveBatch batch{.run_id = "run", .spacecraft_id = "SAT"};
-  add(batch, 1, GyroSample{.t = at(1.0)});
-  add(batch, 2, TimedOrbitState{.t = at(5.0)});
-  batch.moved.of<GyroSample>().push_back({.arrival = 3, .value = {.t = at(4.0)}});
+  add(batch, GyroSample{.t = at(1.0)});
+  add(batch, TimedOrbitState{.t = at(5.0)});
+  batch.moved.of<GyroSample>().push_back({.arrival = {3}, .value = {.t = at(4.0)}});
   ArrivalTally tally;
   tally.note(batch);
   EXPECT_THAT(tally.of("SAT").last, ElementsAre(Pair("gyro", at(4.0))));

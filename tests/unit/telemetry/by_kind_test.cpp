@@ -21,13 +21,13 @@ TEST(TelemetryKinds, NoTwoShareATopicATableOrANameInMessages) {
 
 TEST(ByKind, GivesAllKindsInTheOrderOfArrival) {
   TelemetryValues values;
-  values.of<Pulse>() = {{.arrival = 1, .value = {}}, {.arrival = 2, .value = {}}};
-  values.of<GyroSample>() = {{.arrival = 0, .value = {}}, {.arrival = 4, .value = {}}};
-  values.of<CodedFrame>() = {{.arrival = 3, .value = {}}};
+  values.of<Pulse>() = {{.arrival = {1}, .value = {}}, {.arrival = {2}, .value = {}}};
+  values.of<GyroSample>() = {{.arrival = {0}, .value = {}}, {.arrival = {4}, .value = {}}};
+  values.of<CodedFrame>() = {{.arrival = {3}, .value = {}}};
   EXPECT_EQ(count_of(values), 5U);
   std::vector<std::string> seen;
   in_order_of_arrival(values, [&seen]<class Value>(const Arrived<Value>& arrived) {
-    seen.push_back(std::string{Telemetry<Value>::kName} + std::to_string(arrived.arrival));
+    seen.push_back(std::string{Telemetry<Value>::kName} + std::to_string(arrived.arrival.number));
   });
   EXPECT_THAT(seen, ElementsAre("gyro0", "pulses1", "pulses2", "coded3", "gyro4"));
 }
