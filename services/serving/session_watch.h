@@ -13,8 +13,8 @@
 
 #include "pipelines/supervision/service_conditions.h"
 #include "services/archive/records.h"
-#include "services/telemetry/sequence_counts.h"
 #include "services/telemetry/by_kind.h"
+#include "services/telemetry/sequence_counts.h"
 
 namespace spindrift {
 

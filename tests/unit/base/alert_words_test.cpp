@@ -1,8 +1,5 @@
 #include "services/base/alert_words.h"
 
-
-
-
 #include <map>
 #include <nlohmann/json.hpp>
 #include <regex>
