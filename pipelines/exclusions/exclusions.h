@@ -37,13 +37,13 @@ class Exclusions {
  public:
   /// @name Actions that apply to telemetry from `from` on
   /// @{
-  void add(TaiTime from, const ExcludeChannel<Channel>& action) {
+  void apply(TaiTime from, const ExcludeChannel<Channel>& action) {
     is_out_[action.channel].insert_or_assign(from, true);
   }
-  void add(TaiTime from, const IncludeChannel<Channel>& action) {
+  void apply(TaiTime from, const IncludeChannel<Channel>& action) {
     is_out_[action.channel].insert_or_assign(from, false);
   }
-  void add(TaiTime from, const ExcludeSegment<Channel>& action) {
+  void apply(TaiTime from, const ExcludeSegment<Channel>& action) {
     segments_.push_back(action);
     segments_.back().from = std::max(from, action.from);
   }

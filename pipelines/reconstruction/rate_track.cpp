@@ -23,7 +23,7 @@ std::vector<double> wander_rad2_s3(std::span<const TimedRate> samples, double no
   RateWander forwards{noise_rad_s};
   RateWander backwards{noise_rad_s};
   const auto note = [&](RateWander& by, const TimedRate& sample, double& beside) {
-    by.note(shifted(TaiTime{}, sample.t_s), sample.rate_body_rad_s);
+    by.track(shifted(TaiTime{}, sample.t_s), sample.rate_body_rad_s);
     beside = std::max(beside, by.rad2_s3());
   };
   for (std::size_t i = 0; i < samples.size(); ++i) {

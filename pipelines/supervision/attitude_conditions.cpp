@@ -47,9 +47,10 @@ AttitudeConditions::AttitudeConditions(const AlertLimits& limits, std::optional<
       lost_{AlertCode::AttitudeLost, "s"},
       launcher_{AlertCode::ReconstructionLauncher, "% of chi-square"} {}
 
-ConditionChanges AttitudeConditions::see(const AttitudeEstimate& estimate) {
+ConditionChanges AttitudeConditions::evaluate(const AttitudeEstimate& estimate) {
   ConditionChanges changes;
-  add(lost_.see(estimate.t, estimate.assessment.quality == Quality::Lost || begins_anew(estimate)),
+  add(lost_.update(estimate.t,
+                   estimate.assessment.quality == Quality::Lost || begins_anew(estimate)),
       changes);
   add(see_innovations(estimate), changes);
   return changes;
@@ -76,17 +77,17 @@ std::optional<ConditionChange> AttitudeConditions::see_innovations(
     sum.freedom += one.innovations.freedom;
   }
   return sum.freedom == 0 ? std::nullopt
-                          : diverged_.see(estimate.t, {.value = percent_nearer(sum),
-                                                       .limit = diverged_percent_});
+                          : diverged_.update(estimate.t, {.value = percent_nearer(sum),
+                                                          .limit = diverged_percent_});
 }
 
-ConditionChanges AttitudeConditions::see(const ReconstructedSeparation& separation) {
+ConditionChanges AttitudeConditions::evaluate(const ReconstructedSeparation& separation) {
   // Only `batch` counts, which uses all samples together.
   if (separation.solution.method != ReconstructionMethod::Batch || !separation.launcher ||
       !*separation.launcher) {
     return {};
   }
-  return changes_of(launcher_.see(
+  return changes_of(launcher_.update(
       separation.solution.history.back().t,
       {.value = 100.0 * (1.0 - (**separation.launcher).chance), .limit = launcher_percent_}));
 }

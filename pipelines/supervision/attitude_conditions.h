@@ -19,9 +19,9 @@ class AttitudeConditions {
   /// @param orbit Orbit for the prediction of eclipses; empty if unknown.
   AttitudeConditions(const AlertLimits& limits, std::optional<Orbit> orbit);
 
-  ConditionChanges see(SampleKind kind, TaiTime t) { return kinds_.see(kind, t); }
-  ConditionChanges see(const AttitudeEstimate& estimate);
-  ConditionChanges see(const ReconstructedSeparation& separation);
+  ConditionChanges evaluate(SampleKind kind, TaiTime t) { return kinds_.evaluate(kind, t); }
+  ConditionChanges evaluate(const AttitudeEstimate& estimate);
+  ConditionChanges evaluate(const ReconstructedSeparation& separation);
 
  private:
   std::optional<ConditionChange> see_innovations(const AttitudeEstimate& estimate);

@@ -45,7 +45,7 @@ ChannelPresence::ChannelPresence(SpinConfig config, Orbit orbit, int silent_revo
   }
 }
 
-ConditionChanges ChannelPresence::see(const Pulse& edge, const std::optional<AxisSeen>& axis) {
+ConditionChanges ChannelPresence::evaluate(const Pulse& edge, const std::optional<AxisSeen>& axis) {
   ConditionChanges changes;
   for (std::size_t i = 0; i < kPulseChannels; ++i) {
     const auto channel = static_cast<PulseChannel>(i);
@@ -58,7 +58,7 @@ ConditionChanges ChannelPresence::see(const Pulse& edge, const std::optional<Axi
       ++one.of_others.at(index_of(edge.channel));
     }
     if (channel == edge.channel || (axis && is_silent(channel, edge.t, *axis))) {
-      if (auto change = one.watch.see(edge.t, {.value = missed(channel), .limit = limit_})) {
+      if (auto change = one.watch.update(edge.t, {.value = missed(channel), .limit = limit_})) {
         changes.push_back(std::move(*change));
       }
     }

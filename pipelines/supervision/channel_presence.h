@@ -32,7 +32,7 @@ class ChannelPresence {
  public:
   ChannelPresence(SpinConfig config, Orbit orbit, int silent_revolutions);
 
-  ConditionChanges see(const Pulse& edge, const std::optional<AxisSeen>& axis);
+  ConditionChanges evaluate(const Pulse& edge, const std::optional<AxisSeen>& axis);
 
  private:
   bool is_silent(PulseChannel channel, TaiTime t, const AxisSeen& axis);

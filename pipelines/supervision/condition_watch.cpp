@@ -8,7 +8,7 @@ ConditionWatch::ConditionWatch(AlertCode code, std::string_view unit, Holding ho
                                std::string about)
     : code_{code}, about_{std::move(about)}, unit_{unit}, holding_{holding} {}
 
-std::optional<ConditionChange> ConditionWatch::see(TaiTime t, const Reading& reading) {
+std::optional<ConditionChange> ConditionWatch::update(TaiTime t, const Reading& reading) {
   return judge(t, reading, reading.value >= reading.limit,
                reading.value <= kClearShare * reading.limit);
 }
@@ -32,7 +32,7 @@ std::optional<ConditionChange> ConditionWatch::judge(TaiTime t, const Reading& r
                  .sigma = reading.sigma});
 }
 
-std::optional<ConditionChange> ConditionWatch::see(TaiTime t, bool is_there) {
+std::optional<ConditionChange> ConditionWatch::update(TaiTime t, bool is_there) {
   auto change =
       settle(t, is_there ? Change::Raised : Change::Cleared,
              {.value = 0.0, .limit = holding_.raise_s, .unit = "s", .since = t, .last = t});

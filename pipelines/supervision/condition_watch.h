@@ -67,13 +67,13 @@ class ConditionWatch {
   };
   /// @param t Readings earlier than the previous one are ignored. At the same time, only a reading
   ///         that raises the condition can replace an earlier one.
-  std::optional<ConditionChange> see(TaiTime t, const Reading& reading);
+  std::optional<ConditionChange> update(TaiTime t, const Reading& reading);
 
   /// Watches a value that must not fall below its limit.
   std::optional<ConditionChange> see_least(TaiTime t, const Reading& reading);
 
   /// Watches a yes/no condition; its evidence is the time it has held.
-  std::optional<ConditionChange> see(TaiTime t, bool is_there);
+  std::optional<ConditionChange> update(TaiTime t, bool is_there);
 
  private:
   std::optional<ConditionChange> judge(TaiTime t, const Reading& reading, bool is_there,

@@ -14,7 +14,7 @@ constexpr std::chrono::minutes kRecent{1};
 
 }  // namespace
 
-ConditionChanges ContradictionConditions::see(const SampleContradiction& contradiction) {
+ConditionChanges ContradictionConditions::evaluate(const SampleContradiction& contradiction) {
   newest_ = std::max(newest_, contradiction.t);
   std::set<std::string> all;
   std::set<std::string> doubted;
@@ -41,7 +41,7 @@ ConditionChanges ContradictionConditions::see(const SampleContradiction& contrad
   return changes;
 }
 
-ConditionChanges ContradictionConditions::see(TaiTime t) {
+ConditionChanges ContradictionConditions::evaluate(TaiTime t) {
   ConditionChanges changes;
   if (t > newest_) {
     newest_ = t;
@@ -57,8 +57,8 @@ std::optional<ConditionChange> ContradictionConditions::look(Source& source) con
   while (!times.empty() && span_between(times.front(), newest_) >= kRecent) {
     times.pop_front();
   }
-  return source.watch.see(newest_,
-                          {.value = static_cast<double>(times.size()), .limit = limit_samples_});
+  return source.watch.update(newest_,
+                             {.value = static_cast<double>(times.size()), .limit = limit_samples_});
 }
 
 }  // namespace spindrift

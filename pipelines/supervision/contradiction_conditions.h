@@ -22,9 +22,9 @@ class ContradictionConditions {
       : limit_samples_{limits.contradicted_samples} {}
 
   /// Counts a contradiction, whose senders must be named.
-  ConditionChanges see(const SampleContradiction& contradiction);
+  ConditionChanges evaluate(const SampleContradiction& contradiction);
   /// Advances telemetry time to `t`.
-  ConditionChanges see(TaiTime t);
+  ConditionChanges evaluate(TaiTime t);
 
  private:
   struct Source {

@@ -24,12 +24,12 @@ KindPresence::KindPresence(std::optional<Orbit> orbit, double silent_s)
   }
 }
 
-ConditionChanges KindPresence::see(SampleKind kind, TaiTime t) {
+ConditionChanges KindPresence::evaluate(SampleKind kind, TaiTime t) {
   // The time of one sample alone may come from a wrong clock that no other sample supports.
   const TaiTime reached = std::min(t, before_);
   before_ = t;
   if (newest_ > TaiTime::min() && span_between(newest_, t) > TimeJump::kFar) {
-    jump_.see(t, kAnyKind);
+    jump_.add_ahead(t, kAnyKind);
     if (!jump_.has_shown()) {
       return {};
     }
@@ -52,7 +52,7 @@ ConditionChanges KindPresence::see(SampleKind kind, TaiTime t) {
       channel.last = newest_;
     } else if (channel.last && newest_ > TaiTime::min()) {
       const double silent_s = std::max(elapsed_s(*channel.last, newest_), 0.0);
-      add(channel.watch.see(newest_, {.value = silent_s, .limit = silent_s_}), changes);
+      add(channel.watch.update(newest_, {.value = silent_s, .limit = silent_s_}), changes);
     }
   }
   return changes;

@@ -21,7 +21,7 @@ class KindPresence {
  public:
   KindPresence(std::optional<Orbit> orbit, double silent_s);
 
-  ConditionChanges see(SampleKind kind, TaiTime t);
+  ConditionChanges evaluate(SampleKind kind, TaiTime t);
 
  private:
   struct Channel {

@@ -15,7 +15,7 @@ namespace spindrift {
 class RiseOfLastMinute {
  public:
   /// @param t Later than the previous one. @return Rise; 0 if the count has fallen.
-  double see(TaiTime t, std::int64_t count) {
+  double rise_at(TaiTime t, std::int64_t count) {
     while (!counts_.empty() && seconds_between(counts_.front().t, t) >= kMinute_s) {
       before_ = counts_.front().count;
       counts_.pop_front();

@@ -33,13 +33,13 @@ ServiceConditions::ServiceConditions(const AlertLimits& limits, std::optional<Co
       disk_{AlertCode::ArchiveDisk, "GiB"},
       clock_{AlertCode::ClockJump, "s", {.raise_s = 0.0, .clear_s = 60.0}} {}
 
-ConditionChanges ServiceConditions::see(const ServiceState& state) {
+ConditionChanges ServiceConditions::evaluate(const ServiceState& state) {
   ConditionChanges changes;
   see_silence(state, changes);
   see_link(state, changes);
   see_archive(state, changes);
   see_data(state, changes);
-  auto twice = twice_.see(state.t, state.other_service.has_value());
+  auto twice = twice_.update(state.t, state.other_service.has_value());
   if (twice) {
     twice->who = state.other_service.value_or("");
   }
@@ -57,7 +57,7 @@ void ServiceConditions::see_silence(const ServiceState& state, ConditionChanges&
     const bool is_over = state.pass_t > contact_->to;
     silent_s = is_over ? 0.0 : std::clamp(elapsed_s(contact_->from, state.pass_t), 0.0, silent_s);
   }
-  auto change = silent_.see(state.t, {.value = silent_s, .limit = limits_.link_silent_s});
+  auto change = silent_.update(state.t, {.value = silent_s, .limit = limits_.link_silent_s});
   if (change && contact_) {
     change->severity = AlertSeverity::Critical;
   }
@@ -66,40 +66,41 @@ void ServiceConditions::see_silence(const ServiceState& state, ConditionChanges&
 
 void ServiceConditions::see_link(const ServiceState& state, ConditionChanges& changes) {
   if (state.late_s) {
-    add(late_.see(state.t, {.value = *state.late_s, .limit = limits_.link_late_s}), changes);
-    add(ahead_.see(state.t, {.value = -*state.late_s, .limit = limits_.link_late_s}), changes);
+    add(late_.update(state.t, {.value = *state.late_s, .limit = limits_.link_late_s}), changes);
+    add(ahead_.update(state.t, {.value = -*state.late_s, .limit = limits_.link_late_s}), changes);
   }
-  const double received = received_count_.see(state.t, state.received);
-  const double rejected = rejected_count_.see(state.t, state.rejected);
+  const double received = received_count_.rise_at(state.t, state.received);
+  const double rejected = rejected_count_.rise_at(state.t, state.rejected);
   if (received > 0.0) {
-    add(rejected_.see(state.t,
-                      {.value = 100.0 * rejected / received, .limit = limits_.rejected_percent}),
+    add(rejected_.update(state.t,
+                         {.value = 100.0 * rejected / received, .limit = limits_.rejected_percent}),
         changes);
   }
   for (const auto& [name, record] : state.sources) {
     Source& source = sources_.try_emplace(name, name).first->second;
-    add(source.gap.see(state.t, {.value = source.missing.see(state.t, record.missing),
-                                 .limit = limits_.gap_samples}),
+    add(source.gap.update(state.t, {.value = source.missing.rise_at(state.t, record.missing),
+                                    .limit = limits_.gap_samples}),
         changes);
-    add(source.restarted.see(
-            state.t, {.value = source.restarts.see(state.t, record.restarts), .limit = 1.0}),
+    add(source.restarted.update(
+            state.t, {.value = source.restarts.rise_at(state.t, record.restarts), .limit = 1.0}),
         changes);
-    add(source.again.see(state.t, {.value = source.repeated.see(state.t, record.repeated),
-                                   .limit = limits_.repeated_samples}),
+    add(source.again.update(state.t, {.value = source.repeated.rise_at(state.t, record.repeated),
+                                      .limit = limits_.repeated_samples}),
         changes);
   }
 }
 
 void ServiceConditions::see_archive(const ServiceState& state, ConditionChanges& changes) {
-  add(backlog_.see(state.t, {.value = state.backlog_s, .limit = limits_.backlog_s}), changes);
-  add(write_.see(state.t, state.write_failed), changes);
+  add(backlog_.update(state.t, {.value = state.backlog_s, .limit = limits_.backlog_s}), changes);
+  add(write_.update(state.t, state.write_failed), changes);
   if (state.free_gib) {
     add(disk_.see_least(state.t, {.value = *state.free_gib, .limit = limits_.disk_gib}), changes);
   }
 }
 
 void ServiceConditions::see_data(const ServiceState& state, ConditionChanges& changes) {
-  add(clock_.see(state.t, {.value = std::abs(state.clock_step_s), .limit = limits_.clock_jump_s}),
+  add(clock_.update(state.t,
+                    {.value = std::abs(state.clock_step_s), .limit = limits_.clock_jump_s}),
       changes);
   for (const auto& [what, until] : state.data_until) {
     ConditionWatch& watch =

@@ -46,7 +46,7 @@ class ServiceConditions {
  public:
   ServiceConditions(const AlertLimits& limits, std::optional<Contact> contact);
 
-  ConditionChanges see(const ServiceState& state);
+  ConditionChanges evaluate(const ServiceState& state);
 
  private:
   struct Source {

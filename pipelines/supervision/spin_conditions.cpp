@@ -50,7 +50,7 @@ void SpinConditions::set_target(TaiTime t, const Eigen::Vector3d& axis_icrf) {
   targets_.emplace(t, axis_icrf);
 }
 
-ConditionChanges SpinConditions::see(const PulseUse& use) {
+ConditionChanges SpinConditions::evaluate(const PulseUse& use) {
   std::optional<AxisSeen> axis;
   if (const auto& answer = sequential_ ? sequential_ : mean_;
       answer && is_unopposed(answer->assessment.quality)) {
@@ -59,23 +59,23 @@ ConditionChanges SpinConditions::see(const PulseUse& use) {
   }
   // A copy is not a further edge of its channel.
   const bool is_copy = use.rejected_by == Rejection::Copy;
-  ConditionChanges changes = is_copy ? ConditionChanges{} : channels_.see(use.pulse, axis);
-  add(interference_.see(use.pulse.t, use.rejected_by == Rejection::Interference), changes);
+  ConditionChanges changes = is_copy ? ConditionChanges{} : channels_.evaluate(use.pulse, axis);
+  add(interference_.update(use.pulse.t, use.rejected_by == Rejection::Interference), changes);
   if (use.revolution || is_copy || use.rejected_by == Rejection::Unassociated) {
     if (const auto percent = left_out_.count(use.revolution, use.rejected_by.has_value())) {
-      add(rejection_.see(use.pulse.t, {.value = *percent, .limit = limits_.rejection.percent}),
+      add(rejection_.update(use.pulse.t, {.value = *percent, .limit = limits_.rejection.percent}),
           changes);
     }
   }
   return changes;
 }
 
-ConditionChanges SpinConditions::see(const RevolutionProduct& revolution) {
+ConditionChanges SpinConditions::evaluate(const RevolutionProduct& revolution) {
   t_sun1_.insert_or_assign(revolution.revolution, revolution.t_sun1);
   return {};
 }
 
-ConditionChanges SpinConditions::see(const SpinMeasurement& measurement) {
+ConditionChanges SpinConditions::evaluate(const SpinMeasurement& measurement) {
   ConditionChanges changes;
   const auto t = t_sun1_.find(measurement.revolution);
   if (measurement.quantity != SpinQuantity::Period || t == t_sun1_.end()) {
@@ -83,13 +83,13 @@ ConditionChanges SpinConditions::see(const SpinMeasurement& measurement) {
   }
   if (const auto percent =
           irrational_.count(measurement.revolution, measurement.rejected_by.has_value())) {
-    add(period_.see(t->second, {.value = *percent, .limit = limits_.period.percent}), changes);
+    add(period_.update(t->second, {.value = *percent, .limit = limits_.period.percent}), changes);
   }
   t_sun1_.erase(t_sun1_.begin(), t);
   return changes;
 }
 
-ConditionChanges SpinConditions::see(const SpinEstimate& estimate) {
+ConditionChanges SpinConditions::evaluate(const SpinEstimate& estimate) {
   ConditionChanges changes;
   if (estimate.estimator == SpinEstimator::Batch) {
     return changes;
@@ -103,66 +103,68 @@ ConditionChanges SpinConditions::see(const SpinEstimate& estimate) {
   const bool is_sequential = estimate.estimator == SpinEstimator::Sequential;
   (is_sequential ? sequential_ : mean_) = estimate;
   if (is_sequential || !sequential_) {
-    see_in_force(estimate, changes);
+    evaluate_in_force(estimate, changes);
   }
-  see_disagreement(changes);
+  evaluate_disagreement(changes);
   return changes;
 }
 
-void SpinConditions::see_in_force(const SpinEstimate& estimate, ConditionChanges& changes) {
+void SpinConditions::evaluate_in_force(const SpinEstimate& estimate, ConditionChanges& changes) {
   const auto later = targets_.upper_bound(estimate.t);
   for (auto due = targets_.begin(); due != later; due = targets_.erase(due)) {
     target_ = SpinTarget{.axis_icrf = due->second, .rate = target_ ? target_->rate : std::nullopt};
   }
   const Quality quality = estimate.assessment.quality;
-  add(ambiguous_.see(estimate.t, quality == Quality::Ambiguous), changes);
-  add(doubtful_.see(estimate.t, quality == Quality::Doubtful), changes);
-  add(lost_.see(estimate.t, quality == Quality::Lost), changes);
+  add(ambiguous_.update(estimate.t, quality == Quality::Ambiguous), changes);
+  add(doubtful_.update(estimate.t, quality == Quality::Doubtful), changes);
+  add(lost_.update(estimate.t, quality == Quality::Lost), changes);
   if (seconds_between(*first_, estimate.t) >= limits_.sigma_after_s) {
-    add(sigma_.see(estimate.t, {.value = sigma_deg_of(estimate), .limit = limits_.sigma_deg}),
+    add(sigma_.update(estimate.t, {.value = sigma_deg_of(estimate), .limit = limits_.sigma_deg}),
         changes);
   }
   if (target_ && is_unopposed(quality)) {
-    see_target(estimate, changes);
+    evaluate_target(estimate, changes);
   }
 }
 
-void SpinConditions::see_target(const SpinEstimate& estimate, ConditionChanges& changes) {
+void SpinConditions::evaluate_target(const SpinEstimate& estimate, ConditionChanges& changes) {
   const double sigma_deg = sigma_deg_of(estimate);
-  add(off_target_.see(estimate.t,
-                      {.value = degrees_between(estimate.axis_icrf, target_->axis_icrf),
-                       .limit = limits_.off_target_deg + limits_.off_target_sigmas * sigma_deg,
-                       .sigma = sigma_deg}),
+  add(off_target_.update(estimate.t,
+                         {.value = degrees_between(estimate.axis_icrf, target_->axis_icrf),
+                          .limit = limits_.off_target_deg + limits_.off_target_sigmas * sigma_deg,
+                          .sigma = sigma_deg}),
       changes);
   if (const auto& rate = target_->rate) {
-    add(rate_.see(estimate.t,
-                  {.value = kRpmPerRad_s * std::abs(estimate.spin_rate_rad_s - rate->rad_s),
-                   .limit = kRpmPerRad_s * rate->tolerance_rad_s,
-                   .sigma = kRpmPerRad_s * estimate.spin_rate_sigma_rad_s}),
+    add(rate_.update(estimate.t,
+                     {.value = kRpmPerRad_s * std::abs(estimate.spin_rate_rad_s - rate->rad_s),
+                      .limit = kRpmPerRad_s * rate->tolerance_rad_s,
+                      .sigma = kRpmPerRad_s * estimate.spin_rate_sigma_rad_s}),
         changes);
   }
 }
 
-void SpinConditions::see_disagreement(ConditionChanges& changes) {
+void SpinConditions::evaluate_disagreement(ConditionChanges& changes) {
   if (!mean_ || !sequential_ || mean_->assessment.quality != Quality::Ok ||
       sequential_->assessment.quality != Quality::Ok ||
       std::abs(seconds_between(mean_->t, sequential_->t)) > kApartAtMost_s) {
     return;
   }
   const double sigma_deg = std::max(sigma_deg_of(*mean_), sigma_deg_of(*sequential_));
-  add(disagree_.see(std::max(mean_->t, sequential_->t),
-                    {.value = degrees_between(mean_->axis_icrf, sequential_->axis_icrf) / sigma_deg,
-                     .limit = limits_.disagree_sigmas}),
+  add(disagree_.update(
+          std::max(mean_->t, sequential_->t),
+          {.value = degrees_between(mean_->axis_icrf, sequential_->axis_icrf) / sigma_deg,
+           .limit = limits_.disagree_sigmas}),
       changes);
 }
 
-ConditionChanges SpinConditions::see(const BatchSolution& solution) {
+ConditionChanges SpinConditions::evaluate(const BatchSolution& solution) {
   ConditionChanges changes;
   if (const auto& search = solution.nutation) {
     const auto& found = search->found;
-    add(nutation_.see(solution.estimate.t,
-                      found ? reading_of(found->half_angle_rad)
-                            : ConditionWatch::Reading{.value = 0.0, .limit = limits_.nutation_deg}),
+    add(nutation_.update(
+            solution.estimate.t,
+            found ? reading_of(found->half_angle_rad)
+                  : ConditionWatch::Reading{.value = 0.0, .limit = limits_.nutation_deg}),
         changes);
   }
   return changes;

@@ -33,16 +33,16 @@ class SpinConditions {
   /// Returns the target as of the last estimate.
   const std::optional<SpinTarget>& target() const { return target_; }
 
-  ConditionChanges see(const PulseUse& use);
-  ConditionChanges see(const RevolutionProduct& revolution);
-  ConditionChanges see(const SpinMeasurement& measurement);
-  ConditionChanges see(const SpinEstimate& estimate);
-  ConditionChanges see(const BatchSolution& solution);
+  ConditionChanges evaluate(const PulseUse& use);
+  ConditionChanges evaluate(const RevolutionProduct& revolution);
+  ConditionChanges evaluate(const SpinMeasurement& measurement);
+  ConditionChanges evaluate(const SpinEstimate& estimate);
+  ConditionChanges evaluate(const BatchSolution& solution);
 
  private:
-  void see_in_force(const SpinEstimate& estimate, ConditionChanges& changes);
-  void see_target(const SpinEstimate& estimate, ConditionChanges& changes);
-  void see_disagreement(ConditionChanges& changes);
+  void evaluate_in_force(const SpinEstimate& estimate, ConditionChanges& changes);
+  void evaluate_target(const SpinEstimate& estimate, ConditionChanges& changes);
+  void evaluate_disagreement(ConditionChanges& changes);
   ConditionWatch::Reading reading_of(const Estimated& half_angle_rad);
 
   AlertLimits limits_;

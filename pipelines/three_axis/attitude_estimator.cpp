@@ -105,7 +105,7 @@ void AttitudeEstimator::push(const GyroSample& sample, Products& out) {
 }
 
 std::optional<RejectedSample> AttitudeEstimator::judge(const GyroSample& sample) {
-  gyro_unit_.note(sample);
+  gyro_unit_.observe(sample);
   if (const auto factor = gyro_unit_.factor()) {
     return RejectedSample{.t = sample.t,
                           .kind = SampleKind::Gyro,
@@ -187,7 +187,7 @@ void AttitudeEstimator::push(const StarFix& fix, Products& out) {
     return;
   }
   const auto factor = gyro_unit_.factor();
-  gyro_unit_.note(fix.t, observed_by(fix));
+  gyro_unit_.observe(fix.t, observed_by(fix));
   if (gyro_unit_.factor() != factor) {
     leave_out_suspect(out);
     forget_gyro();
@@ -206,7 +206,7 @@ void AttitudeEstimator::push(const SeenDirection& seen, Products& out) {
 bool AttitudeEstimator::is_frozen(TaiTime t, SampleKind kind, const FrozenSamples::Values& values,
                                   double noise, Products& out) {
   FrozenSamples& frozen = frozen_.at(index_of(kind));
-  const bool is_frozen = frozen.note(values, noise) > 0;
+  const bool is_frozen = frozen.learn_and_test(values, noise) > 0;
   if (is_frozen) {
     leave_out({.t = t, .kind = kind, .rejected_by = Rejection::Frozen, .failed = frozen.failed()},
               out);

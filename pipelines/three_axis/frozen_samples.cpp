@@ -66,7 +66,7 @@ int FrozenSamples::repeated(const Values& values, double noise) {
   return repeats_;
 }
 
-int FrozenSamples::note(const Values& values, double noise) {
+int FrozenSamples::learn_and_test(const Values& values, double noise) {
   if (last_.size() > 0) {
     learn(last_, values);
   }

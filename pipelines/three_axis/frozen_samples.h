@@ -36,7 +36,7 @@ class FrozenSamples {
   int repeated(const Values& values, double noise);
 
   /// Calls `learn` with the previous sample and then `repeated`.
-  int note(const Values& values, double noise);
+  int learn_and_test(const Values& values, double noise);
 
   /// Returns the result of `repeated` for the last sample.
   int repeats() const { return repeats_; }

@@ -9,7 +9,7 @@
 
 namespace spindrift {
 
-void GyroUnit::note(const GyroSample& sample) {
+void GyroUnit::observe(const GyroSample& sample) {
   if (is_heard_at(sample.t)) {
     turn_to(sample.t, 0.5 * (last_->rate_body_rad_s + sample.rate_body_rad_s));
   } else {
@@ -19,7 +19,7 @@ void GyroUnit::note(const GyroSample& sample) {
   last_ = sample;
 }
 
-void GyroUnit::note(TaiTime t, const ObservedAttitude& fix) {
+void GyroUnit::observe(TaiTime t, const ObservedAttitude& fix) {
   if (!is_heard_at(t)) {
     fix_.reset();
     return;

@@ -24,8 +24,8 @@ class GyroUnit {
   explicit GyroUnit(double bias_sigma_rad_s) : bias_sigma_rad_s_{bias_sigma_rad_s} {}
 
   /// Adds a sample; rejected ones must be added too, all in time order with the fixes.
-  void note(const GyroSample& sample);
-  void note(TaiTime t, const ObservedAttitude& fix);
+  void observe(const GyroSample& sample);
+  void observe(TaiTime t, const ObservedAttitude& fix);
 
   /// Returns the factor by which the rates are too large; empty if they agree with rad/s.
   std::optional<double> factor() const {

@@ -19,7 +19,7 @@ constexpr double kRecentNoise = 0.05;
 
 std::optional<RejectedSample> GyroWatch::judge(const GyroSample& sample) {
   const bool was_out = out_because_.has_value();
-  const bool is_frozen = frozen_.note(sample.rate_body_rad_s, sensor_.noise_rad_s) > 0;
+  const bool is_frozen = frozen_.learn_and_test(sample.rate_body_rad_s, sensor_.noise_rad_s) > 0;
   auto rejected =
       rejected_alone(sample, sensor_, is_frozen ? std::optional{frozen_.failed()} : std::nullopt);
   out_because_ = rejected ? std::optional{rejected->rejected_by} : std::nullopt;
@@ -45,7 +45,7 @@ double GyroWatch::scatter_rad_s() const {
 }
 
 void GyroWatch::accept(const GyroSample& sample) {
-  wander_.note(sample.t, sample.rate_body_rad_s);
+  wander_.track(sample.t, sample.rate_body_rad_s);
   if (last_) {
     note_interval(elapsed_s(last_->t, sample.t));
   }

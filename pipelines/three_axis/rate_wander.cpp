@@ -7,7 +7,7 @@
 
 namespace spindrift {
 
-void RateWander::note(TaiTime t, const Eigen::Vector3d& rate_rad_s) {
+void RateWander::track(TaiTime t, const Eigen::Vector3d& rate_rad_s) {
   const double apart_s = a_second_ago_ ? std::abs(seconds_between(a_second_ago_->t, t)) : 0.0;
   // Interval over which changes of rate are taken. The rate is smooth within it, and changes from
   // one sample to the next would not add up to the change across a gap.

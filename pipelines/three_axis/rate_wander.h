@@ -15,7 +15,7 @@ class RateWander {
   explicit RateWander(double noise_rad_s) : noise_rad_s_{noise_rad_s} {}
 
   /// Adds a measured rate. The times must be monotonic, either rising or falling.
-  void note(TaiTime t, const Eigen::Vector3d& rate_rad_s);
+  void track(TaiTime t, const Eigen::Vector3d& rate_rad_s);
 
   /// Returns the spectral density of the change of rate per axis, rad^2/s^3. It follows recent
   /// changes over one second, less the noise, with a floor equivalent to 1 deg in a minute.

@@ -21,14 +21,14 @@ ThreeAxisPass::ThreeAxisPass(const ThreeAxisConfig& config, std::optional<Orbit>
       field_{std::move(field)},
       estimator_{config} {}
 
-ThreeAxisOutput ThreeAxisPass::take(const OrderedSample& sample) {
+ThreeAxisOutput ThreeAxisPass::process(const OrderedSample& sample) {
   ThreeAxisOutput out;
   if (!has_sensor(sample.kind())) {
     leave_out(sample, Rejection::NoSensor, out);
     return out;
   }
   using Verdict = BasicReorderWindow<OrderedSample>::Verdict;
-  switch (window_.add(sample)) {
+  switch (window_.offer(sample)) {
     case Verdict::Late:
       leave_out(sample, Rejection::Late, out);
       say_once(Notice{NoticeCode::LateSamples, {}}, out);
@@ -53,7 +53,7 @@ ThreeAxisOutput ThreeAxisPass::take(const OrderedSample& sample) {
 void ThreeAxisPass::compare(const OrderedSample& again, ThreeAxisOutput& out) {
   const auto known = window_.find(again);
   if (!known.released) {
-    contested_.note(*known.sample, again);
+    contested_.record(*known.sample, again);
   } else if (!say_the_same(*known.sample, again)) {
     out.products.emplace_back(SampleContradiction{.t = again.t,
                                                   .kind = name_of(again.kind()),
@@ -65,7 +65,7 @@ void ThreeAxisPass::compare(const OrderedSample& again, ThreeAxisOutput& out) {
 /// @return The sample that counts among all those contending with `due`; empty if none does.
 std::optional<OrderedSample> ThreeAxisPass::settled(const OrderedSample& due,
                                                     ThreeAxisOutput& out) {
-  const std::vector<OrderedSample> said = contested_.take(due);
+  const std::vector<OrderedSample> said = contested_.release(due);
   if (!is_contested(said)) {
     return due;
   }
@@ -76,7 +76,7 @@ std::optional<OrderedSample> ThreeAxisPass::settled(const OrderedSample& due,
 }
 
 void ThreeAxisPass::act(TaiTime t, const AttitudeAction& action) {
-  std::visit([&](const auto& what) { excluded_.add(t, what); }, action);
+  std::visit([&](const auto& what) { excluded_.apply(t, what); }, action);
 }
 
 ThreeAxisOutput ThreeAxisPass::fall_silent() {

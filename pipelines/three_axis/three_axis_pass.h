@@ -78,11 +78,11 @@ class ThreeAxisPass {
                 std::optional<MainFieldModel> field = std::nullopt);
 
   // Precondition: values are valid, vectors and quaternions of unit length within 0.001.
-  ThreeAxisOutput push(const GyroSample& sample) { return take({sample.t, sample}); }
-  ThreeAxisOutput push(const StarFix& fix) { return take({fix.t, fix}); }
-  ThreeAxisOutput push(const SunDirection& sun) { return take({sun.t, sun}); }
-  ThreeAxisOutput push(const MagneticField& field) { return take({field.t, field}); }
-  ThreeAxisOutput push(const TimedOrbitState& state) { return take({state.t, state}); }
+  ThreeAxisOutput push(const GyroSample& sample) { return process({sample.t, sample}); }
+  ThreeAxisOutput push(const StarFix& fix) { return process({fix.t, fix}); }
+  ThreeAxisOutput push(const SunDirection& sun) { return process({sun.t, sun}); }
+  ThreeAxisOutput push(const MagneticField& field) { return process({field.t, field}); }
+  ThreeAxisOutput push(const TimedOrbitState& state) { return process({state.t, state}); }
 
   /// Applies an operator's action to telemetry from `t` on that is not yet processed.
   void act(TaiTime t, const AttitudeAction& action);
@@ -98,7 +98,7 @@ class ThreeAxisPass {
   const SensorHealths& sensors() const { return estimator_.sensors(); }
 
  private:
-  ThreeAxisOutput take(const OrderedSample& sample);
+  ThreeAxisOutput process(const OrderedSample& sample);
   void compare(const OrderedSample& again, ThreeAxisOutput& out);
   void compute(const std::vector<OrderedSample>& in_order, ThreeAxisOutput& out);
   std::optional<OrderedSample> settled(const OrderedSample& due, ThreeAxisOutput& out);

@@ -67,7 +67,7 @@ template <class Sample>
 class Contested {
  public:
   /// Precondition: `again` has the kind and instant of `held`.
-  void note(const Sample& held, const Sample& again) {
+  void record(const Sample& held, const Sample& again) {
     const auto known = said_.find(held);
     if (known != said_.end()) {
       add_to(known->second, again);
@@ -79,7 +79,7 @@ class Contested {
   }
 
   /// Returns all samples contending with `due`, which is due now; `due` itself comes first.
-  std::vector<Sample> take(const Sample& due) {
+  std::vector<Sample> release(const Sample& due) {
     const auto known = said_.empty() ? said_.end() : said_.find(due);
     if (known == said_.end()) {
       return {};

@@ -49,7 +49,7 @@ class BasicReorderWindow {
 
   /// Adds a sample. Duplicate: it is held, or was released within kRemembered. Late: later samples
   /// have been released. OutOfTime: it is far ahead, and too many others are too.
-  Verdict add(const Sample& sample);
+  Verdict offer(const Sample& sample);
 
   /// The sample that another duplicates, and whether it was released; null if there is none.
   struct Known {
@@ -97,7 +97,8 @@ class BasicReorderWindow {
 
 /// Duplicates change no state, because a restarted service does not read them back.
 template <class Sample>
-typename BasicReorderWindow<Sample>::Verdict BasicReorderWindow<Sample>::add(const Sample& sample) {
+typename BasicReorderWindow<Sample>::Verdict BasicReorderWindow<Sample>::offer(
+    const Sample& sample) {
   if (!released_.empty() && sample <= released_.back()) {
     const bool known = std::binary_search(released_.begin(), released_.end(), sample);
     return known ? Verdict::Duplicate : Verdict::Late;
@@ -117,7 +118,7 @@ typename BasicReorderWindow<Sample>::Verdict BasicReorderWindow<Sample>::add(con
     return Verdict::OutOfTime;
   }
   far_ahead_.emplace(sample, newest());
-  jump_.see(sample.t, kind_in_order(sample));
+  jump_.add_ahead(sample.t, kind_in_order(sample));
   if (jump_.has_shown() || (is_beginning() && jump_.could_be())) {
     accept_jump();
   }

@@ -38,14 +38,14 @@ class TimeJump {
   /// Adds a sample that continues the former time, which invalidates all samples ahead so far.
   /// @param kind Below 64.
   void hear(std::size_t kind) {
-    note(kind);
+    register_kind(kind);
     ahead_ = {};
   }
   /// Registers a kind without continuing the former time.
-  void note(std::size_t kind) { heard_ |= bit_of(kind); }
+  void register_kind(std::size_t kind) { heard_ |= bit_of(kind); }
 
   /// Adds a sample from ahead.
-  void see(TaiTime t, std::size_t kind) {
+  void add_ahead(TaiTime t, std::size_t kind) {
     if (!holds(t)) {
       ahead_ = {.first = t, .last = t};
     }

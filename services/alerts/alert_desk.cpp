@@ -23,10 +23,10 @@ template <class Conditions>
 ConditionChanges changes_by_product(Conditions& conditions, const Product& product) {
   return std::visit(
       [&](const auto& value) -> ConditionChanges {
-        if constexpr (requires { conditions.see(value); }) {
-          return conditions.see(value);
-        } else if constexpr (requires { conditions.see(*value); }) {
-          return conditions.see(*value);
+        if constexpr (requires { conditions.evaluate(value); }) {
+          return conditions.evaluate(value);
+        } else if constexpr (requires { conditions.evaluate(*value); }) {
+          return conditions.evaluate(*value);
         } else {
           return {};
         }
@@ -37,14 +37,14 @@ ConditionChanges changes_by_product(Conditions& conditions, const Product& produ
 /// Advances the conditions by the times of results, which come in order.
 ConditionChanges contradictions_by(ContradictionConditions& conditions, const Product& product) {
   if (const auto* const contradiction = std::get_if<SampleContradiction>(&product)) {
-    return conditions.see(*contradiction);
+    return conditions.evaluate(*contradiction);
   }
   if (const auto* const attitude = std::get_if<AttitudeEstimate>(&product)) {
-    return conditions.see(attitude->t);
+    return conditions.evaluate(attitude->t);
   }
   const auto* const axis = std::get_if<SpinEstimate>(&product);
   // Solutions of `batch` are excluded, since they come at any time.
-  return axis != nullptr && axis->estimator != SpinEstimator::Batch ? conditions.see(axis->t)
+  return axis != nullptr && axis->estimator != SpinEstimator::Batch ? conditions.evaluate(axis->t)
                                                                     : ConditionChanges{};
 }
 
@@ -136,11 +136,11 @@ ConditionChanges AlertDesk::changes_by(const Samples& samples, Supervised& super
       // A kind without a sensor is not used, so it is not missed either.
       constexpr std::string_view kSensor = Telemetry<Value>::kSensor;
       if (attitude != nullptr && supervised.mission.tables.contains(std::string{kSensor})) {
-        append(attitude->see(kind_of(sample.value), sample.value.t), all);
+        append(attitude->evaluate(kind_of(sample.value), sample.value.t), all);
       }
     }
     if (supervised.comparison) {
-      append(supervised.comparison->see(sample.value).changes, all);
+      append(supervised.comparison->compare(sample.value).changes, all);
     }
   });
   return all;
@@ -162,7 +162,7 @@ void AlertDesk::take_up_run(const std::string& spacecraft, const std::string& ru
   }
 }
 
-void AlertDesk::see(ArchiveBatch& batch) {
+void AlertDesk::evaluate(ArchiveBatch& batch) {
   const std::lock_guard lock{mutex_};
   const auto found = desks_.find(batch.spacecraft_id);
   if (found == desks_.end() || !found->second.supervised) {
@@ -229,8 +229,8 @@ void AlertDesk::note_stored(std::span<const ArchiveBatch> batches) {
   }
 }
 
-std::vector<ArchiveBatch> AlertDesk::see(const std::map<std::string, ServiceState>& states,
-                                         TaiTime now) {
+std::vector<ArchiveBatch> AlertDesk::evaluate(const std::map<std::string, ServiceState>& states,
+                                              TaiTime now) {
   const std::lock_guard lock{mutex_};
   std::vector<ArchiveBatch> batches;
   for (auto& [spacecraft, desk] : desks_) {
@@ -254,7 +254,7 @@ std::vector<ArchiveBatch> AlertDesk::see(const std::map<std::string, ServiceStat
 std::vector<Alert> AlertDesk::changed_by(const ServiceState& state, Desk& desk) {
   Supervised& supervised = *desk.supervised;
   std::vector<Alert> alerts;
-  for (const ConditionChange& change : supervised.service.see(state)) {
+  for (const ConditionChange& change : supervised.service.evaluate(state)) {
     Occurrence occurrence = occurrence_of(change, supervised.stored_run, supervised.mission);
     occurrence.t = desk.book.after(occurrence.key, occurrence.t);
     if (auto alert = settle(desk.book, change.change, occurrence)) {
@@ -318,7 +318,7 @@ std::vector<OpenAlert> AlertDesk::open() const {
   return all;
 }
 
-Expected<ArchiveBatch> AlertDesk::take(const OperatorWord& word, TaiTime now) {
+Expected<ArchiveBatch> AlertDesk::obey(const OperatorWord& word, TaiTime now) {
   const std::lock_guard lock{mutex_};
   const auto& [alert_id, by, note, minutes] = word;
   std::string open;
@@ -346,7 +346,7 @@ Expected<ArchiveBatch> take_word(const OperatorWord& word, AlertDesk& desk, Arch
   if (word.by.empty()) {
     return Unexpected{{ErrorCode::InvalidInput, "by: must be a text, not empty: who says so"}};
   }
-  return desk.take(word, tai_now()).and_then([&](const ArchiveBatch& changed) {
+  return desk.obey(word, tai_now()).and_then([&](const ArchiveBatch& changed) {
     return archive.submit(changed).and_then([&] { return archive.flush(); }).map([&] {
       return changed;
     });

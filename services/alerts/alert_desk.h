@@ -59,7 +59,7 @@ class AlertDesk {
   /// Computes the alerts that the samples and products of `batch` raise and clear, in the order of
   /// computing. They are added to `batch`, along with alerts taken back, or if it has samples to
   /// the next batch without any, since products would hold samples back.
-  void see(ArchiveBatch& batch);
+  void evaluate(ArchiveBatch& batch);
 
   /// Adds to `batch`, if of the supervised run, the alerts that the changes raise and clear.
   void tell(const ConditionChanges& changes, ArchiveBatch& batch);
@@ -76,7 +76,8 @@ class AlertDesk {
   /// Computes alerts of the service itself, and those whose shelving is over.
   /// @param states By spacecraft, of those with telemetry. @param now Wall clock.
   /// @return The batches to store.
-  std::vector<ArchiveBatch> see(const std::map<std::string, ServiceState>& states, TaiTime now);
+  std::vector<ArchiveBatch> evaluate(const std::map<std::string, ServiceState>& states,
+                                     TaiTime now);
 
   /// Returns the spacecraft's current run if it is stored, before that the one taken up; empty when
   /// there is none yet.
@@ -90,7 +91,7 @@ class AlertDesk {
 
   /// Acknowledges or shelves an alert. @return The batch to store; InvalidInput when no such alert
   /// is open or it is in that state already.
-  Expected<ArchiveBatch> take(const OperatorWord& word, TaiTime now);
+  Expected<ArchiveBatch> obey(const OperatorWord& word, TaiTime now);
 
  private:
   using Conditions = std::variant<SpinConditions, AttitudeConditions>;

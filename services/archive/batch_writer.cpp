@@ -228,7 +228,7 @@ void BatchWriter::insert(const ArchiveBatch& batch, const ArrivedSample<Value>& 
   if constexpr (HasSender<Value>) {
     if (!sample.is_left_out) {
       store({});
-      if (database_.getChanges() > 0 || contradictions_.see(batch, sample)) {
+      if (database_.getChanges() > 0 || contradictions_.compare_with_stored(batch, sample)) {
         return;
       }
     }

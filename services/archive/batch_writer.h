@@ -32,7 +32,7 @@ class ContradictionWriter {
   /// table; so does what another source says about an instant that is already in it.
   /// @return Whether the table of the sample's kind needs no change.
   template <class Value>
-  bool see(const ArchiveBatch& batch, const ArrivedSample<Value>& sample);
+  bool compare_with_stored(const ArchiveBatch& batch, const ArrivedSample<Value>& sample);
 
   /// Returns the notices on the samples seen since the last call.
   std::vector<RunNotice> take_notices() { return std::exchange(notices_, {}); }
@@ -54,8 +54,8 @@ class ContradictionWriter {
   RunPlace first_arrival(const std::string& run_id);
   void add_both(const ArchiveBatch& batch, const Entry& there, const std::string& there_value,
                 const Entry& came, const std::string& came_value);
-  void add(const ArchiveBatch& batch, const Entry& entry, const std::string& value, bool used,
-           std::optional<RunPlace> arrival);
+  void insert(const ArchiveBatch& batch, const Entry& entry, const std::string& value, bool used,
+              std::optional<RunPlace> arrival);
   void say_rounded(const ArchiveBatch& batch, const Entry& there, const Entry& came);
   void say_once(const ArchiveBatch& batch, std::string_view code, const Entry& there,
                 const Entry& came, const char* what);

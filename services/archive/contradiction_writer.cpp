@@ -51,7 +51,8 @@ ContradictionWriter::ContradictionWriter(SQLite::Database& database)
            " AND source = ?"} {}
 
 template <class Value>
-bool ContradictionWriter::see(const ArchiveBatch& batch, const ArrivedSample<Value>& sample) {
+bool ContradictionWriter::compare_with_stored(const ArchiveBatch& batch,
+                                              const ArrivedSample<Value>& sample) {
   SQLite::Statement& find = find_[kTelemetryKind<Value>];
   find.tryReset();
   find.bindNoCopy(1, sample.spacecraft);
@@ -82,7 +83,7 @@ bool ContradictionWriter::see(const ArchiveBatch& batch, const ArrivedSample<Val
       say_rounded(batch, there, came);
     }
     if (is_contested(batch.run_id, there)) {
-      add(batch, came, json_of_sample(sample.value), false, came.arrival);
+      insert(batch, came, json_of_sample(sample.value), false, came.arrival);
     } else if (came.origin.source == batch.preferred_source) {
       SQLite::Statement& take_over = take_over_[kTelemetryKind<Value>];
       execute(take_over, sample.spacecraft, tai_ns(there.t), came.origin.source,
@@ -95,12 +96,18 @@ bool ContradictionWriter::see(const ArchiveBatch& batch, const ArrivedSample<Val
   return true;
 }
 
-template bool ContradictionWriter::see(const ArchiveBatch&, const ArrivedSample<CodedFrame>&);
-template bool ContradictionWriter::see(const ArchiveBatch&, const ArrivedSample<GyroSample>&);
-template bool ContradictionWriter::see(const ArchiveBatch&, const ArrivedSample<StarFix>&);
-template bool ContradictionWriter::see(const ArchiveBatch&, const ArrivedSample<SunDirection>&);
-template bool ContradictionWriter::see(const ArchiveBatch&, const ArrivedSample<MagneticField>&);
-template bool ContradictionWriter::see(const ArchiveBatch&, const ArrivedSample<TimedOrbitState>&);
+template bool ContradictionWriter::compare_with_stored(const ArchiveBatch&,
+                                                       const ArrivedSample<CodedFrame>&);
+template bool ContradictionWriter::compare_with_stored(const ArchiveBatch&,
+                                                       const ArrivedSample<GyroSample>&);
+template bool ContradictionWriter::compare_with_stored(const ArchiveBatch&,
+                                                       const ArrivedSample<StarFix>&);
+template bool ContradictionWriter::compare_with_stored(const ArchiveBatch&,
+                                                       const ArrivedSample<SunDirection>&);
+template bool ContradictionWriter::compare_with_stored(const ArchiveBatch&,
+                                                       const ArrivedSample<MagneticField>&);
+template bool ContradictionWriter::compare_with_stored(const ArchiveBatch&,
+                                                       const ArrivedSample<TimedOrbitState>&);
 
 void ContradictionWriter::settle(const std::string& run_id,
                                  const SampleContradiction& contradiction) {
@@ -144,8 +151,8 @@ void ContradictionWriter::add_both(const ArchiveBatch& batch, const Entry& there
                                    const std::string& came_value) {
   const bool is_of_run = there.arrival >= first_arrival(batch.run_id);
   const bool is_first = !is_of_run && !is_contested(batch.run_id, there);
-  add(batch, there, there_value, is_of_run, std::nullopt);
-  add(batch, came, came_value, is_first, came.arrival);
+  insert(batch, there, there_value, is_of_run, std::nullopt);
+  insert(batch, came, came_value, is_first, came.arrival);
   if (is_first) {
     say_once(batch, "contradicts_earlier_run", there, came,
              "samples have other values than an earlier run has of their time, there from {0}, "
@@ -190,9 +197,9 @@ void ContradictionWriter::end_write(bool is_stored) {
   notices_.clear();
 }
 
-void ContradictionWriter::add(const ArchiveBatch& batch, const Entry& entry,
-                              const std::string& value, bool used,
-                              std::optional<RunPlace> arrival) {
+void ContradictionWriter::insert(const ArchiveBatch& batch, const Entry& entry,
+                                 const std::string& value, bool used,
+                                 std::optional<RunPlace> arrival) {
   execute(add_, batch.run_id, batch.spacecraft_id, entry.kind, tai_ns(entry.t), entry.origin.source,
           static_cast<std::int64_t>(entry.origin.session),
           static_cast<std::int64_t>(entry.origin.seq), value, used, arrival);

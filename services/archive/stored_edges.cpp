@@ -153,7 +153,7 @@ void read_uses(SQLite::Database& database, StoredEdges& stored) {
                           " WHERE run_id = ? AND revolution IS NOT NULL ORDER BY t_tai_ns"};
   query.bind(1, stored.run_id);
   while (query.executeStep()) {
-    stored.pass.note(SpinProduct{use_of(query)});
+    stored.pass.collect(SpinProduct{use_of(query)});
   }
 }
 
@@ -164,7 +164,7 @@ void read_estimate(SQLite::Database& database, SpinEstimator estimator, StoredEd
   query.bind(1, stored.run_id);
   query.bind(2, std::string{name_of(estimator)});
   if (query.executeStep()) {
-    stored.pass.note(SpinProduct{
+    stored.pass.collect(SpinProduct{
         SpinEstimate{.t = {},
                      .estimator = estimator,
                      .axis_icrf = axis_of(query),
@@ -198,7 +198,7 @@ void read_last_fix(SQLite::Database& database, StoredEdges& stored) {
     }
   }
   if (fix) {
-    stored.pass.note(SpinProduct{*std::move(fix)});
+    stored.pass.collect(SpinProduct{*std::move(fix)});
   }
 }
 

@@ -28,7 +28,7 @@ Exclusions<SampleKind> read_exclusions(SQLite::Database& database,
     const std::string run_id = query.getColumn(0).getString();
     for (const OperatorAction& action :
          read_actions_of_run(database, run_id, SpacecraftKind::ThreeAxis)) {
-      std::visit([&](const auto& what) { excluded.add(action.t.value(), what); },
+      std::visit([&](const auto& what) { excluded.apply(action.t.value(), what); },
                  std::get<AttitudeAction>(action.does));
     }
   }

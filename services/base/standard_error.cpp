@@ -44,7 +44,7 @@ std::thread thread_without_signals(Work work) {
 
 StandardError::StandardError()
     : real_{stderr},
-      stream_{fopencookie(this, "w", {nullptr, &StandardError::take, nullptr, nullptr})} {
+      stream_{fopencookie(this, "w", {nullptr, &StandardError::write, nullptr, nullptr})} {
   waiting_.reserve(kMostWaiting);  // Taking a message must not fail for lack of memory.
   std::setvbuf(stream_, nullptr, _IOLBF, kLongestLine);
   thread_ = thread_without_signals([this] { run(); });
@@ -73,7 +73,7 @@ bool StandardError::close() {
   return true;
 }
 
-ssize_t StandardError::take(void* self, const char* text, std::size_t size) {
+ssize_t StandardError::write(void* self, const char* text, std::size_t size) {
   auto& me = *static_cast<StandardError*>(self);
   {
     const std::lock_guard lock{me.mutex_};

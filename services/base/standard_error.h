@@ -36,7 +36,7 @@ class StandardError {
   [[nodiscard]] bool close();
 
  private:
-  static ssize_t take(void* self, const char* text, std::size_t size);
+  static ssize_t write(void* self, const char* text, std::size_t size);
   void run();
 
   std::FILE* const real_;

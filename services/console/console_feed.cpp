@@ -57,7 +57,7 @@ void ConsoleFeed::put(const std::string& spacecraft, const std::string& run_id,
                       const Product& product) {
   const std::lock_guard lock{mutex_};
   if (const auto* const alert = std::get_if<Alert>(&product)) {
-    ring_.add("alert", put_alert(spacecraft, run_id, *alert));
+    ring_.append("alert", put_alert(spacecraft, run_id, *alert));
     return;
   }
   const auto shown = shown_.find(spacecraft);
@@ -68,11 +68,11 @@ void ConsoleFeed::put(const std::string& spacecraft, const std::string& run_id,
   std::visit(
       [&]<class Kind>(const Kind& is) {
         if constexpr (!kEvent<Kind>.empty()) {
-          nlohmann::json row = shown->second.take(is);
+          nlohmann::json row = shown->second.show(is);
           row["spacecraft"] = spacecraft;
-          ring_.add(kEvent<Kind>, row);
+          ring_.append(kEvent<Kind>, row);
         } else if constexpr (std::is_same_v<Kind, ReconstructionProduct>) {
-          shown->second.take(is);
+          shown->second.show(is);
         }
       },
       product);
@@ -114,10 +114,10 @@ void ConsoleFeed::put(const Health& health) {
   last_health_ = std::chrono::steady_clock::now();
   for (const SpacecraftHealth& one : health.spacecraft) {
     if (const auto shown = shown_.find(one.spacecraft); shown != shown_.end()) {
-      shown->second.take(one);
+      shown->second.show(one);
     }
   }
-  ring_.add("health", service_);
+  ring_.append("health", service_);
 }
 
 void ConsoleFeed::put(const StoredAlert& stored) {
@@ -142,25 +142,25 @@ void ConsoleFeed::put(const std::string& spacecraft, const std::string& run_id,
                       const PassVerdict& verdict) {
   const std::lock_guard lock{mutex_};
   if (ShownSpacecraft& shown = shown_.at(spacecraft); shown.run_id() == run_id) {
-    shown.take(verdict);
+    shown.show(verdict);
   }
 }
 
 void ConsoleFeed::put(const std::string& spacecraft, const SpinTarget& target) {
   const std::lock_guard lock{mutex_};
-  shown_.at(spacecraft).take(target);
+  shown_.at(spacecraft).show(target);
 }
 
 void ConsoleFeed::tell_state() {
   const std::lock_guard lock{mutex_};
-  ring_.add("state", state_now());
+  ring_.append("state", state_now());
 }
 
 void ConsoleFeed::tell_pulses() {
   const std::lock_guard lock{mutex_};
   for (auto& [spacecraft, shown] : shown_) {
     if (nlohmann::json pulses = shown.take_pulses(); !pulses.empty()) {
-      ring_.add("pulse", {{"spacecraft", spacecraft}, {"pulses", std::move(pulses)}});
+      ring_.append("pulse", {{"spacecraft", spacecraft}, {"pulses", std::move(pulses)}});
     }
   }
 }

@@ -13,7 +13,7 @@ constexpr std::size_t kBytesAtOnce = 65'536;
 
 }  // namespace
 
-void EventRing::add(std::string_view event, const nlohmann::json& data) {
+void EventRing::append(std::string_view event, const nlohmann::json& data) {
   texts_.push_back(
       fmt::format("id: {}\nevent: {}\ndata: {}\n", ++last_id_, event, json_line(data)));
   bytes_ += texts_.back().size();

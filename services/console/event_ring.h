@@ -20,7 +20,7 @@ class EventRing {
   ///        lets a viewer from before the start receive everything new.
   explicit EventRing(std::uint64_t id) : last_id_{id} {}
 
-  void add(std::string_view event, const nlohmann::json& data);
+  void append(std::string_view event, const nlohmann::json& data);
 
   struct News {
     std::string text;

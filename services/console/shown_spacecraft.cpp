@@ -121,7 +121,7 @@ void ShownSpacecraft::show(const std::string& run_id) {
   }
 }
 
-nlohmann::json ShownSpacecraft::take(const SpinEstimate& estimate) {
+nlohmann::json ShownSpacecraft::show(const SpinEstimate& estimate) {
   nlohmann::json row = answer_json(estimate);
   if (estimate.estimator == SpinEstimator::Batch && bound_deg_ && bound_deg_->first == estimate.t) {
     row["bound_deg"] = bound_deg_->second;
@@ -130,7 +130,7 @@ nlohmann::json ShownSpacecraft::take(const SpinEstimate& estimate) {
   return row;
 }
 
-nlohmann::json ShownSpacecraft::take(const SpinFix& fix) {
+nlohmann::json ShownSpacecraft::show(const SpinFix& fix) {
   nlohmann::json row = json_of(fix);
   for (const char* const name :
        {"geometry_case", "resolution", "alternate_ra_deg", "alternate_dec_deg"}) {
@@ -139,7 +139,7 @@ nlohmann::json ShownSpacecraft::take(const SpinFix& fix) {
   return row;
 }
 
-nlohmann::json ShownSpacecraft::take(const AttitudeEstimate& attitude) {
+nlohmann::json ShownSpacecraft::show(const AttitudeEstimate& attitude) {
   nlohmann::json row = answer_json(attitude);
   answers_["source"] = row["source"];
   answers_["q_icrf_body"] = {row["qx"], row["qy"], row["qz"], row["qw"]};
@@ -151,7 +151,7 @@ nlohmann::json ShownSpacecraft::take(const AttitudeEstimate& attitude) {
   return row;
 }
 
-void ShownSpacecraft::take(const ReconstructionProduct& separation) {
+void ShownSpacecraft::show(const ReconstructionProduct& separation) {
   nlohmann::json events = nlohmann::json::array();
   for (const nlohmann::json& event : answers_.value("reconstruction", nlohmann::json::array())) {
     if (event["method"] != method_of(separation)) {
@@ -180,7 +180,7 @@ void ShownSpacecraft::take_details(const ArchiveBatch& stored) {
     } else if (const auto* const sample = std::get_if<SampleObservation>(&product)) {
       ledger_.add({&sample->said, 1});
     } else if (const auto* const measured = std::get_if<SpinMeasurement>(&product)) {
-      note(*measured);
+      remember(*measured);
     } else if (const auto* const turn = std::get_if<RevolutionProduct>(&product)) {
       periods_s_.insert_or_assign(turn->t_sun1, turn->period_s);
     } else if (const auto* const batch = std::get_if<BatchProduct>(&product)) {
@@ -188,7 +188,7 @@ void ShownSpacecraft::take_details(const ArchiveBatch& stored) {
     }
   }
   for (const OperatorAction& action : stored.actions) {
-    take(action);
+    show(action);
   }
   keep_last(kActionsKept, actions_);
   keep_last(kMostEdgesAtOnce, edges_);
@@ -197,7 +197,7 @@ void ShownSpacecraft::take_details(const ArchiveBatch& stored) {
   }
 }
 
-void ShownSpacecraft::note(const SpinMeasurement& measurement) {
+void ShownSpacecraft::remember(const SpinMeasurement& measurement) {
   if (measurement.rejected_by && measurement.test) {
     failed_.insert_or_assign({measurement.revolution, measurement.quantity}, measurement);
     if (failed_.size() > kFailedKept) {
@@ -238,7 +238,7 @@ nlohmann::json ShownSpacecraft::residuals() const {
   return all;
 }
 
-void ShownSpacecraft::take(const OperatorAction& action) {
+void ShownSpacecraft::show(const OperatorAction& action) {
   actions_.push_back(action);
   const auto* const does = std::get_if<SpinAction>(&action.does);
   const auto* const said = does == nullptr ? nullptr : std::get_if<SetPrior>(does);

@@ -32,16 +32,16 @@ class ShownSpacecraft {
   /// @name Products of the run
   /// @return The JSON for viewers, for some products with further known data.
   /// @{
-  nlohmann::json take(const SpinEstimate& estimate);
-  nlohmann::json take(const SpinFix& fix);
-  nlohmann::json take(const AttitudeEstimate& attitude);
-  void take(const ReconstructionProduct& separation);
+  nlohmann::json show(const SpinEstimate& estimate);
+  nlohmann::json show(const SpinFix& fix);
+  nlohmann::json show(const AttitudeEstimate& attitude);
+  void show(const ReconstructionProduct& separation);
   /// @}
   void take_details(const ArchiveBatch& stored);
 
-  void take(const SpacecraftHealth& health) { health_ = health; }
-  void take(const PassVerdict& verdict) { verdict_ = verdict; }
-  void take(const SpinTarget& target) { target_ = target; }
+  void show(const SpacecraftHealth& health) { health_ = health; }
+  void show(const PassVerdict& verdict) { verdict_ = verdict; }
+  void show(const SpinTarget& target) { target_ = target; }
 
   /// Returns the spacecraft's part of /api/v1/state, without the go/no-go decision.
   nlohmann::json state();
@@ -52,8 +52,8 @@ class ShownSpacecraft {
   nlohmann::json take_pulses();
 
  private:
-  void take(const OperatorAction& action);
-  void note(const SpinMeasurement& measurement);
+  void show(const OperatorAction& action);
+  void remember(const SpinMeasurement& measurement);
   nlohmann::json held_against(const PulseUse& edge) const;
   nlohmann::json residuals() const;
   nlohmann::json prior() const;

@@ -40,13 +40,13 @@ class Arrivals {
   /// Puts a sample of this service's spacecraft into `batch`, or the reason why it is rejected. A
   /// valid sample is only counted by `count`.
   template <class Value>
-  void take(const bus::MessageOf<Value>& message, std::int64_t written_ns, SampleBatch& batch) {
+  void accept(const bus::MessageOf<Value>& message, std::int64_t written_ns, SampleBatch& batch) {
     if (auto sample = from_idl<Value>(message)) {
       sample->place = {written_ns};
       batch.samples.template of<Value>().push_back(*std::move(sample));
     } else {
       const std::lock_guard lock{mutex_};
-      note<Value>(message, sample, batch);
+      count<Value>(message, sample, batch);
     }
   }
 
@@ -59,7 +59,7 @@ class Arrivals {
   void take_other(const bus::MessageOf<Value>& message) {
     const auto sample = from_idl<Value>(message);
     const std::lock_guard lock{mutex_};
-    if (note(message, sample, rest_)) {
+    if (count(message, sample, rest_)) {
       ++entry_of(rest_.others, sample->spacecraft).second;
     }
   }
@@ -74,8 +74,8 @@ class Arrivals {
  private:
   /// @return Whether the sample can be true.
   template <class Value>
-  bool note(const bus::MessageOf<Value>& message, const Expected<TelemetrySample<Value>>& sample,
-            SampleBatch& batch) {
+  bool count(const bus::MessageOf<Value>& message, const Expected<TelemetrySample<Value>>& sample,
+             SampleBatch& batch) {
     const Origin origin = sample ? sample->origin : origin_from_idl(message);
     tracker_.record(origin, message.spacecraft, kTelemetryKind<Value>);
     if (sample) {

@@ -243,7 +243,7 @@ Expected<void> TelemetrySubscriber::take_from(SampleBatch& batch) {
   while (taken && *taken == kTakenAtOnce && all < bus::kTelemetryReaderSamples) {
     taken = std::get<kTelemetryKind<Value>>(*readers_).take(
         [&](const bus::MessageOf<Value>& message, std::int64_t written_ns) {
-          arrivals_->take<Value>(message, written_ns, batch);
+          arrivals_->accept<Value>(message, written_ns, batch);
         });
     all += taken.value_or(0);
   }

@@ -21,7 +21,7 @@ namespace spindrift {
 template <class PassProduct>
 class LastAnswers {
  public:
-  void note(const PassProduct& product) {
+  void remember(const PassProduct& product) {
     if (!is_answer(product)) {
       return;
     }

@@ -128,7 +128,7 @@ class PassComputing {
   void finish(std::vector<Product>& products, const Note& note) {
     compute_or_fail(products, note, [&] {
       Output output = pass_.finish();
-      std::vector<RunNotice> notices = see(output, note);
+      std::vector<RunNotice> notices = notices_of(output, note);
       append(std::move(output), products);
       std::move(notices.begin(), notices.end(), std::back_inserter(products));
     });
@@ -142,10 +142,10 @@ class PassComputing {
   void compute(const PassInput& input, const Note& note, Computed& computed) {
     in_order_of_arrival(
         input.values, input.silences, input.actions,
-        [&](const auto& placed) { take(placed, note, computed); },
+        [&](const auto& placed) { process(placed, note, computed); },
         [&](BatchPlace /*place*/) {
           Output output = pass_.fall_silent();
-          std::vector<RunNotice> notices = see(output, note);
+          std::vector<RunNotice> notices = notices_of(output, note);
           keep(std::move(output), std::move(notices), std::nullopt, computed);
           if constexpr (requires { note(FellSilent{}); }) {
             note(FellSilent{});
@@ -154,19 +154,19 @@ class PassComputing {
   }
 
   template <class Value, class Note>
-  void take(const Placed<Value>& placed, const Note& note, Computed& computed) {
+  void process(const Placed<Value>& placed, const Note& note, Computed& computed) {
     // A pass ignores the kinds of telemetry that it has no `push` for.
     if constexpr (requires { pass_.push(placed.value); }) {
       reached_ = placed.value.t;
       Output output = pass_.push(placed.value);
-      std::vector<RunNotice> notices = see(output, note);
+      std::vector<RunNotice> notices = notices_of(output, note);
       keep(std::move(output), std::move(notices), placed.value.t, computed);
     }
   }
 
   /// An action gives no products itself; it only affects the samples after it.
   template <class Note>
-  void take(const Placed<OperatorAction>& placed, const Note& note, Computed& /*computed*/) {
+  void process(const Placed<OperatorAction>& placed, const Note& note, Computed& /*computed*/) {
     const OperatorAction& action = placed.value;
     std::visit(
         [&](const auto& does) {
@@ -181,7 +181,7 @@ class PassComputing {
   }
 
   template <class Note>
-  std::vector<RunNotice> see(Output& output, const Note& note) {
+  std::vector<RunNotice> notices_of(Output& output, const Note& note) {
     withheld_.take_from(output, answers_);
     std::vector<RunNotice> notices;
     for (PassProduct& product : output.products) {

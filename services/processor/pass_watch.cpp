@@ -2,16 +2,16 @@
 
 namespace spindrift {
 
-PassWatch::Verdict PassWatch::see(TaiTime t, std::size_t kind) {
+PassWatch::Verdict PassWatch::judge(TaiTime t, std::size_t kind) {
   if (reached_ && t <= *reached_) {
     ++within_;
-    jump_.note(kind);
+    jump_.register_kind(kind);
     return Verdict::Within;
   }
   const bool silent = reached_ && t - *reached_ > kLongestSilence;
   if (silent) {
     ++beyond_;
-    jump_.see(t, kind);
+    jump_.add_ahead(t, kind);
     if (!jump_.has_shown()) {
       return Verdict::Undecided;
     }

@@ -29,7 +29,7 @@ class PassWatch {
   enum class Verdict { Within, Onward, Undecided, NewPass };
 
   /// @param kind Kind of the sample as kTelemetryKind.
-  Verdict see(TaiTime t, std::size_t kind);
+  Verdict judge(TaiTime t, std::size_t kind);
 
   /// Returns whether the samples from beyond are a new pass, given that no more samples come.
   bool ends_in_new_pass() const { return jump_.could_be() && within_ >= kEnoughToAccept; }

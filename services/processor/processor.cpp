@@ -194,7 +194,7 @@ Routed Processor::route(SampleBatch samples, const Moment& moment) {
   }
   Routed routed;
   for (auto& [run, of_run] : by_run) {
-    add(runs_.at(run).take(std::move(of_run), moment), routed);
+    add(runs_.at(run).receive(std::move(of_run), moment), routed);
   }
   if (!told_of_others_.empty() && runs_.front().has_begun()) {
     // As with rejected input, these notices are stored with the first run.
@@ -267,7 +267,7 @@ std::vector<BackgroundTask> Processor::take_background_tasks(const PassInput& wo
                     passes_.at(work.spacecraft));
 }
 
-std::vector<ArchiveBatch> Processor::take(SampleBatch samples) {
+std::vector<ArchiveBatch> Processor::process(SampleBatch samples) {
   Routed routed = route(std::move(samples));
   std::vector<ArchiveBatch> batches = std::move(routed.samples);
   for (const PassInput& work : routed.work) {

@@ -83,7 +83,7 @@ class Processor {
   std::vector<BackgroundTask> take_background_tasks(const PassInput& work);
 
   /// Calls `route` and `compute`, for callers with one thread.
-  std::vector<ArchiveBatch> take(SampleBatch samples);
+  std::vector<ArchiveBatch> process(SampleBatch samples);
 
   std::vector<ArchiveBatch> finish();
   /// Finishes one spacecraft's run. @param spacecraft Index as in PassInput::spacecraft.

@@ -32,7 +32,7 @@ class ReachWatch {
 
   explicit ReachWatch(std::optional<Contact> contact) : contact_{contact} {}
 
-  void note(TaiTime t);
+  void advance_to(TaiTime t);
   /// Notes that the pass has reached `t` (PassWatch). A sample with a wrong time does not get here.
   void carry_on(TaiTime t);
 

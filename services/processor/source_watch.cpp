@@ -39,8 +39,8 @@ SourceWatch::Place SourceWatch::place_of(const Source& source, std::optional<Rea
 }
 
 void SourceWatch::note_level(Source& source, TaiTime t, const Moment& moment) {
-  source.time.see(t);
-  pass_.see(t);
+  source.time.advance_to(t);
+  pass_.advance_to(t);
   pass_heard_ = moment.now;
   ++carried_;
   source.carries = true;
@@ -62,7 +62,7 @@ void SourceWatch::note_apart(Source& source, TaiTime t, bool counts, const Momen
     source.carried = carried_;
     source.alone = 0;
   }
-  if (source.time.see(t) && counts) {
+  if (source.time.advance_to(t) && counts) {
     ++source.alone;
   }
 }

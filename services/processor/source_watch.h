@@ -68,7 +68,7 @@ class SourceWatch {
   explicit SourceWatch(const Pace& pace) : pace_{pace} {}
 
   template <class Value>
-  Verdict see(const Origin& origin, const Arrived<Value>& arrived, const Moment& moment) {
+  Verdict admit(const Origin& origin, const Arrived<Value>& arrived, const Moment& moment) {
     const Verdict verdict = judge(origin, arrived.value.t, moment);
     if (verdict == Verdict::Apart) {
       hold(arrived);
@@ -115,7 +115,7 @@ class SourceWatch {
   /// @name To be called after a restart, in this order
   /// @{
   void restore(TaiTime in_time, const Moment& moment) {
-    pass_.see(in_time);
+    pass_.advance_to(in_time);
     pass_heard_ = moment.now;
   }
   /// Restores a source that gave stored samples that are in time.

@@ -183,7 +183,7 @@ void SpacecraftRun::go_on(const StoredPass& stored, const Moment& moment, Taken&
           hand_on(arrived, out.inputs);
         } else {
           received_.count(arrived.value);
-          reach_.note(arrived.value.t);
+          reach_.advance_to(arrived.value.t);
           sources_.restore(arrived.value.t, moment);
           place(arrived, out);
         }
@@ -191,7 +191,7 @@ void SpacecraftRun::go_on(const StoredPass& stored, const Moment& moment, Taken&
       [&](RunPlace arrival) { hand_on_silence(arrival, out.inputs); });
 }
 
-SpacecraftRun::Taken SpacecraftRun::take(SampleBatch samples, const Moment& moment) {
+SpacecraftRun::Taken SpacecraftRun::receive(SampleBatch samples, const Moment& moment) {
   if (!has_begun() && size_of(samples) == 0) {
     // Counts without samples belong to samples of another service; the run takes them later.
     static_cast<void>(source_counts(samples.counts));
@@ -359,8 +359,8 @@ SourceWatch::Verdict SpacecraftRun::judge(const TelemetrySample<Value>& sample,
     sources_.hear(sample.origin, moment);
     return SourceWatch::Verdict::InTime;
   }
-  return sources_.see(sample.origin,
-                      Arrived<Value>{.arrival = next_arrival_, .value = sample.value}, moment);
+  return sources_.admit(sample.origin,
+                        Arrived<Value>{.arrival = next_arrival_, .value = sample.value}, moment);
 }
 
 /// Accepts held samples in the order in which they came, with new arrivals.
@@ -368,7 +368,7 @@ void SpacecraftRun::accept(const TelemetryValues& held, Taken& out) {
   in_order_of_arrival(held, [&]<class Value>(const Arrived<Value>& left_out) {
     const Arrived<Value> arrived{.arrival = new_arrival(), .value = left_out.value};
     received_.count(arrived.value);
-    reach_.note(arrived.value.t);
+    reach_.advance_to(arrived.value.t);
     out.batches.back().moved.of<Value>().push_back(arrived);
     place(arrived, out);
   });
@@ -378,7 +378,7 @@ template <class Value>
 void SpacecraftRun::accept(TelemetrySample<Value>&& sample, Taken& out) {
   ArrivedSample<Value> taken = arrived(std::move(sample));
   received_.count(taken.value);
-  reach_.note(taken.value.t);
+  reach_.advance_to(taken.value.t);
   if (!is_known(taken.value)) {
     place(Arrived<Value>{.arrival = taken.arrival, .value = taken.value}, out);
   }
@@ -407,7 +407,7 @@ bool SpacecraftRun::is_known(const Value& value) {
 
 template <class Value>
 void SpacecraftRun::place(const Arrived<Value>& arrived, Taken& out) {
-  const PassWatch::Verdict verdict = watch_.see(arrived.value.t, kTelemetryKind<Value>);
+  const PassWatch::Verdict verdict = watch_.judge(arrived.value.t, kTelemetryKind<Value>);
   if (verdict == PassWatch::Verdict::Within) {
     hand_on(arrived.value, out.inputs);
   } else if (verdict == PassWatch::Verdict::Onward) {

@@ -91,12 +91,12 @@ class SpacecraftRun {
   };
   Taken begin();
 
-  /// Called instead of `begin`: the run begins with the first samples or actions that `take` gets.
+  /// Called instead of `begin`: the run begins with the first samples or actions that `receive` gets.
   /// @param notice Stored with the run when it begins.
   void begin_later(RunNotice notice) { begins_with_ = std::move(notice); }
   bool has_begun() const { return !begins_with_; }
 
-  Taken take(SampleBatch samples, const Moment& moment);
+  Taken receive(SampleBatch samples, const Moment& moment);
 
   /// Inserts a silence among the samples because none came for a while. Does nothing when no sample
   /// has come since the last silence.

@@ -142,7 +142,7 @@ bool SpinRun::expects_solution() const {
 void SpinRun::note(const SpinOutput& output) {
   for (const SpinProduct& product : output.products) {
     summary_.count(product);
-    edges_.note(product);
+    edges_.collect(product);
     if (const auto* estimate = std::get_if<SpinEstimate>(&product)) {
       note_time(estimate->t);
     }

@@ -28,7 +28,7 @@ constexpr bool are_apart(TaiTime a, TaiTime b, std::chrono::nanoseconds limit = 
 class SteadyTime {
  public:
   /// @return Whether the sample is later than the one before it, or starts a new sequence.
-  bool see(TaiTime t) {
+  bool advance_to(TaiTime t) {
     const bool begins = in_a_row_ == 0 || are_apart(recent_, t);
     if (!begins && t <= recent_) {
       return false;

@@ -105,7 +105,7 @@ void ThreeAxisRun::record(const Placed<Value>& placed) {
 void ThreeAxisRun::record(const Placed<OperatorAction>& placed) {
   const OperatorAction& action = placed.value;
   if (const auto* const does = std::get_if<AttitudeAction>(&action.does)) {
-    std::visit([&](const auto& what) { excluded_.add(action.t.value(), what); }, *does);
+    std::visit([&](const auto& what) { excluded_.apply(action.t.value(), what); }, *does);
     if (record_->forget(excluded_)) {
       has_forgotten_ = true;
       if (plan_ == SolvingPlan::Meanwhile) {

@@ -42,7 +42,7 @@ class Withheld {
     for (PassProduct& product : std::exchange(output.products, {})) {
       const auto why = why_withheld(product);
       if (!why) {
-        answers.note(product);
+        answers.remember(product);
         output.products.push_back(std::move(product));
         continue;
       }

@@ -70,7 +70,7 @@ Expected<void> act(const ActOptions& options) {
 
 nlohmann::json answer_action(nlohmann::json request, ActionInbox& inbox) {
   request.erase("do");
-  const auto taken = inbox.take(request);
+  const auto taken = inbox.submit(request);
   return taken ? nlohmann::json{{"action_id", *taken}}
                : nlohmann::json{{"error", taken.error().message}};
 }

@@ -33,7 +33,7 @@ bool is_estimate(const Product& product) {
 Announcer::Announcer(const ResultPublisher& publisher, ConsoleFeed* feed, ServiceTerminal& terminal,
                      ThreadFailures& failures)
     : publisher_{publisher}, feed_{feed}, terminal_{terminal}, thread_{[this, &failures] {
-        failures.note(contained("announcing", [this] { run(); }));
+        failures.report(contained("announcing", [this] { run(); }));
       }} {}
 
 Announcer::~Announcer() {
@@ -43,12 +43,12 @@ Announcer::~Announcer() {
 
 void Announcer::go_on(const std::string& run_id, const std::string& spacecraft,
                       StoredResults stored) {
-  waiting_.add(spacecraft, run_id, stored.in_force());
+  waiting_.enqueue(spacecraft, run_id, stored.in_force());
   announced_before_.insert_or_assign(run_id, std::move(stored));
 }
 
 void Announcer::announce(const ArchiveBatch& batch) {
-  waiting_.add(batch.spacecraft_id, batch.run_id, batch.products);
+  waiting_.enqueue(batch.spacecraft_id, batch.run_id, batch.products);
 }
 
 void Announcer::committed(std::span<const ArchiveBatch> batches) {
@@ -59,16 +59,16 @@ void Announcer::committed(std::span<const ArchiveBatch> batches) {
     if (unannounced_.contains(batch.run_id)) {
       continue;
     }
-    terminal_.note(batch);
+    terminal_.count(batch);
     if (feed_ != nullptr) {
       feed_->put_details(batch);
     }
     if (const auto before = announced_before_.find(batch.run_id);
         before == announced_before_.end()) {
-      waiting_.add(batch.spacecraft_id, batch.run_id, batch.products, batch.came);
+      waiting_.enqueue(batch.spacecraft_id, batch.run_id, batch.products, batch.came);
     } else {
-      waiting_.add(batch.spacecraft_id, batch.run_id, news(batch.products, before->second),
-                   batch.came);
+      waiting_.enqueue(batch.spacecraft_id, batch.run_id, news(batch.products, before->second),
+                       batch.came);
     }
   }
 }

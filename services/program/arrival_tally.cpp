@@ -40,7 +40,7 @@ void note_samples(const Samples& samples, TalliedArrivals& arrivals) {
 
 }  // namespace
 
-void ArrivalTally::note(const ArchiveBatch& batch) {
+void ArrivalTally::count(const ArchiveBatch& batch) {
   const std::lock_guard lock{mutex_};
   TalliedArrivals& arrivals = by_spacecraft_[batch.spacecraft_id];
   if (batch.start || batch.continuation) {

@@ -26,7 +26,7 @@ struct TalliedArrivals {
 class ArrivalTally {
  public:
   /// Counts the samples and revolutions of `batch`; samples left out of processing are not counted.
-  void note(const ArchiveBatch& batch);
+  void count(const ArchiveBatch& batch);
 
   TalliedArrivals of(const std::string& spacecraft) const;
 

@@ -35,9 +35,9 @@ class Telling {
       : span_{span_of(*model)}, comparison_{std::move(model), band_sigmas} {}
 
   template <class Sample>
-  void see(const Sample& sample) {
+  void compare(const Sample& sample) {
     if (sample.t >= span_.from && sample.t <= span_.to) {
-      note(comparison_.see(sample));
+      note(comparison_.compare(sample));
     }
   }
   void finish() { note(comparison_.finish()); }
@@ -75,7 +75,7 @@ Expected<void> see_files(const CompareOptions& options, const std::string& space
     }
     in_order_of_arrival(batch->samples, [&](const auto& sample) {
       if (sample.spacecraft == spacecraft_id) {
-        telling.see(sample.value);
+        telling.compare(sample.value);
       }
     });
   }
@@ -88,7 +88,7 @@ Expected<void> see_archive(const CompareOptions& options, const Mission& mission
   return find_telemetry(options.db, mission.spacecraft_id, mission.preferred_source,
                         telling.span().from, telling.span().to)
       .map([&](const PlacedValues& values) {
-        in_order_of_arrival(values, [&](const auto& arrived) { telling.see(arrived.value); });
+        in_order_of_arrival(values, [&](const auto& arrived) { telling.compare(arrived.value); });
       });
 }
 
@@ -119,7 +119,8 @@ Expected<std::string> store(const CompareOptions& options, const Mission& missio
   if (const auto open = take_up_departures(options.db, mission.spacecraft_id, desk); !open) {
     return Unexpected{open.error()};
   }
-  return Archive::open(options.db, {.on_submit = [&](ArchiveBatch& batch) { desk.see(batch); }})
+  return Archive::open(options.db,
+                       {.on_submit = [&](ArchiveBatch& batch) { desk.evaluate(batch); }})
       .and_then([&](std::unique_ptr<Archive>&& archive) {
         ArchiveBatch last{.run_id = {}, .spacecraft_id = mission.spacecraft_id};
         const auto stored = processor->arrive_after(options.db)

@@ -52,7 +52,7 @@ Expected<bool> run(Processor& processor, TelemetryInput& telemetry, Archive& arc
     if (is_empty(*batch)) {
       return submit_all(archive, processor.finish()).map([] { return true; });
     }
-    if (auto stored = submit_all(archive, processor.take(std::move(*batch))); !stored) {
+    if (auto stored = submit_all(archive, processor.process(std::move(*batch))); !stored) {
       return Unexpected{stored.error()};
     }
     progress.advance_to(telemetry.bytes_given());
@@ -154,7 +154,7 @@ Expected<bool> process(const ProcessOptions& options) {
   }
   AlertDesk desk{{*mission}, RunMode::Process, *models};
   auto archive =
-      Archive::open(options.db, {.on_submit = [&](ArchiveBatch& batch) { desk.see(batch); }});
+      Archive::open(options.db, {.on_submit = [&](ArchiveBatch& batch) { desk.evaluate(batch); }});
   if (!archive) {
     return Unexpected{archive.error()};
   }

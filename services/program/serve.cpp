@@ -200,13 +200,13 @@ Expected<std::unique_ptr<Archive>> open_archive(const std::filesystem::path& db,
                                                 DisagreementNotices& disagreements,
                                                 StoredActions& actions, ThreadFailures& failures) {
   return Archive::open(db, {.on_write_failure = OnWriteFailure::Retry,
-                            .on_submit = [&](ArchiveBatch& batch) { desk.see(batch); },
+                            .on_submit = [&](ArchiveBatch& batch) { desk.evaluate(batch); },
                             .on_refused = [&](const ArchiveBatch& batch) { desk.take_back(batch); },
                             .on_committed =
                                 [&](std::span<const ArchiveBatch> stored) {
                                   desk.note_stored(stored);
-                                  actions.note(stored);
-                                  failures.note(contained("announcing", [&] {
+                                  actions.confirm(stored);
+                                  failures.report(contained("announcing", [&] {
                                     announcer.committed(stored);
                                     disagreements.tell(stored);
                                     note_faults(stored, problems);

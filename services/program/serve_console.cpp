@@ -42,7 +42,7 @@ Expected<std::unique_ptr<ConsoleServer>> start_console(const ServeOptions& optio
       {.feed = *feed,
        .desk = desk,
        .archive = archive,
-       .act = [&inbox](const nlohmann::json& action) { return inbox.take(action); }});
+       .act = [&inbox](const nlohmann::json& action) { return inbox.submit(action); }});
   if (console) {
     spdlog::info("console {}", (*console)->url());
   }

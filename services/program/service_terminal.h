@@ -41,7 +41,7 @@ class ServiceTerminal {
   bool has_status_line() const { return as_ == TellAs::StatusLine; }
 
   /// Counts the arrivals in a stored batch of a run of the service.
-  void note(const ArchiveBatch& stored) { arrivals_.note(stored); }
+  void count(const ArchiveBatch& stored) { arrivals_.count(stored); }
   /// Logs a change of an alert. Call it in the order of changes.
   void tell(const std::string& spacecraft, const std::string& run_id, const Alert& alert);
   /// Call it every second. It reminds of continuing silences and draws the status line of each

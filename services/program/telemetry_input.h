@@ -23,7 +23,7 @@ struct BadRows {
   std::uint64_t count = 0;
   std::vector<RejectedInput> first = {};
 
-  void add(const RejectedInput& row);
+  void report(const RejectedInput& row);
   std::string text() const;
 };
 

@@ -54,9 +54,9 @@ void keep_latest_of_each(std::vector<Announcement>& announcements) {
 
 }  // namespace
 
-void Announcements::add(const std::string& spacecraft, const std::string& run_id,
-                        std::span<const Product> products,
-                        std::optional<std::chrono::steady_clock::time_point> came) {
+void Announcements::enqueue(const std::string& spacecraft, const std::string& run_id,
+                            std::span<const Product> products,
+                            std::optional<std::chrono::steady_clock::time_point> came) {
   std::vector<Announcement> more;
   for (const Product& product : products) {
     if (is_announced(product)) {

@@ -30,9 +30,9 @@ class Announcements {
   static constexpr std::size_t kMaxWaiting = 4096;
 
   /// Adds those of `products` that are announced. @param came As ArchiveBatch::came.
-  void add(const std::string& spacecraft, const std::string& run_id,
-           std::span<const Product> products,
-           std::optional<std::chrono::steady_clock::time_point> came = {});
+  void enqueue(const std::string& spacecraft, const std::string& run_id,
+               std::span<const Product> products,
+               std::optional<std::chrono::steady_clock::time_point> came = {});
 
   /// Waits for at least one announcement and takes all. Those of a spacecraft and kind keep their
   /// order. Empty only when the queue is closed and drained.

@@ -19,7 +19,7 @@ void StoredActions::forget(const std::string& action_id) {
   awaited_.erase(action_id);
 }
 
-void StoredActions::note(std::span<const ArchiveBatch> stored) {
+void StoredActions::confirm(std::span<const ArchiveBatch> stored) {
   const std::lock_guard lock{mutex_};
   if (awaited_.empty()) {
     return;
@@ -37,7 +37,7 @@ bool StoredActions::wait(const std::string& action_id, std::chrono::seconds at_m
   return stored_.wait_for(lock, at_most, [&] { return !awaited_.contains(action_id); });
 }
 
-Expected<std::string> ActionInbox::take(const nlohmann::json& request) {
+Expected<std::string> ActionInbox::submit(const nlohmann::json& request) {
   return parse_action(request, known_)
       .and_then([&](const OperatorAction& action) -> Expected<std::string> {
         if (const auto failure = archive_.statistics().failure) {

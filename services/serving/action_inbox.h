@@ -34,7 +34,7 @@ class StoredActions {
   void forget(const std::string& action_id);
 
   /// Notes the actions stored by a commit.
-  void note(std::span<const ArchiveBatch> stored);
+  void confirm(std::span<const ArchiveBatch> stored);
 
   /// Waits until a registered action is stored.
   /// @return False when it is not stored within `at_most`.
@@ -58,7 +58,7 @@ class ActionInbox {
   /// Queues an action behind the samples that are queued already, even if the queue is full, and
   /// waits until it is stored. @return The action_id; errors as parse_action; Unavailable when the
   /// service stops, too many actions wait, or the action is not stored within 5 s.
-  Expected<std::string> take(const nlohmann::json& request);
+  Expected<std::string> submit(const nlohmann::json& request);
 
  private:
   KnownSpacecraft known_;

@@ -14,7 +14,7 @@ constexpr std::size_t kFewBatches = 8;
 
 }  // namespace
 
-Expected<void> Computing::take(PassInput input, std::size_t batches_behind) {
+Expected<void> Computing::enqueue(PassInput input, std::size_t batches_behind) {
   const bool is_little = sample_count(input) <= kFewSamples && batches_behind <= kFewBatches;
   // The queue of solutions must have room, because the routing thread must not wait for it.
   if (is_little && waiting_ == 0 && tasks_.is_roomy()) {

@@ -34,7 +34,7 @@ class Computing {
   /// @{
   /// @param batches_behind Number of batches that wait to be routed.
   /// @return The archive's refusal.
-  Expected<void> take(PassInput input, std::size_t batches_behind);
+  Expected<void> enqueue(PassInput input, std::size_t batches_behind);
   void leave_to_backlog(PassInput input);
   /// @}
 

@@ -34,7 +34,7 @@ SequenceCounts total(const TelemetrySubscriberStatus& status) {
 // A refusal of the archive is not reported here: whoever closes the archive gets the error.
 AlertOutbox::AlertOutbox(const ServiceParts& parts)
     : parts_{parts}, thread_{[this] {
-        parts_.failures.note(contained("storing alerts", [this] {
+        parts_.failures.report(contained("storing alerts", [this] {
           while (auto batch = waiting_.take()) {
             if (!parts_.archive.submit(*std::move(batch))) {
               return;
@@ -68,7 +68,7 @@ Heartbeat::Heartbeat(const ServiceParts& parts, const Heard& heard,
       verdicts_{parts.db, parts.processor.spacecraft(), parts.desk, parts.on_verdict,
                 parts.failures},
       thread_{[this](const std::stop_token& stop) {
-        parts_.failures.note(contained("heartbeat", [&] { run(stop); }));
+        parts_.failures.report(contained("heartbeat", [&] { run(stop); }));
       }} {}
 
 Heartbeat::~Heartbeat() = default;
@@ -99,7 +99,7 @@ void Heartbeat::beat() {
     supervise(*status);
   }
   if (!status->taking && !status->failure.empty() && !std::exchange(failed_, true)) {
-    parts_.failures.note(
+    parts_.failures.report(
         Unexpected{{ErrorCode::Unavailable, "not taking samples: " + status->failure}});
   }
 }
@@ -188,7 +188,7 @@ void Heartbeat::supervise(const TelemetrySubscriberStatus& status) {
     say_once(states.error().message);
     return;
   }
-  for (ArchiveBatch& batch : parts_.desk.see(*states, service_.t())) {
+  for (ArchiveBatch& batch : parts_.desk.evaluate(*states, service_.t())) {
     outbox_.push(std::move(batch));
   }
 }

@@ -10,7 +10,7 @@ LinkWatch::LinkWatch(const std::vector<std::string>& spacecraft) {
   }
 }
 
-void LinkWatch::note(const std::string& spacecraft, TaiTime t, Instant now) {
+void LinkWatch::hear(const std::string& spacecraft, TaiTime t, Instant now) {
   const std::lock_guard lock{mutex_};
   if (const auto found = last_.find(spacecraft); found != last_.end()) {
     found->second = Last{.t = t, .came = now};

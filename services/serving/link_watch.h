@@ -25,7 +25,7 @@ class LinkWatch {
   explicit LinkWatch(const std::vector<std::string>& spacecraft);
 
   /// Notes a sample with telemetry time `t`; ignores spacecraft that are not watched.
-  void note(const std::string& spacecraft, TaiTime t, Instant now);
+  void hear(const std::string& spacecraft, TaiTime t, Instant now);
 
   /// Notes after a restart that the telemetry had reached `t`, at an unknown wall-clock time.
   void go_on(const std::string& spacecraft, TaiTime t);
@@ -48,7 +48,7 @@ class SilenceWatch {
   using Instant = std::chrono::steady_clock::time_point;
   static constexpr std::chrono::seconds kSilence{1};
 
-  void note(const std::string& spacecraft, Instant now) { last_.insert_or_assign(spacecraft, now); }
+  void hear(const std::string& spacecraft, Instant now) { last_.insert_or_assign(spacecraft, now); }
 
   /// Returns when the next spacecraft falls silent if no sample comes; empty when none is heard.
   std::optional<Instant> next() const;

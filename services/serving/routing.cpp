@@ -15,13 +15,13 @@ namespace {
 void note_arrivals(const std::vector<ArchiveBatch>& samples, Heard& heard, SilenceWatch& silences) {
   const auto now = std::chrono::steady_clock::now();
   for (const ArchiveBatch& batch : samples) {
-    heard.sessions.note(batch);
+    heard.sessions.follow(batch);
     const auto note = [&](const auto& of_kind) {
       const auto last = std::find_if(of_kind.rbegin(), of_kind.rend(),
                                      [](const auto& sample) { return !is_left_out(sample); });
       if (last != of_kind.rend()) {
-        heard.links.note(batch.spacecraft_id, last->value.t, now);
-        silences.note(batch.spacecraft_id, now);
+        heard.links.hear(batch.spacecraft_id, last->value.t, now);
+        silences.hear(batch.spacecraft_id, now);
       }
     };
     batch.samples.for_each(note);
@@ -68,7 +68,7 @@ Expected<void> route(std::vector<PassInput> again, BoundedQueue<SampleBatch>& ta
     problems.set_sources(processor.source_problems());
     auto stored = submit_all(archive, std::move(routed.samples));
     for (auto input = routed.work.begin(); stored && input != routed.work.end(); ++input) {
-      stored = computing.take(std::move(*input), taken.size());
+      stored = computing.enqueue(std::move(*input), taken.size());
     }
     if (!stored) {
       return stored;

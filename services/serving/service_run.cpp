@@ -62,17 +62,17 @@ void route_and_compute(std::vector<PassInput> again, BoundedQueue<PassInput>& ba
   Computing computing{processor, archive, backlog, tasks, patience};
   std::atomic<std::size_t> solutions_left = 0;
   const auto solve = [&](BoundedQueue<BackgroundTask>& of) {
-    failures.note(contained("solving",
-                            [&] { solutions_left += solve_in_background(of, archive, patience); }));
+    failures.report(contained(
+        "solving", [&] { solutions_left += solve_in_background(of, archive, patience); }));
     of.close();
   };
   std::thread solving{[&] { solve(tasks.usual); }};
   std::thread solving_awaited{[&] { solve(tasks.awaited); }};
   std::thread working_off{[&] {
-    failures.note(contained("computing the backlog", [&] { return computing.work_off(); }));
+    failures.report(contained("computing the backlog", [&] { return computing.work_off(); }));
     backlog.close();
   }};
-  failures.note(contained("taking in", [&] {
+  failures.report(contained("taking in", [&] {
     return route(std::move(again), parts.taken, processor, archive, computing, heard,
                  parts.problems);
   }));
@@ -93,7 +93,7 @@ void route_and_compute(std::vector<PassInput> again, BoundedQueue<PassInput>& ba
                      computing.samples_left()));
     return;
   }
-  failures.note(contained("finishing", [&] {
+  failures.report(contained("finishing", [&] {
     return finish(processor, archive, patience).and_then(parts.on_finished);
   }));
 }
@@ -179,11 +179,11 @@ Expected<void> run_service(GoneOn gone_on, const ServiceParts& parts) {
     static_cast<void>(sd_notify(0, "STOPPING=1"));
     spdlog::info("stopping");
     patience.stopping = true;
-    parts.failures.note(contained("stopping", [&] { subscriber.stop(); }));
+    parts.failures.report(contained("stopping", [&] { subscriber.stop(); }));
     parts.taken.close();
   });
   const std::jthread watching{[&](const std::stop_token& done) {
-    parts.failures.note(contained(
+    parts.failures.report(contained(
         "watching the stop", [&] { lose_patience(done, patience, parts.taken, parts.archive); }));
   }};
   {

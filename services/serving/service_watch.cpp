@@ -105,7 +105,7 @@ ServiceState ServiceWatch::state_of_service(Instant now) {
           .pass_t = t_,
           .silent_s = std::nullopt,
           .late_s = std::nullopt,
-          .backlog_s = backlog_.see(now, heard_.sessions.samples(), archive.samples_committed),
+          .backlog_s = backlog_.update(now, heard_.sessions.samples(), archive.samples_committed),
           .write_failed = failed,
           .free_gib = free_gib(parts_.db),
           .clock_step_s = clock_step_s_};

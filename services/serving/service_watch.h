@@ -26,7 +26,7 @@ class BacklogWatch {
   /// @param committed Number of committed samples.
   /// @return Age of the oldest sample that is not committed, s, counted from the call that first
   /// saw it.
-  double see(Instant now, std::uint64_t come, std::uint64_t committed) {
+  double update(Instant now, std::uint64_t come, std::uint64_t committed) {
     if (looks_.empty() || looks_.back().come != come) {
       looks_.push_back({.at = now, .come = come});
     }

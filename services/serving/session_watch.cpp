@@ -21,7 +21,7 @@ void SessionWatch::go_on(const std::string& spacecraft, const LastOrigins& origi
   }
 }
 
-void SessionWatch::note(const ArchiveBatch& batch) {
+void SessionWatch::follow(const ArchiveBatch& batch) {
   const std::lock_guard lock{mutex_};
   samples_ += count_of(batch.samples);
   Spacecraft& one = spacecraft_[batch.spacecraft_id];

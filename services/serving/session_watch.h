@@ -31,7 +31,7 @@ class SessionWatch {
   void go_on(const std::string& spacecraft, const LastOrigins& origins,
              std::optional<TaiTime> newest);
 
-  void note(const ArchiveBatch& batch);
+  void follow(const ArchiveBatch& batch);
 
   /// Returns the record of each source of a spacecraft. @param missing Missing samples by source,
   /// over all spacecraft: it is unknown which of the source's spacecraft they belong to.

@@ -6,7 +6,7 @@
 
 namespace spindrift {
 
-void ThreadFailures::note(const Expected<void>& ended) {
+void ThreadFailures::report(const Expected<void>& ended) {
   if (ended) {
     return;
   }

@@ -13,7 +13,7 @@ class ThreadFailures {
  public:
   /// Notes how `contained` work ended. A failure is logged and stops the service in an orderly way.
   /// May be called from any thread.
-  void note(const Expected<void>& ended);
+  void report(const Expected<void>& ended);
 
   Expected<void> first() const;
 

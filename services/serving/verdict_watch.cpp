@@ -25,7 +25,7 @@ VerdictWatch::VerdictWatch(const std::filesystem::path& db, std::vector<std::str
       on_verdict_{std::move(on_verdict)},
       archive_{db},
       thread_{[this, &failures](const std::stop_token& stop) {
-        failures.note(contained("reading verdicts", [&] { run(stop); }));
+        failures.report(contained("reading verdicts", [&] { run(stop); }));
       }} {}
 
 PassVerdict VerdictWatch::of(const std::string& spacecraft) const {

@@ -160,7 +160,7 @@ Expected<RunSummary> processed(const std::filesystem::path& folder, const Simula
     return Processor::make({mission}, {.mode = RunMode::Process, .telemetry = {folder.string()}})
         .map([&](Processor&& processor) {
           processor.begin();
-          processor.take(batch_of(mission.spacecraft_id, pass.telemetry));
+          processor.process(batch_of(mission.spacecraft_id, pass.telemetry));
           processor.finish();
           return processor.summaries().front();
         });

@@ -96,8 +96,8 @@ template <class Pass, class Conditions>
 Bringing raising(const Pass& pass, const std::vector<AnySample>& samples, Conditions conditions) {
   Bringing bringing;
   for_each_product(pass, samples, [&](const auto& product, std::size_t i) {
-    if constexpr (requires { conditions.see(product); }) {
-      for (const ConditionChange& change : conditions.see(product)) {
+    if constexpr (requires { conditions.evaluate(product); }) {
+      for (const ConditionChange& change : conditions.evaluate(product)) {
         if (change.change == Change::Raised) {
           bringing.emplace(identity(change.t, alert_key(change.code, change.about), 1), i);
         }

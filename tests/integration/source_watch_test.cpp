@@ -20,7 +20,7 @@ class SourceWatchTest : public ::testing::Test {
   explicit SourceWatchTest(const Pace& pace = kReplayPace) : watch_{pace} {}
 
   Verdict see(const std::string& source, TaiTime t, std::uint64_t session = 1) {
-    return watch_.see(
+    return watch_.admit(
         {.source = source, .session = session, .seq = 0},
         Arrived<Pulse>{.arrival = {++arrival_}, .value = {.t = t, .channel = PulseChannel::Sun1}},
         moment_);
@@ -49,22 +49,22 @@ class SourceWatchTest : public ::testing::Test {
 TEST(SteadyTime, IsWhereEightInARowAreWhateverSingleOnesSay) {
   SteadyTime time;
   for (std::size_t i = 0; i + 1 < kEnough; ++i) {
-    time.see(kStart + i * 1s);
+    time.advance_to(kStart + i * 1s);
     EXPECT_FALSE(time.time());
   }
-  time.see(kStart + 8s);
+  time.advance_to(kStart + 8s);
   EXPECT_EQ(time.time(), kStart + 8s);
-  time.see(kStart + 2h);
+  time.advance_to(kStart + 2h);
   EXPECT_EQ(time.time(), kStart + 8s);
-  time.see(kStart + 9s);
+  time.advance_to(kStart + 9s);
   EXPECT_EQ(time.time(), kStart + 9s);
   EXPECT_FALSE(time.goes_on());
   for (std::size_t i = 0; i < 2 * kEnough; ++i) {
-    time.see(kStart - 2h);
+    time.advance_to(kStart - 2h);
   }
   EXPECT_EQ(time.time(), kStart + 9s) << "the same one again and again";
   for (std::size_t i = 0; i < kEnough; ++i) {
-    time.see(kStart - 1h + i * 1s);
+    time.advance_to(kStart - 1h + i * 1s);
   }
   EXPECT_EQ(time.time(), kStart - 1h + 7s);
 }

@@ -118,13 +118,13 @@ TEST(SilenceWatch, TellsOnceWhoWasNotHeardForASecond) {
   SilenceWatch watch;
   const SilenceWatch::Instant start{};
   EXPECT_FALSE(watch.next());
-  watch.note("A", start);
-  watch.note("B", start + 300ms);
+  watch.hear("A", start);
+  watch.hear("B", start + 300ms);
   EXPECT_EQ(watch.next(), start + 1s);
   EXPECT_TRUE(watch.take_silent(start + 999ms).empty());
   EXPECT_THAT(watch.take_silent(start + 1s), ElementsAre("A"));
   EXPECT_EQ(watch.next(), start + 1300ms);
-  watch.note("B", start + 1200ms);
+  watch.hear("B", start + 1200ms);
   EXPECT_TRUE(watch.take_silent(start + 1300ms).empty());
 }
 

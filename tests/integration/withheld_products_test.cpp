@@ -51,7 +51,7 @@ struct WithheldProducts : testing::ArchiveFixture {
     Processor processor = processor_of(odd);
     store(processor.begin());
     for (const std::string spacecraft : {"ODD", "SOUND"}) {
-      store(processor.take(
+      store(processor.process(
           testing::batch_of_samples<Pulse>(testing::edges_of(kPass, kEdges, spacecraft))));
     }
     store(processor.finish());

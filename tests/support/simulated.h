@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "tests/support/processed_pass.h"
+#include "tests/support/altered_text.h"
 #include "tests/support/ran.h"
 
 namespace spindrift {

@@ -15,7 +15,7 @@ inline Expected<BatchSolution> solved(const SpinConfig& config, const Orbit& orb
                                       const SpinOutput& output) {
   PassEdges edges;
   for (const SpinProduct& product : output.products) {
-    edges.note(product);
+    edges.collect(product);
   }
   const auto starts = edges.starts(config.prior);
   return solve_batch(config, orbit, std::move(edges).edges(), starts);

@@ -81,7 +81,7 @@ inline PassOnGrid pass_on_grid(double rpm, std::int64_t grid_ns, std::uint64_t s
   PassEdges so_far;
   const auto take = [&](const SpinOutput& output) {
     for (const SpinProduct& product : output.products) {
-      so_far.note(product);
+      so_far.collect(product);
       if (const auto* const estimate = std::get_if<SpinEstimate>(&product)) {
         (estimate->estimator == SpinEstimator::Mean ? found.mean : found.sequential)
             .note(*estimate, body);

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/altered_text.h"
 #include "tests/support/archive_rows.h"
 #include "tests/support/bus_fixture.h"
 #include "tests/support/count_rows.h"
@@ -14,7 +15,6 @@
 #include "tests/support/on_bus.h"
 #include "tests/support/pass_with.h"
 #include "tests/support/processed.h"
-#include "tests/support/processed_pass.h"
 #include "tests/support/program.h"
 #include "tests/support/ran.h"
 #include "tests/support/recorded_files.h"

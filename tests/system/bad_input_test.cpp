@@ -15,12 +15,12 @@
 #include <string_view>
 #include <utility>
 
+#include "tests/support/altered_text.h"
 #include "tests/support/archive_rows.h"
 #include "tests/support/axis_error.h"
 #include "tests/support/count_rows.h"
 #include "tests/support/lines.h"
 #include "tests/support/processed.h"
-#include "tests/support/processed_pass.h"
 #include "tests/support/ran.h"
 #include "tests/support/simulated.h"
 

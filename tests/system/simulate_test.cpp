@@ -9,6 +9,7 @@
 
 #include "pipelines/frames/angle.h"
 #include "pipelines/frames/rotation_vector.h"
+#include "tests/support/altered_text.h"
 #include "tests/support/archive_rows.h"
 #include "tests/support/axis_error.h"
 #include "tests/support/bus_fixture.h"
@@ -16,7 +17,6 @@
 #include "tests/support/lines.h"
 #include "tests/support/on_bus.h"
 #include "tests/support/processed.h"
-#include "tests/support/processed_pass.h"
 #include "tests/support/program.h"
 #include "tests/support/ran.h"
 #include "tests/support/test_paths.h"

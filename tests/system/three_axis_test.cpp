@@ -277,7 +277,10 @@ TEST(ThreeAxis, ServeGoesOnWithTheRunAfterAKillAndStoresWhatComesAgainOnce) {
   {
     Serving service{on_bus({"serve", "--db", db})};
     replay();
-    ASSERT_TRUE(eventually([&] { return rows_of(db, kAllSamples) == kWholePass; }));
+    ASSERT_TRUE(eventually([&] {
+      return rows_of(db, kAllSamples) == kWholePass &&
+             number_of(db, "SELECT sum(received) FROM source_count") == 1185;
+    }));
     service.signal(SIGKILL);
     service.exit_status();
   }

@@ -53,7 +53,7 @@ DepartureWatch::DepartureWatch(const std::vector<ComparedChannel>& channels, dou
   }
 }
 
-std::optional<ConditionChange> DepartureWatch::see(const ComparedSample& sample) {
+std::optional<ConditionChange> DepartureWatch::evaluate(const ComparedSample& sample) {
   Watched& watched = watched_.at(sample.channel);
   ChannelComparison& comparison = watched.comparison;
   const bool is_sample_away =
@@ -69,7 +69,7 @@ std::optional<ConditionChange> DepartureWatch::see(const ComparedSample& sample)
   const Judged now{is_sample_away, evidence_of(sample, comparison.channel, band_sigmas_)};
   const bool has_values = !comparison.channel.unit.empty();
   const auto is_there = has_values ? is_away(now, watched) : is_silent(now, watched);
-  auto change = is_there ? watched.watch.see(sample.t, *is_there) : std::nullopt;
+  auto change = is_there ? watched.watch.update(sample.t, *is_there) : std::nullopt;
   if (!change) {
     return std::nullopt;
   }

@@ -111,7 +111,7 @@ class DepartureWatch {
   DepartureWatch(const std::vector<ComparedChannel>& channels, double band_sigmas);
 
   /// Judges a sample; one earlier than its channel's last sample counts for the statistics only.
-  std::optional<ConditionChange> see(const ComparedSample& sample);
+  std::optional<ConditionChange> evaluate(const ComparedSample& sample);
 
   /// Returns the results in the order of the channels given to the constructor.
   std::vector<ChannelComparison> channels() const;

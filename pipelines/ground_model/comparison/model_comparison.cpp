@@ -37,7 +37,7 @@ ModelComparison::Compared ModelComparison::finish() {
 ModelComparison::Compared ModelComparison::judged(std::vector<ComparedSample> samples) {
   Compared compared{.samples = std::move(samples), .changes = {}};
   for (const ComparedSample& sample : compared.samples) {
-    add(watch_.see(sample), compared.changes);
+    add(watch_.evaluate(sample), compared.changes);
   }
   return compared;
 }

@@ -43,11 +43,11 @@ class ModelComparison {
 
   /// Compares a sample, in order of arrival; one of a sensor that the model lacks gives nothing.
   template <class Sample>
-  Compared see(const Sample& sample) {
+  Compared compare(const Sample& sample) {
     return judged(std::visit(
         [&](auto& comparison) -> std::vector<ComparedSample> {
-          if constexpr (requires { comparison.see(sample); }) {
-            return comparison.see(sample);
+          if constexpr (requires { comparison.compare(sample); }) {
+            return comparison.compare(sample);
           } else {
             return {};
           }

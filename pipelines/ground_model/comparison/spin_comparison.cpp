@@ -24,7 +24,7 @@ class Revolutions {
  public:
   explicit Revolutions(const SpinMotion& motion) : motion_{motion} {}
 
-  void see(const TrueEdge& edge) {
+  void add_edge(const TrueEdge& edge) {
     if (edge.channel == PulseChannel::Sun1) {
       close(edge.t_s);
       open_ = ModelRevolution{.t_s = edge.t_s, .period_s = 0.0, .turns = {}};
@@ -79,7 +79,7 @@ Expected<SpinModel> spin_model(const SpinTruth& truth, const PulseLink& link, do
         Revolutions revolutions{truth.motion};
         for (const TrueEdge& edge : edges) {
           if (!link.channels.at(index_of(edge.channel)).dead) {
-            revolutions.see(edge);
+            revolutions.add_edge(edge);
           }
         }
         SpinModel model{.start = truth.start,
@@ -118,11 +118,11 @@ std::vector<ComparedChannel> SpinComparison::channels() const {
   return all;
 }
 
-std::vector<ComparedSample> SpinComparison::see(const Pulse& pulse) {
+std::vector<ComparedSample> SpinComparison::compare(const Pulse& pulse) {
   Samples all;
   if (!is_coded_.value_or(false)) {
     is_coded_ = false;
-    pulses_.add(pulse);
+    pulses_.offer(pulse);
     for (const Pulse& next : pulses_.release()) {
       see_in_order(next, all);
     }
@@ -130,11 +130,11 @@ std::vector<ComparedSample> SpinComparison::see(const Pulse& pulse) {
   return all;
 }
 
-std::vector<ComparedSample> SpinComparison::see(const CodedFrame& frame) {
+std::vector<ComparedSample> SpinComparison::compare(const CodedFrame& frame) {
   Samples all;
   if (is_coded_.value_or(true)) {
     is_coded_ = true;
-    frames_.add(frame);
+    frames_.offer(frame);
     for (const CodedFrame& next : frames_.release()) {
       see_in_order(next, all);
     }

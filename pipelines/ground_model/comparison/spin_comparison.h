@@ -55,8 +55,8 @@ class SpinComparison {
 
   std::vector<ComparedChannel> channels() const;
 
-  std::vector<ComparedSample> see(const Pulse& pulse);
-  std::vector<ComparedSample> see(const CodedFrame& frame);
+  std::vector<ComparedSample> compare(const Pulse& pulse);
+  std::vector<ComparedSample> compare(const CodedFrame& frame);
   /// Compares what is still held for reordering when no more samples arrive.
   std::vector<ComparedSample> finish();
 

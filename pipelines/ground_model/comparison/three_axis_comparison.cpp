@@ -144,7 +144,7 @@ std::optional<double> ThreeAxisComparison::time_s(TaiTime t) const {
   return is_within ? std::optional{t_s} : std::nullopt;
 }
 
-std::vector<ComparedSample> ThreeAxisComparison::see(const GyroSample& sample) {
+std::vector<ComparedSample> ThreeAxisComparison::compare(const GyroSample& sample) {
   const auto t_s = time_s(sample.t);
   const auto& gyro = model_->sensors.gyro;
   if (!t_s || !gyro) {
@@ -156,7 +156,7 @@ std::vector<ComparedSample> ThreeAxisComparison::see(const GyroSample& sample) {
                   elements_of(kDegPerRad * read_rad_s));
 }
 
-std::vector<ComparedSample> ThreeAxisComparison::see(const StarFix& fix) {
+std::vector<ComparedSample> ThreeAxisComparison::compare(const StarFix& fix) {
   const auto t_s = time_s(fix.t);
   const auto& tracker = model_->sensors.star_tracker;
   if (!t_s || !tracker) {
@@ -168,7 +168,7 @@ std::vector<ComparedSample> ThreeAxisComparison::see(const StarFix& fix) {
   return compared(SampleKind::Star, fix.t, elements_of(kDegPerRad * turn_rad), {0.0, 0.0, 0.0});
 }
 
-std::vector<ComparedSample> ThreeAxisComparison::see(const SunDirection& sun) {
+std::vector<ComparedSample> ThreeAxisComparison::compare(const SunDirection& sun) {
   const auto t_s = time_s(sun.t);
   if (!t_s || !model_->sensors.sun_sensor) {
     return {};
@@ -183,7 +183,7 @@ std::vector<ComparedSample> ThreeAxisComparison::see(const SunDirection& sun) {
                   turn_deg(q_body_sensor.conjugate() * *expected, sun.sun_body), {0.0, 0.0});
 }
 
-std::vector<ComparedSample> ThreeAxisComparison::see(const MagneticField& field) {
+std::vector<ComparedSample> ThreeAxisComparison::compare(const MagneticField& field) {
   const auto t_s = time_s(field.t);
   const auto& magnetometer = model_->sensors.magnetometer;
   if (!t_s || !magnetometer) {

@@ -57,10 +57,10 @@ class ThreeAxisComparison {
 
   std::vector<ComparedChannel> channels() const;
 
-  std::vector<ComparedSample> see(const GyroSample& sample);
-  std::vector<ComparedSample> see(const StarFix& fix);
-  std::vector<ComparedSample> see(const SunDirection& sun);
-  std::vector<ComparedSample> see(const MagneticField& field);
+  std::vector<ComparedSample> compare(const GyroSample& sample);
+  std::vector<ComparedSample> compare(const StarFix& fix);
+  std::vector<ComparedSample> compare(const SunDirection& sun);
+  std::vector<ComparedSample> compare(const MagneticField& field);
 
  private:
   struct Sensor {

@@ -17,7 +17,7 @@ class OnBoardCounter {
   explicit OnBoardCounter(double resolution_s) : resolution_s_{resolution_s} {}
 
   /// @param sent_down Whether the link carries the pulse.
-  void see(const Pulse& pulse, bool sent_down) {
+  void count(const Pulse& pulse, bool sent_down) {
     if (pulse.channel == PulseChannel::Sun1) {
       const CodedFrame next{.t = pulse.t, .period_s = period_until(pulse.t), .delay_s = {}};
       close();
@@ -74,12 +74,12 @@ std::vector<CodedFrame> coded_telemetry(const ReceivedPass& pass, double resolut
   auto silenced = pass.silenced.begin();
   const auto see_silenced_until = [&](auto is_later) {
     for (; silenced != pass.silenced.end() && !is_later(*silenced); ++silenced) {
-      counter.see(*silenced, false);
+      counter.count(*silenced, false);
     }
   };
   for (const ReceivedPulse& received : pass.pulses) {
     see_silenced_until([&](const Pulse& pulse) { return pulse.t > received.pulse.t; });
-    counter.see(received.pulse, true);
+    counter.count(received.pulse, true);
   }
   see_silenced_until([](const Pulse&) { return false; });
   return std::move(counter).frames();

@@ -42,7 +42,7 @@ Associator::Associator(const SpinConfig& config)
       intervals_{config.screening, config.noise.sun_s} {}
 
 void Associator::note_period(TaiTime t_sun1, double period_s) {
-  intervals_.note({.t_sun1 = t_sun1, .period_s = period_s});
+  intervals_.keep({.t_sun1 = t_sun1, .period_s = period_s});
 }
 
 Association Associator::push(const Pulse& pulse) {

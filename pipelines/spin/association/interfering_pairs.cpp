@@ -19,7 +19,7 @@ std::vector<InterferingChannels> InterferingPairs::expect(const ExpectedPhases& 
       const auto other = static_cast<PulseChannel>(j);
       if (phases.interfere(one, other, turn, clock_sigma_turns)) {
         interfering_pairs_.at(i) = interfering_pairs_.at(j) = true;
-        if (const InterferingChannels& channels = note(one, other, t);
+        if (const InterferingChannels& channels = record(one, other, t);
             channels.revolutions == kFewestInterfering) {
           began.push_back(channels);
         }
@@ -29,7 +29,8 @@ std::vector<InterferingChannels> InterferingPairs::expect(const ExpectedPhases& 
   return began;
 }
 
-const InterferingChannels& InterferingPairs::note(PulseChannel one, PulseChannel other, TaiTime t) {
+const InterferingChannels& InterferingPairs::record(PulseChannel one, PulseChannel other,
+                                                    TaiTime t) {
   auto known =
       std::find_if(interfering_.begin(), interfering_.end(),
                    [&](const InterferingChannels& c) { return c.one == one && c.other == other; });

@@ -48,7 +48,7 @@ class InterferingPairs {
   double displacement_s() const;
 
  private:
-  const InterferingChannels& note(PulseChannel one, PulseChannel other, TaiTime t);
+  const InterferingChannels& record(PulseChannel one, PulseChannel other, TaiTime t);
 
   double window_s_;
   std::array<bool, kPulseChannels> interfering_pairs_{};

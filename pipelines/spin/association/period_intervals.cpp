@@ -14,11 +14,11 @@ SpinPeriodWindow::SpinPeriodWindow(const SpinScreening& screening, double edge_s
       candidate_sigma_s_{std::numbers::sqrt2 * edge_sigma_s},
       differences_s_{static_cast<std::size_t>(screening.window)} {}
 
-PeriodCandidate SpinPeriodWindow::add(TaiTime from, TaiTime to, std::int64_t turns,
-                                      double expected_s) {
+PeriodCandidate SpinPeriodWindow::judge(TaiTime from, TaiTime to, std::int64_t turns,
+                                        double expected_s) {
   assert(turns > 0 && to > from);
   const auto turns_d = static_cast<double>(turns);
-  return add(elapsed_s(from, to) / turns_d, turns_d, expected_s);
+  return judge(elapsed_s(from, to) / turns_d, turns_d, expected_s);
 }
 
 PeriodCandidate SpinPeriodWindow::refused(TaiTime from, TaiTime to, std::int64_t turns,
@@ -29,7 +29,7 @@ PeriodCandidate SpinPeriodWindow::refused(TaiTime from, TaiTime to, std::int64_t
           .rejected_by = rejected_by};
 }
 
-PeriodCandidate SpinPeriodWindow::add(double period_s, double turns, double expected_s) {
+PeriodCandidate SpinPeriodWindow::judge(double period_s, double turns, double expected_s) {
   const double difference_s = period_s - expected_s;
   differences_s_.add(difference_s);
   const RobustMean mean =
@@ -45,7 +45,7 @@ void PeriodIntervals::begin_anew(double edge_sigma_s) {
   start_.reset();
 }
 
-void PeriodIntervals::note(const PeriodNote& note) {
+void PeriodIntervals::keep(const PeriodNote& note) {
   notes_.push_back(note);
   if (notes_.size() > 16) {
     notes_.pop_front();
@@ -77,7 +77,7 @@ std::optional<PeriodCandidate> PeriodIntervals::candidate(
   const TaiTime middle = start_->t + (*edge - start_->t) / 2;
   PeriodCandidate candidate = rejected_by
                                   ? window_.refused(start_->t, *edge, turns, *rejected_by)
-                                  : window_.add(start_->t, *edge, turns, expected_s(middle));
+                                  : window_.judge(start_->t, *edge, turns, expected_s(middle));
   candidate.sigma_s =
       std::hypot(candidate.sigma_s, apparent_motion_s(reference, candidate.period_s));
   // After this many turns of refused intervals the edge that they start from is doubtful.
@@ -96,7 +96,7 @@ std::optional<PeriodCandidate> PeriodIntervals::noted(
   if (note == notes_.end() || !(note->period_s > 0.0)) {
     return std::nullopt;
   }
-  return window_.add(note->period_s, expected_s(*sun1));
+  return window_.judge(note->period_s, expected_s(*sun1));
 }
 
 }  // namespace spindrift

@@ -32,9 +32,11 @@ class SpinPeriodWindow {
   SpinPeriodWindow(const SpinScreening& screening, double edge_sigma_s);
 
   /// Tests the interval `from` -> `to`, `turns` > 0 revolutions long, and adds it.
-  PeriodCandidate add(TaiTime from, TaiTime to, std::int64_t turns, double expected_s);
+  PeriodCandidate judge(TaiTime from, TaiTime to, std::int64_t turns, double expected_s);
   /// Tests and adds the period of one turn, timed on board.
-  PeriodCandidate add(double period_s, double expected_s) { return add(period_s, 1.0, expected_s); }
+  PeriodCandidate judge(double period_s, double expected_s) {
+    return judge(period_s, 1.0, expected_s);
+  }
   /// Returns the candidate of an interval that ends at a rejected edge, without adding it.
   PeriodCandidate refused(TaiTime from, TaiTime to, std::int64_t turns,
                           Rejection rejected_by) const;
@@ -42,7 +44,7 @@ class SpinPeriodWindow {
   std::size_t size() const { return differences_s_.size(); }
 
  private:
-  PeriodCandidate add(double period_s, double turns, double expected_s);
+  PeriodCandidate judge(double period_s, double turns, double expected_s);
 
   SpinScreening screening_;
   double candidate_sigma_s_;  ///< One sigma of a candidate over one turn.
@@ -60,7 +62,7 @@ class PeriodIntervals {
   void begin_anew(double edge_sigma_s);
 
   /// Keeps a period that the spacecraft stated.
-  void note(const PeriodNote& note);
+  void keep(const PeriodNote& note);
   void forget_notes_before(TaiTime t);
   std::vector<PeriodNote> notes() const { return {notes_.begin(), notes_.end()}; }
 

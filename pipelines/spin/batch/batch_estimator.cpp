@@ -323,7 +323,7 @@ Expected<Heard> solve_with_noise(const SpinConfig& config, const Orbit& orbit,
 double grid_of(const PulseNoise& noise, std::span<const PassEdge> edges) {
   TimeGrid grid{noise};
   for (const PassEdge& edge : edges) {
-    grid.note(edge.pulse);
+    grid.learn(edge.pulse);
   }
   return grid.width_s();
 }

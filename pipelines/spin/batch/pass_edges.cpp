@@ -23,15 +23,15 @@ bool is_bad(Rejection rejection) {
 
 }  // namespace
 
-void PassEdges::note(const SpinProduct& product) {
-  std::visit([this](const auto& value) { take(value); }, product);
+void PassEdges::collect(const SpinProduct& product) {
+  std::visit([this](const auto& value) { keep(value); }, product);
 }
 
 void PassEdges::act(TaiTime t, const SpinAction& action) {
   std::visit(
       [&](const auto& what) {
-        if constexpr (requires { excluded_.add(t, what); }) {
-          excluded_.add(t, what);
+        if constexpr (requires { excluded_.apply(t, what); }) {
+          excluded_.apply(t, what);
           std::erase_if(edges_, [this](const PassEdge& edge) {
             return excluded_.hold(edge.pulse.t, edge.pulse.channel);
           });
@@ -49,7 +49,7 @@ void PassEdges::forget_before(TaiTime t) {
   last_fix_.reset();
 }
 
-void PassEdges::take(const PulseUse& use) {
+void PassEdges::keep(const PulseUse& use) {
   while (use.revolution && !manoeuvres_.empty() && *manoeuvres_.begin() <= use.pulse.t) {
     forget_before(manoeuvres_.extract(manoeuvres_.begin()).value());
   }
@@ -64,7 +64,7 @@ void PassEdges::take(const PulseUse& use) {
   }
 }
 
-void PassEdges::take(const SpinEstimate& estimate) {
+void PassEdges::keep(const SpinEstimate& estimate) {
   noise_chose_among_copies_ =
       noise_chose_among_copies_ || has(estimate.assessment, ReasonCode::CopiesInNoise);
   if (estimate.estimator == SpinEstimator::Mean) {

@@ -28,7 +28,7 @@ struct StartingAxes {
 
 class PassEdges {
  public:
-  void note(const SpinProduct& product);
+  void collect(const SpinProduct& product);
 
   /// Applies an operator action valid from `t`: excluded edges are dropped, and at the first edge
   /// after a manoeuvre all earlier edges.
@@ -58,11 +58,11 @@ class PassEdges {
   StartingAxes starts(const std::optional<SpinPrior>& prior) const;
 
  private:
-  void take(const PulseUse& use);
-  void take(const SpinFix& fix) { last_fix_ = fix; }
-  void take(const SpinEstimate& estimate);
+  void keep(const PulseUse& use);
+  void keep(const SpinFix& fix) { last_fix_ = fix; }
+  void keep(const SpinEstimate& estimate);
   template <class Other>
-  void take(const Other& /*product*/) {}
+  void keep(const Other& /*product*/) {}
 
   void forget_before(TaiTime t);
 

@@ -59,9 +59,9 @@ void FixesByCase::take_back(int geometry_case, std::int64_t stretch) {
   --group_of(geometry_case, stretch).left_out;
 }
 
-void FixesByCase::add(int geometry_case, std::int64_t stretch, const SpinConfig& config,
-                      const RevolutionMeasurements& measured, const SunEarthDirections& sun_earth,
-                      const Eigen::Vector3d& axis_icrf) {
+void FixesByCase::add_fix(int geometry_case, std::int64_t stretch, const SpinConfig& config,
+                          const RevolutionMeasurements& measured,
+                          const SunEarthDirections& sun_earth, const Eigen::Vector3d& axis_icrf) {
   Group& group = group_of(geometry_case, stretch);
   group.equations.add(config, measured, sun_earth, axis_icrf);
   ++group.count;

@@ -57,9 +57,9 @@ class FixesByCase {
   void leave_out(int geometry_case, std::int64_t stretch);
   void take_back(int geometry_case, std::int64_t stretch);
   /// @param axis_icrf Linearisation axis, as in AngleEquations::add().
-  void add(int geometry_case, std::int64_t stretch, const SpinConfig& config,
-           const RevolutionMeasurements& measured, const SunEarthDirections& sun_earth,
-           const Eigen::Vector3d& axis_icrf);
+  void add_fix(int geometry_case, std::int64_t stretch, const SpinConfig& config,
+               const RevolutionMeasurements& measured, const SunEarthDirections& sun_earth,
+               const Eigen::Vector3d& axis_icrf);
 
   /// Forgets the fixes but keeps the counts of those left out.
   /// @param reference_icrf Unit vector, as in AngleEquations.

@@ -11,9 +11,9 @@ double weight_of(const Eigen::Matrix2d& covariance_rad2) { return 1.0 / covarian
 
 }  // namespace
 
-void MeanAxis::add(const SpinFix& fix) { add(fix.axis_icrf, fix.covariance_rad2); }
+void MeanAxis::add_fix(const SpinFix& fix) { add_fix(fix.axis_icrf, fix.covariance_rad2); }
 
-void MeanAxis::add(const Eigen::Vector3d& axis_icrf, const Eigen::Matrix2d& covariance_rad2) {
+void MeanAxis::add_fix(const Eigen::Vector3d& axis_icrf, const Eigen::Matrix2d& covariance_rad2) {
   const Eigen::Matrix<double, 3, 2> basis = tangent_basis(axis_icrf);
   const double weight = weight_of(covariance_rad2);
   sum_icrf_ += weight * axis_icrf;
@@ -37,7 +37,7 @@ double MeanAxis::excess_scatter() const {
   return variance_factor(scatter, freedom);
 }
 
-void AxisWindow::add(const SpinFix& fix) {
+void AxisWindow::add_fix(const SpinFix& fix) {
   weighted_icrf_.emplace_back(weight_of(fix.covariance_rad2) * fix.axis_icrf);
   if (weighted_icrf_.size() > length_) {
     weighted_icrf_.pop_front();

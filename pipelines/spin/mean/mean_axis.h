@@ -17,8 +17,8 @@ namespace spindrift {
 /// Mean of all fixes of a pass, with the covariance that follows from the fixes' covariances.
 class MeanAxis {
  public:
-  void add(const SpinFix& fix);
-  void add(const Eigen::Vector3d& axis_icrf, const Eigen::Matrix2d& covariance_rad2);
+  void add_fix(const SpinFix& fix);
+  void add_fix(const Eigen::Vector3d& axis_icrf, const Eigen::Matrix2d& covariance_rad2);
 
   std::size_t count() const { return count_; }
   /// Mean axis, unit vector; at least one fix must have been added.
@@ -42,7 +42,7 @@ class AxisWindow {
  public:
   explicit AxisWindow(std::size_t length) : length_{length} {}
 
-  void add(const SpinFix& fix);
+  void add_fix(const SpinFix& fix);
   /// Unit vector; empty before the first fix, and where the fixes cancel.
   std::optional<Eigen::Vector3d> axis_icrf() const;
 

@@ -38,7 +38,7 @@ void MeanEstimator::keep(std::int64_t revolution, const RevolutionMeasurements& 
   }
 }
 
-bool MeanEstimator::take(const SpinFix& fix) {
+bool MeanEstimator::add_fix(const SpinFix& fix) {
   const auto kept = std::find_if(kept_.rbegin(), kept_.rend(), [&](const Kept& candidate) {
     return candidate.revolution == fix.revolution;
   });
@@ -83,8 +83,8 @@ void MeanEstimator::settle(Kept& kept, const SpinFix& fix) {
     kept.stretch = fixes_.next_stretch(fix.geometry_case);
   }
   kept.fate = Fate::Settled;
-  average_.add(fix);
-  add(kept, mean_ ? axis_icrf() : fix.axis_icrf);
+  average_.add_fix(fix);
+  linearise(kept, mean_ ? axis_icrf() : fix.axis_icrf);
   mean_ = fixes_.mean();
   ++settled_;
   // Number of fixes that each trigger a relinearisation.
@@ -96,8 +96,9 @@ void MeanEstimator::settle(Kept& kept, const SpinFix& fix) {
   }
 }
 
-void MeanEstimator::add(const Kept& kept, const Eigen::Vector3d& axis_icrf) {
-  fixes_.add(kept.geometry_case, kept.stretch, config_, kept.measured, kept.sun_earth, axis_icrf);
+void MeanEstimator::linearise(const Kept& kept, const Eigen::Vector3d& axis_icrf) {
+  fixes_.add_fix(kept.geometry_case, kept.stretch, config_, kept.measured, kept.sun_earth,
+                 axis_icrf);
 }
 
 /// Adds all fixes again about their mean while all are kept; later the mean hardly moves. If this
@@ -128,7 +129,7 @@ void MeanEstimator::linearise_about(const Eigen::Vector3d& axis_icrf) {
   fixes_.begin_at(axis_icrf);
   for (const Kept& kept : kept_) {
     if (kept.fate == Fate::Settled) {
-      add(kept, axis_icrf);
+      linearise(kept, axis_icrf);
     }
   }
   mean_ = fixes_.mean();

@@ -55,7 +55,7 @@ class MeanEstimator {
 
   /// @return True if the fix may be in the mean: it is accepted, not near-tangent, and not older
   /// than the mean.
-  bool take(const SpinFix& fix);
+  bool add_fix(const SpinFix& fix);
 
   /// Restarts the mean when the axis has moved, since old and new fixes would average to neither
   /// axis.
@@ -85,7 +85,7 @@ class MeanEstimator {
 
   void leave_out(Kept& kept, const SpinFix& fix);
   void settle(Kept& kept, const SpinFix& fix);
-  void add(const Kept& kept, const Eigen::Vector3d& axis_icrf);
+  void linearise(const Kept& kept, const Eigen::Vector3d& axis_icrf);
   void relinearise();
   void linearise_about(const Eigen::Vector3d& axis_icrf);
   Eigen::Matrix2d least_squares_covariance_rad2() const;

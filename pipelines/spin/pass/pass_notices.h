@@ -67,7 +67,7 @@ class PassNotices {
                   const SequentialEstimator& sequential);
 
   /// Returns the notices since the last call.
-  std::vector<Notice> take() { return std::exchange(pending_, {}); }
+  std::vector<Notice> take_pending() { return std::exchange(pending_, {}); }
 
  private:
   void say(Notice notice) { pending_.push_back(std::move(notice)); }

@@ -56,22 +56,22 @@ SpinPass::SpinPass(const SpinConfig& config, Orbit orbit)
 
 SpinOutput SpinPass::push(const Pulse& pulse) {
   SpinOutput out;
-  take(pulse, out);
+  process(pulse, out);
   notices_.used(out.products);
-  out.notices = notices_.take();
+  out.notices = notices_.take_pending();
   return out;
 }
 
 SpinOutput SpinPass::push(const CodedFrame& frame) {
   SpinOutput out;
-  switch (frames_.add(frame)) {
+  switch (frames_.offer(frame)) {
     case FrameReorderWindow::Verdict::Held:
       take_due(frames_.release(), out);
       break;
     case FrameReorderWindow::Verdict::Late:
       // Late frames are left out edge by edge.
       for (const Pulse& edge : edges_of(frame)) {
-        take(edge, out);
+        process(edge, out);
       }
       break;
     case FrameReorderWindow::Verdict::OutOfTime:
@@ -84,15 +84,15 @@ SpinOutput SpinPass::push(const CodedFrame& frame) {
       break;
   }
   notices_.used(out.products);
-  out.notices = notices_.take();
+  out.notices = notices_.take_pending();
   return out;
 }
 
 void SpinPass::act(TaiTime t, const SpinAction& action) {
   std::visit(
       [&](const auto& what) {
-        if constexpr (requires { excluded_.add(t, what); }) {
-          excluded_.add(t, what);
+        if constexpr (requires { excluded_.apply(t, what); }) {
+          excluded_.apply(t, what);
         } else {
           to_do_.emplace(t, what);
         }
@@ -105,7 +105,7 @@ SpinOutput SpinPass::fall_silent() {
   take_due(frames_.fall_silent(), out);
   sort_out(reorder_.fall_silent(), out);
   notices_.used(out.products);
-  out.notices = notices_.take();
+  out.notices = notices_.take_pending();
   return out;
 }
 
@@ -139,7 +139,7 @@ SpinOutput SpinPass::finish() {
   }
   notices_.used(out.products);
   notices_.pass_ended(associator_.interfering(), sequential_);
-  out.notices = notices_.take();
+  out.notices = notices_.take_pending();
   return out;
 }
 
@@ -147,7 +147,7 @@ SpinOutput SpinPass::finish() {
 void SpinPass::compare(const CodedFrame& again, SpinOutput& out) {
   const auto known = frames_.find(again);
   if (!known.released) {
-    contested_.note(*known.sample, again);
+    contested_.record(*known.sample, again);
   } else if (!say_the_same(*known.sample, again)) {
     out.products.emplace_back(SampleContradiction{
         .t = again.t, .kind = kFrameKind, .by = late_senders(*known.sample, again), .late = true});
@@ -157,16 +157,16 @@ void SpinPass::compare(const CodedFrame& again, SpinOutput& out) {
 /// Leaves out all edges of frames that contradict each other, unless one of the frames counts.
 void SpinPass::take_due(const std::vector<CodedFrame>& due, SpinOutput& out) {
   for (const CodedFrame& frame : due) {
-    const std::vector<CodedFrame> said = contested_.take(frame);
+    const std::vector<CodedFrame> said = contested_.release(frame);
     if (!is_contested(said)) {
-      take(frame, out);
+      process(frame, out);
       continue;
     }
     const auto used = one_that_counts(said);
     out.products.emplace_back(
         SampleContradiction{.t = frame.t, .kind = kFrameKind, .by = senders_of(said, used)});
     if (used) {
-      take(*used, out);
+      process(*used, out);
       continue;
     }
     std::set<Pulse> edges;
@@ -180,7 +180,7 @@ void SpinPass::take_due(const std::vector<CodedFrame>& due, SpinOutput& out) {
   }
 }
 
-void SpinPass::take(const CodedFrame& frame, SpinOutput& out) {
+void SpinPass::process(const CodedFrame& frame, SpinOutput& out) {
   if (frame.period_s) {
     associator_.note_period(frame.t, *frame.period_s);
   }
@@ -194,14 +194,14 @@ void SpinPass::take(const CodedFrame& frame, SpinOutput& out) {
 void SpinPass::take_edges_before(TaiTime t, SpinOutput& out) {
   auto edge = of_next_frame_.begin();
   for (; edge != of_next_frame_.end() && edge->t < t; ++edge) {
-    take(*edge, out);
+    process(*edge, out);
   }
   of_next_frame_.erase(of_next_frame_.begin(), edge);
 }
 
-void SpinPass::take(const Pulse& pulse, SpinOutput& out) {
+void SpinPass::process(const Pulse& pulse, SpinOutput& out) {
   notices_.edge_came(pulse.channel);
-  switch (reorder_.add(pulse)) {
+  switch (reorder_.offer(pulse)) {
     case ReorderWindow::Verdict::Held:
       sort_out(reorder_.release(), out);
       break;
@@ -260,7 +260,7 @@ void SpinPass::hear(const Revolution& revolution) {
     // A chord end that the next sun1 interrupts may have been counted from that sun1.
     const bool of_next = sun1 && t && seconds_between(*sun1, *t) > revolution.period.period_s;
     if (t && !of_next) {
-      grid_.note({.t = *t, .channel = channel});
+      grid_.learn({.t = *t, .channel = channel});
     }
   }
   if (grid_.width_s() != config_.noise.grid_s) {
@@ -483,8 +483,8 @@ void SpinPass::announce_axis(Candidate& candidate, SpinOutput& out) {
   for (const SpinFix& fix : fixes) {
     note_choice(fix);
     say_why_not_accepted(fix);
-    if (mean_.take(fix)) {
-      recent_axes_.add(fix);
+    if (mean_.add_fix(fix)) {
+      recent_axes_.add_fix(fix);
       mean_moved = true;
     }
   }

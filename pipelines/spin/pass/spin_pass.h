@@ -94,8 +94,8 @@ class SpinPass {
     bool is_counted = false;  ///< True if counted in inconsistent_share_.
   };
 
-  void take(const Pulse& pulse, SpinOutput& out);
-  void take(const CodedFrame& frame, SpinOutput& out);
+  void process(const Pulse& pulse, SpinOutput& out);
+  void process(const CodedFrame& frame, SpinOutput& out);
   void compare(const CodedFrame& again, SpinOutput& out);
   void take_due(const std::vector<CodedFrame>& due, SpinOutput& out);
   void take_edges_before(TaiTime t, SpinOutput& out);

@@ -70,7 +70,7 @@ class Planner {
   Expected<PassGeometry> look_at(TaiTime t) {
     auto geometry = scene_.at(t);
     if (geometry) {
-      events_.add(t, conditions_of(scene_.config(), *geometry));
+      events_.advance_to(t, conditions_of(scene_.config(), *geometry));
     }
     return geometry;
   }
@@ -100,7 +100,7 @@ class Planner {
 
 }  // namespace
 
-void PassEvents::add(TaiTime t, const std::vector<PassCondition>& conditions) {
+void PassEvents::advance_to(TaiTime t, const std::vector<PassCondition>& conditions) {
   last_ = t;
   for (auto event = open_.begin(); event != open_.end();) {
     if (std::find(conditions.begin(), conditions.end(), event->condition) != conditions.end()) {

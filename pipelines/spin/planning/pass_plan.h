@@ -32,7 +32,7 @@ struct PassEvent {
 class PassEvents {
  public:
   /// Adds the conditions that hold at a time later than the previous one.
-  void add(TaiTime t, const std::vector<PassCondition>& conditions);
+  void advance_to(TaiTime t, const std::vector<PassCondition>& conditions);
 
   /// Returns all events by beginning; conditions that still hold end with the last time.
   std::vector<PassEvent> finish();

@@ -29,11 +29,11 @@ void StartConfirmation::begin(const StartingPoint& point) {
   fixes_ = poor ? std::optional{MeanAxis{}} : std::nullopt;
 }
 
-void StartConfirmation::note(const SpinFix& fix, const StartingPoint& followed) {
+void StartConfirmation::add_fix(const SpinFix& fix, const StartingPoint& followed) {
   if (!fixes_ || !fix.accepted || fix.near_tangent) {
     return;
   }
-  fixes_->add(fix);
+  fixes_->add_fix(fix);
   const double mean_rad2 = fixes_->covariance_rad2().trace() * fixes_->excess_scatter();
   const double sigma_rad = std::hypot(kPoor_rad, std::sqrt(followed.covariance_rad2.trace()));
   // Limit in sigmas of a mean known to a degree. A better mean is not tested more strictly, as
@@ -44,7 +44,7 @@ void StartConfirmation::note(const SpinFix& fix, const StartingPoint& followed) 
   }
 }
 
-void Contradiction::note(const Hypotheses& followed, const StartingPoints::Known& said) {
+void Contradiction::count_fix(const Hypotheses& followed, const StartingPoints::Known& said) {
   const bool against =
       std::all_of(said.points.begin(), said.points.end(),
                   [&](const StartingPoint& point) { return followed.contradicted_by(point); });
@@ -58,7 +58,7 @@ void Contradiction::note(const Hypotheses& followed, const StartingPoints::Known
       said.points.begin(), said.points.end(), [&](const StartingPoint& a, const StartingPoint& b) {
         return a.axis_icrf.dot(axis_icrf) < b.axis_icrf.dot(axis_icrf);
       });
-  mean_.add(nearest.axis_icrf, nearest.covariance_rad2);
+  mean_.add_fix(nearest.axis_icrf, nearest.covariance_rad2);
 }
 
 bool Contradiction::stands(const Hypotheses& followed, bool edges_doubt) const {

@@ -21,7 +21,7 @@ class StartConfirmation {
   void begin(const StartingPoint& point);
 
   /// @param followed Present axis of the filter.
-  void note(const SpinFix& fix, const StartingPoint& followed);
+  void add_fix(const SpinFix& fix, const StartingPoint& followed);
 
   /// True until the mean of the fixes since the start is known to a degree and agrees with the
   /// filter.
@@ -38,7 +38,7 @@ class StartConfirmation {
 class Contradiction {
  public:
   /// Counts fixes for or against the followed axes.
-  void note(const Hypotheses& followed, const StartingPoints::Known& said);
+  void count_fix(const Hypotheses& followed, const StartingPoints::Known& said);
 
   /// @param edges_doubt True when the edges contradict the axis too; then fewer fixes suffice.
   bool stands(const Hypotheses& followed, bool edges_doubt) const;

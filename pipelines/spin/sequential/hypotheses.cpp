@@ -65,8 +65,8 @@ bool Hypotheses::prior_stands() const {
          });
 }
 
-bool Hypotheses::add(const StartingPoint& point, const SpinConfig& config,
-                     const Revolution& revolution, const Sky& sky) {
+bool Hypotheses::try_start(const StartingPoint& point, const SpinConfig& config,
+                           const Revolution& revolution, const Sky& sky) {
   const auto filter =
       SpinFilter::about(point.axis_icrf, point.covariance_rad2, config, revolution, sky);
   if (!filter) {
@@ -84,7 +84,7 @@ bool Hypotheses::add(const StartingPoint& point, const SpinConfig& config,
   return true;
 }
 
-void Hypotheses::note(const StartingPoints::Known& said) {
+void Hypotheses::count_fix(const StartingPoints::Known& said) {
   for (Hypothesis& hypothesis : all_) {
     const bool named = std::any_of(
         said.points.begin(), said.points.end(),

@@ -73,11 +73,11 @@ class Hypotheses {
   /// Adds a candidate with the log likelihood of the published one. If that one was settled or the
   /// list closed, it loses its earlier elimination and both start equal.
   /// @return False when none of the revolution's edges determines the phase.
-  bool add(const StartingPoint& point, const SpinConfig& config, const Revolution& revolution,
-           const Sky& sky);
+  bool try_start(const StartingPoint& point, const SpinConfig& config, const Revolution& revolution,
+                 const Sky& sky);
 
   /// Counts the fixes that name each candidate.
-  void note(const StartingPoints::Known& said);
+  void count_fix(const StartingPoints::Known& said);
 
   /// Keeps only the candidate that a fix names, unless the fix contradicts all candidates.
   void settle_at(const StartingPoint& point);

@@ -71,7 +71,7 @@ bool SequentialEstimator::apply_fix(const SpinFix& fix, const Revolution& revolu
   note_near_tangent(fix);
   if (start_confirmation_.unconfirmed()) {
     const SpinFilter& filter = hypotheses_.published().filter;
-    start_confirmation_.note(
+    start_confirmation_.add_fix(
         fix, {.axis_icrf = filter.axis_icrf(), .covariance_rad2 = filter.axis_covariance_rad2()});
   }
   StartingPoints* const starts = starting_points_for(fix);
@@ -82,8 +82,8 @@ bool SequentialEstimator::apply_fix(const SpinFix& fix, const Revolution& revolu
   // Starts afresh, because a common error of several fixes does not average out.
   starts->forget();
   if (!hypotheses_.empty() && !counts_as_near_tangent(fix)) {
-    contradiction_.note(hypotheses_, *said);
-    hypotheses_.note(*said);
+    contradiction_.count_fix(hypotheses_, *said);
+    hypotheses_.count_fix(*said);
   }
   if (superseded_by(fix)) {
     return begin(fix, said->points, revolution, sky);
@@ -140,7 +140,7 @@ bool SequentialEstimator::begin(const SpinFix& fix, std::span<const StartingPoin
                                 const Revolution& revolution, const Sky& sky) {
   Hypotheses started{counts_as_near_tangent(fix)};
   for (const StartingPoint& point : points) {
-    if (!started.add(point, config_, revolution, sky)) {
+    if (!started.try_start(point, config_, revolution, sky)) {
       return false;
     }
   }
@@ -189,7 +189,7 @@ void SequentialEstimator::join(std::span<const StartingPoint> points, const Revo
   if (const auto known = untracked_.add(unfollowed)) {
     for (const StartingPoint& point : known->points) {
       if (hypotheses_.count() < kMostHypotheses) {
-        hypotheses_.add(point, config_, revolution, sky);
+        hypotheses_.try_start(point, config_, revolution, sky);
       }
     }
   }

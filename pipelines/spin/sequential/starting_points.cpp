@@ -65,7 +65,7 @@ std::optional<StartingPoints::Known> StartingPoints::add(
   for (const StartingPoint& candidate : candidates) {
     const std::size_t branch = branch_of(candidate, taken);
     branches_.resize(std::max(branches_.size(), branch + 1));
-    branches_[branch].add(candidate.axis_icrf, candidate.covariance_rad2);
+    branches_[branch].add_fix(candidate.axis_icrf, candidate.covariance_rad2);
     taken.push_back(branch);
     known.points.push_back(middle_of(branches_[branch]));
   }

@@ -13,7 +13,7 @@ namespace spindrift {
 TimeGrid::TimeGrid(const PulseNoise& noise)
     : least_ns_{std::max(1e-3 * 1e9 * std::min(noise.sun_s, noise.infrared_s), 1.0)} {}
 
-void TimeGrid::note(const Pulse& edge) {
+void TimeGrid::learn(const Pulse& edge) {
   const std::optional<TaiTime>& sun1 = last_[index_of(PulseChannel::Sun1)];
   std::optional<TaiTime>& last = last_[index_of(edge.channel)];
   if (edge.channel != PulseChannel::Sun1 && sun1) {

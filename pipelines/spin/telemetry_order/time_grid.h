@@ -32,7 +32,7 @@ class TimeGrid {
   explicit TimeGrid(const PulseNoise& noise);
 
   /// @param edge Edges come in order of time.
-  void note(const Pulse& edge);
+  void learn(const Pulse& edge);
 
   /// Returns the widest grid that several runs have had; 0 when there is none.
   double width_s() const { return width_s_; }

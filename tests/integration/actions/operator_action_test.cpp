@@ -189,7 +189,7 @@ TEST_F(OperatorActions, SetTheTargetOfSupervisionAlsoAfterARestart) {
   std::int64_t raised = 0;
   const auto see = [&](std::vector<ArchiveBatch> batches) {
     for (ArchiveBatch& batch : batches) {
-      desk.see(batch);
+      desk.evaluate(batch);
       for (const Product& product : batch.products) {
         const auto* const alert = std::get_if<Alert>(&product);
         raised += alert != nullptr && alert->key == "spin.off_target" &&

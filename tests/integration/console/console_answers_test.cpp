@@ -110,7 +110,9 @@ TEST_F(ConsoleAnswers, QuantitiesAndTheirSeries) {
 }
 
 TEST_F(ConsoleAnswers, EveryQuantityThatIsListed) {
-  for (const auto& one : client_->get_json("/api/v1/quantities?spacecraft=SPINNER")["quantities"]) {
+  const auto listed = client_->get_json("/api/v1/quantities?spacecraft=SPINNER")["quantities"];
+  EXPECT_FALSE(listed.empty());
+  for (const auto& one : listed) {
     const HttpReply reply =
         client_->get("/api/v1/series?spacecraft=SPINNER&from=0&to=9&points=5&quantity=" +
                      one["name"].get<std::string>());

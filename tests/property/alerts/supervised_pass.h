@@ -97,7 +97,7 @@ class SupervisedPass {
     for (const Sent& one : sent) {
       add(one, {place++}, batch);
     }
-    see(processor_.take(std::move(batch)));
+    see(processor_.process(std::move(batch)));
     see(processor_.finish());
     return raised_;
   }
@@ -147,7 +147,7 @@ class SupervisedPass {
     Routed routed = size_of(batch) > 0 ? processor_.route(std::move(batch), moment)
                                        : processor_.fall_silent({id_}, moment);
     for (const ArchiveBatch& samples : routed.samples) {
-      sessions_.note(samples);
+      sessions_.follow(samples);
     }
     see(std::move(routed.samples));
     for (const PassInput& work : routed.work) {
@@ -170,14 +170,14 @@ class SupervisedPass {
     for (const auto& [source, missing] : gaps_.beat(tracker_.by_source())) {
       state.sources[source].missing = static_cast<std::int64_t>(missing);
     }
-    for (const ArchiveBatch& batch : desk_.see({{id_, state}}, now)) {
+    for (const ArchiveBatch& batch : desk_.evaluate({{id_, state}}, now)) {
       note_alerts(batch);
     }
   }
 
   void see(std::vector<ArchiveBatch> batches) {
     for (ArchiveBatch& batch : batches) {
-      desk_.see(batch);
+      desk_.evaluate(batch);
       desk_.note_stored({&batch, 1});
       note_alerts(batch);
     }

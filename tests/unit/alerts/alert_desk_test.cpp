@@ -41,12 +41,12 @@ struct Served {
 
   Served() {
     ArchiveBatch start = beginning();
-    desk.see(start);
+    desk.evaluate(start);
     desk.note_stored({&start, 1});
   }
   std::vector<ArchiveBatch> silent(double t_s, double silent_s) {
-    return desk.see({{"SPINNER", {.t = at(t_s), .pass_t = at(t_s), .silent_s = silent_s}}},
-                    at(t_s));
+    return desk.evaluate({{"SPINNER", {.t = at(t_s), .pass_t = at(t_s), .silent_s = silent_s}}},
+                         at(t_s));
   }
 };
 
@@ -68,12 +68,12 @@ TEST(AlertDesk, GivesNothingOfARunThatIsNotStored) {
   AlertDesk desk{{load_mission(recorded_passes() / "nominal" / "mission.toml").value()},
                  RunMode::Live};
   ArchiveBatch start = beginning();
-  desk.see(start);
+  desk.evaluate(start);
   const std::map<std::string, ServiceState> silent{
       {"SPINNER", {.t = at(1.0), .pass_t = at(1.0), .silent_s = 6.0}}};
-  EXPECT_TRUE(desk.see(silent, at(1.0)).empty());
+  EXPECT_TRUE(desk.evaluate(silent, at(1.0)).empty());
   desk.note_stored({&start, 1});
-  EXPECT_EQ(desk.see(silent, at(1.0)).size(), 1U);
+  EXPECT_EQ(desk.evaluate(silent, at(1.0)).size(), 1U);
 }
 
 TEST(AlertDesk, GivesAgainWhatWasTakenBackAndOnce) {
@@ -81,7 +81,7 @@ TEST(AlertDesk, GivesAgainWhatWasTakenBackAndOnce) {
   const auto raised = served.silent(2.0, 6.0);
   served.desk.take_back(raised.at(0));
   ArchiveBatch next = batch_of_run();
-  served.desk.see(next);
+  served.desk.evaluate(next);
   EXPECT_EQ(changes_in(next), Changes{"link.silent active"});
   EXPECT_TRUE(served.silent(3.0, 7.0).empty());
   served.desk.take_back(next);
@@ -94,9 +94,9 @@ TEST(AlertDesk, EndsAShelvingWithoutTelemetry) {
   const auto raised = served.silent(2.0, 6.0);
   const std::string id = std::get<Alert>(raised.at(0).products.at(0)).alert_id;
   ASSERT_TRUE(
-      served.desk.take({.alert_id = id, .by = "shift", .note = "later", .minutes = 1}, at(3.0)));
-  EXPECT_TRUE(served.desk.see({}, at(62.0)).empty());
-  EXPECT_EQ(changes_in(served.desk.see({}, at(63.0)).at(0)), Changes{"link.silent active"});
+      served.desk.obey({.alert_id = id, .by = "shift", .note = "later", .minutes = 1}, at(3.0)));
+  EXPECT_TRUE(served.desk.evaluate({}, at(62.0)).empty());
+  EXPECT_EQ(changes_in(served.desk.evaluate({}, at(63.0)).at(0)), Changes{"link.silent active"});
 }
 
 TEST(AlertDesk, GoesOnWithOpenAlertsOfBefore) {
@@ -130,7 +130,7 @@ struct ServedThreeAxis {
       : desk{{mission}, RunMode::Live} {
     ArchiveBatch start{.run_id = "run", .spacecraft_id = "LEOSAT"};
     start.start.emplace().mode = RunMode::Live;
-    desk.see(start);
+    desk.evaluate(start);
     desk.note_stored({&start, 1});
   }
   static Mission three_axis_mission() {
@@ -144,10 +144,10 @@ struct ServedThreeAxis {
 std::vector<std::string> changes_behind_samples(const Mission& mission) {
   ServedThreeAxis served{mission};
   ArchiveBatch samples = samples_until(20);
-  served.desk.see(samples);
+  served.desk.evaluate(samples);
   EXPECT_TRUE(samples.products.empty());
   ArchiveBatch products{.run_id = "run", .spacecraft_id = "LEOSAT"};
-  served.desk.see(products);
+  served.desk.evaluate(products);
   return changes_in(products);
 }
 
@@ -161,7 +161,7 @@ TEST(AlertDesk, KeepsWhatSamplesRaiseForABatchWithoutSamplesIfTheMissionHasTheSe
 TEST(AlertDesk, RaisesWhatWasNotStoredBeforeARestartAgainUnderTheSameId) {
   ServedThreeAxis before;
   ArchiveBatch samples = samples_until(20);
-  before.desk.see(samples);
+  before.desk.evaluate(samples);
   ServedThreeAxis restarted;
   PlacedValues again;
   samples.samples.for_each([&]<class Value>(const ArrivedSamplesOfKind<Value>& of_kind) {
@@ -203,7 +203,7 @@ class FasterThanItsModel : public ::testing::Test {
                                              .value = pulses_[i].value,
                                              .arrival = {pulses_[i].place.number}});
       }
-      desk.see(batch);
+      desk.evaluate(batch);
     }
   }
   /// Returns ID and evidence of the open alerts by key.
@@ -223,7 +223,7 @@ class FasterThanItsModel : public ::testing::Test {
 TEST_F(FasterThanItsModel, IsToldAsADepartureAndTheSameAfterARestart) {
   AlertDesk whole = desk();
   ArchiveBatch start = beginning();
-  whole.see(start);
+  whole.evaluate(start);
   send(whole, 0, pulses_.size());
   ASSERT_EQ(open_in(whole).size(), 1U);
   EXPECT_EQ(open_in(whole).begin()->first, "model.departure:period");
@@ -233,7 +233,7 @@ TEST_F(FasterThanItsModel, IsToldAsADepartureAndTheSameAfterARestart) {
     AlertDesk restarted = desk();
     ArchiveBatch goes_on = batch_of_run();
     goes_on.continuation.emplace();
-    restarted.see(goes_on);
+    restarted.evaluate(goes_on);
     PlacedValues before;
     before.of<Pulse>().assign(pulses_.begin(),
                               pulses_.begin() + static_cast<std::ptrdiff_t>(killed));

@@ -8,8 +8,8 @@ namespace spindrift::event_ring_test {
 
 TEST(EventRing, GivesWhatIsBehindAnId) {
   EventRing ring{100};
-  ring.add("state", {{"a", 1}});
-  ring.add("health", {{"b", 2}});
+  ring.append("state", {{"a", 1}});
+  ring.append("health", {{"b", 2}});
   const auto news = ring.after(101);
   EXPECT_EQ(news.text, "id: 102\nevent: health\ndata: {\"b\":2}\n\n");
   EXPECT_EQ(news.last, 102U);
@@ -18,7 +18,7 @@ TEST(EventRing, GivesWhatIsBehindAnId) {
 
 TEST(EventRing, StartsAgainWhereItCan) {
   EventRing ring{100};
-  ring.add("state", {});
+  ring.append("state", {});
   EXPECT_EQ(ring.nearest(7), 100U);     // Number of an earlier start: all events are returned.
   EXPECT_EQ(ring.nearest(5000), 101U);  // Number of another service: events from now on.
   EXPECT_TRUE(ring.holds_all_after(100));
@@ -28,7 +28,7 @@ TEST(EventRing, ForgetsByBytes) {
   EventRing ring{0};
   const std::string mebibyte(1024 * 1024, 'x');
   for (int i = 0; i < 20; ++i) {
-    ring.add("state", mebibyte);
+    ring.append("state", mebibyte);
   }
   EXPECT_FALSE(ring.holds_all_after(1));
   EXPECT_EQ(ring.nearest(0), 5U);

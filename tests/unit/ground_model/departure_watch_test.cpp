@@ -17,14 +17,14 @@ class DepartureWatchTest : public ::testing::Test {
   static constexpr std::size_t kSensor = 1;
 
   std::optional<ConditionChange> see(double t_s, double sigmas) {
-    return watch_.see(
+    return watch_.evaluate(
         {.channel = kRate,
          .t = shifted(kStart, t_s),
          .came = true,
          .value = ComparedValue{.flight = 1.0 + sigmas * kSigma, .model = 1.0, .sigma = kSigma}});
   }
   std::optional<ConditionChange> see_sensor(double t_s, bool came) {
-    return watch_.see({.channel = kSensor, .t = shifted(kStart, t_s), .came = came});
+    return watch_.evaluate({.channel = kSensor, .t = shifted(kStart, t_s), .came = came});
   }
   ChannelComparison rate() const { return watch_.channels().at(kRate); }
 

@@ -77,7 +77,7 @@ ByChannel compared(const std::vector<Sample>& flight) {
       spin_model(truth(), link(0), kResolution_s, kOrbit, kEnd_s).value());
   ModelComparison comparison{model, 5.0};
   for (const Sample& sample : flight) {
-    comparison.see(sample);
+    comparison.compare(sample);
   }
   comparison.finish();
   return testing::by_channel(comparison.channels());

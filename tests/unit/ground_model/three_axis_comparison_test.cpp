@@ -75,7 +75,7 @@ ByChannel compared(const ThreeAxisTelemetry& flight) {
   std::stable_sort(all.begin(), all.end(),
                    [&](const Sample& a, const Sample& b) { return time_of(a) < time_of(b); });
   for (const Sample& sample : all) {
-    std::visit([&](const auto& is) { comparison.see(is); }, sample);
+    std::visit([&](const auto& is) { comparison.compare(is); }, sample);
   }
   return testing::by_channel(comparison.channels());
 }
@@ -188,12 +188,12 @@ TEST(ThreeAxisComparison, MissesNothingThatTheModelDoesNotSend) {
   std::size_t sun = 0;
   for (const MagneticField& field : sent.fields) {
     for (; gyro < sent.gyro.size() && sent.gyro[gyro].t < field.t; ++gyro) {
-      comparison.see(sent.gyro[gyro]);
+      comparison.compare(sent.gyro[gyro]);
     }
     for (; sun < sent.sun.size() && sent.sun[sun].t < field.t; ++sun) {
-      comparison.see(sent.sun[sun]);
+      comparison.compare(sent.sun[sun]);
     }
-    comparison.see(field);
+    comparison.compare(field);
   }
   for (const ChannelComparison& channel : comparison.channels()) {
     EXPECT_EQ(channel.departure.has_value(), channel.channel.name == "star")

@@ -41,7 +41,7 @@ Passed run(const SpinConfig& config, const Orbit& orbit, const std::vector<Pulse
   Passed passed;
   const auto note = [&](SpinOutput output) {
     for (SpinProduct& product : output.products) {
-      passed.edges.note(product);
+      passed.edges.collect(product);
       passed.output.products.push_back(std::move(product));
     }
   };
@@ -301,9 +301,9 @@ TEST(SpinActions, AManoeuvreBeforeThePassChangesNothing) {
 TEST(SpinActions, BatchForgetsWhatIsBeforeAManoeuvreOnceAnEdgeIsBehindIt) {
   PassEdges edges;
   const auto see = [&](double t_s) {
-    edges.note(PulseUse{.pulse = {.t = at(t_s), .channel = PulseChannel::Sun1},
-                        .revolution = static_cast<std::int64_t>(t_s),
-                        .rejected_by = {}});
+    edges.collect(PulseUse{.pulse = {.t = at(t_s), .channel = PulseChannel::Sun1},
+                           .revolution = static_cast<std::int64_t>(t_s),
+                           .rejected_by = {}});
   };
   see(1.0);
   edges.act(at(10.0), MarkManoeuvre{});

@@ -25,7 +25,7 @@ TEST(ArrivalTally, KnowsTheLastOfEachChannelWhateverTheOrder) {
   frame.delay_s.at(index_of(PulseChannel::Sun2)) = 0.25;
   add(batch, frame);
   ArrivalTally tally;
-  tally.note(batch);
+  tally.count(batch);
   const TalliedArrivals found = tally.of("SPINNER");
   EXPECT_EQ(found.samples, 4);
   EXPECT_THAT(found.last, ElementsAre(Pair("sun1", at(3.0)), Pair("sun2", at(3.25))));
@@ -39,7 +39,7 @@ TEST(ArrivalTally, KnowsTheKindsOfSensorsAndWhatARehearsalBringsAgain) {
   add(batch, TimedOrbitState{.t = at(5.0)});
   batch.moved.of<GyroSample>().push_back({.arrival = {3}, .value = {.t = at(4.0)}});
   ArrivalTally tally;
-  tally.note(batch);
+  tally.count(batch);
   EXPECT_THAT(tally.of("SAT").last, ElementsAre(Pair("gyro", at(4.0))));
 }
 
@@ -49,11 +49,11 @@ TEST(ArrivalTally, CountsTheRevolutionsOfARun) {
   batch.products = {RevolutionProduct{.revolution = 7, .t_sun1 = at(7.0), .period_s = 1.0},
                     RevolutionProduct{.revolution = 6, .t_sun1 = at(6.0), .period_s = 1.0}};
   ArrivalTally tally;
-  tally.note(batch);
+  tally.count(batch);
   EXPECT_EQ(tally.of("SPINNER").revolution, 7);
   batch.start.reset();
-  tally.note({.run_id = "next", .spacecraft_id = "SPINNER", .start = RunStart{}});
-  tally.note(batch);  // The batch belongs to the earlier run.
+  tally.count({.run_id = "next", .spacecraft_id = "SPINNER", .start = RunStart{}});
+  tally.count(batch);  // The batch belongs to the earlier run.
   EXPECT_FALSE(tally.of("SPINNER").revolution);
 }
 

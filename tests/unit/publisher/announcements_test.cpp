@@ -46,9 +46,10 @@ std::vector<std::string> shown(const std::vector<Announcement>& announcements) {
 
 TEST(Announcements, LeavesOutAFixThatIsNeitherAcceptedNorAmbiguous) {
   Announcements waiting;
-  waiting.add("SPINNER", "run-1",
-              std::vector{fix(1, true, Resolution::Geometry), fix(2, false, Resolution::Geometry),
-                          fix(3, false, Resolution::Ambiguous), estimate(4)});
+  waiting.enqueue(
+      "SPINNER", "run-1",
+      std::vector{fix(1, true, Resolution::Geometry), fix(2, false, Resolution::Geometry),
+                  fix(3, false, Resolution::Ambiguous), estimate(4)});
   EXPECT_EQ(shown(waiting.take_all()),
             (std::vector<std::string>{"SPINNER 1", "SPINNER 3", "SPINNER fixes 4"}));
 }
@@ -56,18 +57,18 @@ TEST(Announcements, LeavesOutAFixThatIsNeitherAcceptedNorAmbiguous) {
 TEST(Announcements, KeepsAllAsLongAsTheyAreFew) {
   Announcements waiting;
   for (std::size_t i = 0; i < Announcements::kMaxWaiting; ++i) {
-    waiting.add("SPINNER", "run-1", std::vector{estimate(static_cast<std::int64_t>(i))});
+    waiting.enqueue("SPINNER", "run-1", std::vector{estimate(static_cast<std::int64_t>(i))});
   }
   EXPECT_EQ(waiting.take_all().size(), Announcements::kMaxWaiting);
 }
 
 TEST(Announcements, KeepsTheLatestOfEachSpacecraftAndKindWhenTheyPileUp) {
   Announcements waiting;
-  waiting.add("QUIET", "run-1", std::vector{estimate(1)});
+  waiting.enqueue("QUIET", "run-1", std::vector{estimate(1)});
   for (std::size_t i = 0; i < Announcements::kMaxWaiting; ++i) {
-    waiting.add("SPINNER", "run-1",
-                std::vector{fix(static_cast<std::int64_t>(i), true, Resolution::Prior),
-                            estimate(static_cast<std::int64_t>(i))});
+    waiting.enqueue("SPINNER", "run-1",
+                    std::vector{fix(static_cast<std::int64_t>(i), true, Resolution::Prior),
+                                estimate(static_cast<std::int64_t>(i))});
   }
   const auto texts = shown(waiting.take_all());
   const std::string last = std::to_string(Announcements::kMaxWaiting - 1);
@@ -79,7 +80,7 @@ TEST(Announcements, KeepsTheLatestOfEachSpacecraftAndKindWhenTheyPileUp) {
 
 TEST(Announcements, GivesWhatWaitsAndThenNothingOnceClosed) {
   Announcements waiting;
-  waiting.add("SPINNER", "run-1", std::vector{estimate(7)});
+  waiting.enqueue("SPINNER", "run-1", std::vector{estimate(7)});
   waiting.close();
   EXPECT_EQ(shown(waiting.take_all()), std::vector<std::string>{"SPINNER fixes 7"});
   EXPECT_TRUE(waiting.take_all().empty());

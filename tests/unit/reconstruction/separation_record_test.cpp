@@ -74,8 +74,8 @@ class SeparationRecordTest : public ::testing::Test {
 TEST_F(SeparationRecordTest, ForgetsWhatAnOperatorLeavesOutAndIsDueOnceASolutionRestedOnIt) {
   SeparationRecord record = empty();
   Exclusions<SampleKind> excluded;
-  excluded.add(at(0.0), ExcludeSegment<SampleKind>{
-                            .from = at(0.0), .to = at(250.0), .channel = SampleKind::Gyro});
+  excluded.apply(at(0.0), ExcludeSegment<SampleKind>{
+                              .from = at(0.0), .to = at(250.0), .channel = SampleKind::Gyro});
   bool was_due = false;
   for (const AnySample& sample : samples_of(flight_)) {
     if (!was_due) {
@@ -85,7 +85,7 @@ TEST_F(SeparationRecordTest, ForgetsWhatAnOperatorLeavesOutAndIsDueOnceASolution
   }
   ASSERT_TRUE(was_due);
   EXPECT_FALSE(record.forget(excluded));
-  excluded.add(at(280.0), ExcludeChannel<SampleKind>{SampleKind::Sun});
+  excluded.apply(at(280.0), ExcludeChannel<SampleKind>{SampleKind::Sun});
   const auto sun_before = record.request().sun_directions.size();
   EXPECT_TRUE(record.forget(excluded));
   EXPECT_FALSE(record.request().gyro.empty());

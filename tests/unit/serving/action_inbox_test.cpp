@@ -17,10 +17,10 @@ namespace spindrift::action_inbox_test {
 constexpr std::size_t kMost = StoredActions::kMostAwaited;
 
 std::string refusal_of(ActionInbox& inbox) {
-  const auto taken = inbox.take({{"spacecraft", "SPINNER"},
-                                 {"by", "night shift"},
-                                 {"action", "mark_manoeuvre"},
-                                 {"t_tai_ns", 1'795'143'637'000'000'000}});
+  const auto taken = inbox.submit({{"spacecraft", "SPINNER"},
+                                   {"by", "night shift"},
+                                   {"action", "mark_manoeuvre"},
+                                   {"t_tai_ns", 1'795'143'637'000'000'000}});
   return taken ? "" : taken.error().message;
 }
 
@@ -54,7 +54,7 @@ TEST(StoredActions, WaitForOneUntilItIsStored) {
   EXPECT_FALSE(stored.wait("action", std::chrono::seconds{0}));
   std::vector<ArchiveBatch> batches(1);
   batches.front().actions.emplace_back().action_id = "action";
-  stored.note(batches);
+  stored.confirm(batches);
   EXPECT_TRUE(stored.wait("action", std::chrono::seconds{0}));
 }
 

@@ -19,7 +19,7 @@ TEST(LinkWatch, WaitsForWhatHasNotComeYet) {
 
 TEST(LinkWatch, IsStaleAfterSilenceAndLiveAgainWithTheNextSample) {
   LinkWatch links{{"SPINNER", "SILENT"}};
-  links.note("SPINNER", kT, kCame);
+  links.hear("SPINNER", kT, kCame);
 
   const auto last_instant = kCame + LinkWatch::kStaleAfter;
   const auto live = links.report(last_instant).at(1);
@@ -31,7 +31,7 @@ TEST(LinkWatch, IsStaleAfterSilenceAndLiveAgainWithTheNextSample) {
   EXPECT_EQ(links.report(later).at(1).link, LinkState::Stale);
   EXPECT_EQ(links.report(later).at(0).link, LinkState::Waiting);
 
-  links.note("SPINNER", kT + std::chrono::seconds{5}, later);
+  links.hear("SPINNER", kT + std::chrono::seconds{5}, later);
   EXPECT_EQ(links.report(later).at(1).link, LinkState::Live);
 }
 
@@ -42,13 +42,13 @@ TEST(LinkWatch, IsStaleAfterARestartUntilTheNextSample) {
   EXPECT_EQ(stored.link, LinkState::Stale);
   EXPECT_EQ(stored.last_sample, kT);
   EXPECT_FALSE(stored.data_age_s);
-  links.note("SPINNER", kT, kCame);
+  links.hear("SPINNER", kT, kCame);
   EXPECT_EQ(links.report(kCame).at(0).link, LinkState::Live);
 }
 
 TEST(LinkWatch, DoesNotLookAtOtherSpacecraft) {
   LinkWatch links{{"SPINNER"}};
-  links.note("OTHER", kT, kCame);
+  links.hear("OTHER", kT, kCame);
   EXPECT_EQ(links.report(kCame).size(), 1U);
 }
 

@@ -36,19 +36,19 @@ class SessionWatchTest : public ::testing::Test {
 };
 
 TEST_F(SessionWatchTest, CountsSessionsAndWhatTheyBringAgain) {
-  sessions_.note(batch("front-end", 1, 0.0, 10));
+  sessions_.follow(batch("front-end", 1, 0.0, 10));
   expect_counts(0, 0);
-  sessions_.note(batch("front-end", 2, 5.0, 10));
+  sessions_.follow(batch("front-end", 2, 5.0, 10));
   expect_counts(1, 5);
   EXPECT_EQ(sessions_.samples(), 20U);
   EXPECT_TRUE(sessions_.report("OTHER", {}).empty());
 }
 
 TEST_F(SessionWatchTest, DoesNotTakeTwoThatSendTheSameForRepetition) {
-  sessions_.note(batch("front-end", 1, 0.0, 10));
+  sessions_.follow(batch("front-end", 1, 0.0, 10));
   for (int i = 10; i < 20; ++i) {
-    sessions_.note(batch("front-end", 1, i, 1));
-    sessions_.note(batch("standby", 7, i, 1));
+    sessions_.follow(batch("front-end", 1, i, 1));
+    sessions_.follow(batch("standby", 7, i, 1));
   }
   EXPECT_EQ(sessions_.report("SPINNER", {}).at("standby").repeated, 1);
   EXPECT_EQ(sessions_.report("SPINNER", {}).at("front-end").restarts, 0);
@@ -56,7 +56,7 @@ TEST_F(SessionWatchTest, DoesNotTakeTwoThatSendTheSameForRepetition) {
 
 TEST_F(SessionWatchTest, TellsOfAGapTheSpacecraftThatTheSourceBrings) {
   sessions_.go_on("OTHER", front_end_before(), at(9.0));
-  sessions_.note(batch("front-end", 1, 0.0, 10));
+  sessions_.follow(batch("front-end", 1, 0.0, 10));
   const std::map<std::string, std::uint64_t> missing{{"front-end", 3}, {"of-others", 5}};
   EXPECT_EQ(sessions_.report("SPINNER", missing).size(), 1U);
   EXPECT_EQ(sessions_.report("SPINNER", missing).at("front-end").missing, 3);
@@ -65,9 +65,9 @@ TEST_F(SessionWatchTest, TellsOfAGapTheSpacecraftThatTheSourceBrings) {
 
 TEST_F(SessionWatchTest, KnowsTheSessionsOfBeforeARestart) {
   sessions_.go_on("SPINNER", front_end_before(), at(9.0));
-  sessions_.note(batch("front-end", 1, 5.0, 10));
+  sessions_.follow(batch("front-end", 1, 5.0, 10));
   expect_counts(0, 0);
-  sessions_.note(batch("front-end", 2, 5.0, 10));
+  sessions_.follow(batch("front-end", 2, 5.0, 10));
   expect_counts(1, 10);
 }
 

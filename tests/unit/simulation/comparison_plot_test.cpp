@@ -36,7 +36,7 @@ Compared compared() {
     all.samples.push_back({.channel = 2, .t = t, .came = false});
   }
   for (const ComparedSample& sample : all.samples) {
-    watch.see(sample);
+    watch.evaluate(sample);
   }
   all.report = {.spacecraft_id = "SAT<1>",
                 .model = "pass/scenario.toml",

@@ -26,7 +26,8 @@ testing::ByChannel compared(const Scenario& flight, const Scenario& model) {
   const SimulatedPass pass = simulated_pass(flight, Progress::Hidden).value();
   ModelComparison comparison{std::make_shared<const GroundModel>(ground_model_of(model).value()),
                              5.0};
-  in_order_of_arrival(pass.telemetry, [&](const auto& arrived) { comparison.see(arrived.value); });
+  in_order_of_arrival(pass.telemetry,
+                      [&](const auto& arrived) { comparison.compare(arrived.value); });
   comparison.finish();
   return testing::by_channel(comparison.channels());
 }

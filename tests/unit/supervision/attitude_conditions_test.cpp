@@ -26,14 +26,14 @@ class AttitudeConditionsTest : public ::testing::Test {
 };
 
 TEST_F(AttitudeConditionsTest, RaiseThatTheAttitudeIsLostAndClearItWhenItIsBack) {
-  const auto nominal = conditions_.see(estimate(0.0, Quality::Ok));
+  const auto nominal = conditions_.evaluate(estimate(0.0, Quality::Ok));
   ASSERT_EQ(nominal.size(), 1U);
   EXPECT_EQ(nominal.front().change, Change::Cleared);
-  const auto lost = conditions_.see(estimate(1.0, Quality::Lost));
+  const auto lost = conditions_.evaluate(estimate(1.0, Quality::Lost));
   ASSERT_EQ(lost.size(), 1U);
   EXPECT_EQ(lost.front().code, AlertCode::AttitudeLost);
   EXPECT_EQ(lost.front().change, Change::Raised);
-  const auto back = conditions_.see(estimate(2.0, Quality::Converging));
+  const auto back = conditions_.evaluate(estimate(2.0, Quality::Converging));
   ASSERT_EQ(back.size(), 1U);
   EXPECT_EQ(back.front().change, Change::Cleared);
 }
@@ -41,9 +41,9 @@ TEST_F(AttitudeConditionsTest, RaiseThatTheAttitudeIsLostAndClearItWhenItIsBack)
 TEST_F(AttitudeConditionsTest, RaiseThatStarFixesOverruleTheAttitude) {
   AttitudeEstimate anew = estimate(1.0, Quality::Converging);
   anew.assessment.reasons = {{ReasonCode::Since, {{"since_tai_ns", tai_ns(anew.t)}}}};
-  ASSERT_EQ(conditions_.see(anew).size(), 1U);
+  ASSERT_EQ(conditions_.evaluate(anew).size(), 1U);
   anew.t += std::chrono::seconds{1};
-  const auto later = conditions_.see(anew);
+  const auto later = conditions_.evaluate(anew);
   ASSERT_EQ(later.size(), 1U);
   EXPECT_EQ(later.front().change, Change::Cleared);
 }
@@ -59,7 +59,7 @@ std::optional<ConditionChange> last_change(AttitudeConditions& conditions, doubl
   for (double t_s = from_s; t_s < to_s; t_s += 0.1) {
     AttitudeEstimate one = estimate(t_s, Quality::Ok);
     one.innovations = {.squared = 5.0 * mean_square, .freedom = 5};
-    for (const ConditionChange& change : conditions.see(one)) {
+    for (const ConditionChange& change : conditions.evaluate(one)) {
       if (change.code == AlertCode::AttitudeDiverged) {
         last = change;
       }
@@ -81,7 +81,7 @@ TEST_F(AttitudeConditionsTest, RaiseInnovationsThatAreTooLargeOrTooSmallForTwoMi
 
 TEST_F(AttitudeConditionsTest, JudgeNoInnovationsWhereThereAreNone) {
   for (double t_s = 0.0; t_s < 300.0; t_s += 0.1) {
-    for (const ConditionChange& change : conditions_.see(estimate(t_s, Quality::Ok))) {
+    for (const ConditionChange& change : conditions_.evaluate(estimate(t_s, Quality::Ok))) {
       EXPECT_NE(change.code, AlertCode::AttitudeDiverged);
     }
   }
@@ -93,7 +93,7 @@ std::set<std::string> raised_by(AttitudeConditions& conditions, std::vector<Samp
   std::set<std::string> raised;
   for (int t_s = from_s; t_s < to_s; ++t_s) {
     for (const SampleKind kind : kinds) {
-      for (const ConditionChange& change : conditions.see(kind, at(t_s))) {
+      for (const ConditionChange& change : conditions.evaluate(kind, at(t_s))) {
         const std::string key = alert_key(change.code, change.about);
         change.change == Change::Raised ? (void)raised.insert(key) : (void)raised.erase(key);
       }
@@ -109,7 +109,7 @@ TEST_F(AttitudeConditionsTest, RaiseASensorThatGivesNothingWhileOthersDo) {
   EXPECT_EQ(raised_by(conditions_, {Gyro, Star, OrbitState}, 0, 10), Keys{});
   EXPECT_EQ(raised_by(conditions_, {Gyro}, 10, 14), Keys{});
   EXPECT_EQ(raised_by(conditions_, {Gyro}, 14, 20), Keys{"channel.silent:star"});
-  const auto back = conditions_.see(Star, at(20.5));
+  const auto back = conditions_.evaluate(Star, at(20.5));
   ASSERT_EQ(back.size(), 1U);
   EXPECT_EQ(back.front().change, Change::Cleared);
 }
@@ -117,9 +117,9 @@ TEST_F(AttitudeConditionsTest, RaiseASensorThatGivesNothingWhileOthersDo) {
 TEST_F(AttitudeConditionsTest, BelieveNoSampleAloneThatTimeHasGoneOn) {
   constexpr int kYears_s = 600'000'000;
   EXPECT_EQ(raised_by(conditions_, {Gyro, Star}, 0, 10), Keys{});
-  conditions_.see(Gyro, at(kYears_s));
+  conditions_.evaluate(Gyro, at(kYears_s));
   EXPECT_EQ(raised_by(conditions_, {Gyro, Star}, 10, 20), Keys{});
-  conditions_.see(Star, at(kYears_s));
+  conditions_.evaluate(Star, at(kYears_s));
   EXPECT_EQ(raised_by(conditions_, {Gyro}, 20, 30), Keys{"channel.silent:star"});
 }
 

@@ -12,17 +12,17 @@ ConditionWatch a_watch(Holding holding = {}) {
 
 TEST(ConditionWatch, RaisesAboveItsLimitAndClearsAtFourFifthsOfIt) {
   ConditionWatch watch = a_watch();
-  EXPECT_FALSE(watch.see(at(0), {.value = 0.9, .limit = 1.0}));
-  const auto raised = watch.see(at(1), {.value = 1.1, .limit = 1.0, .sigma = 0.2}).value();
+  EXPECT_FALSE(watch.update(at(0), {.value = 0.9, .limit = 1.0}));
+  const auto raised = watch.update(at(1), {.value = 1.1, .limit = 1.0, .sigma = 0.2}).value();
   EXPECT_EQ(raised.change, Change::Raised);
   EXPECT_EQ(raised.t, at(1));
   EXPECT_EQ(raised.evidence.value, 1.1);
   EXPECT_EQ(raised.evidence.limit, 1.0);
   EXPECT_EQ(raised.evidence.sigma, 0.2);
-  EXPECT_FALSE(watch.see(at(2), {.value = 1.2, .limit = 1.0}));
-  EXPECT_FALSE(watch.see(at(3), {.value = 0.9, .limit = 1.0}));
-  EXPECT_FALSE(watch.see(at(4), {.value = 1.1, .limit = 1.0}));
-  const auto cleared = watch.see(at(5), {.value = 0.8, .limit = 1.0}).value();
+  EXPECT_FALSE(watch.update(at(2), {.value = 1.2, .limit = 1.0}));
+  EXPECT_FALSE(watch.update(at(3), {.value = 0.9, .limit = 1.0}));
+  EXPECT_FALSE(watch.update(at(4), {.value = 1.1, .limit = 1.0}));
+  const auto cleared = watch.update(at(5), {.value = 0.8, .limit = 1.0}).value();
   EXPECT_EQ(cleared.change, Change::Cleared);
 }
 
@@ -36,33 +36,33 @@ TEST(ConditionWatch, RaisesWhatIsLessThanItShouldBe) {
 
 TEST(ConditionWatch, RaisesAndClearsOnlyWhatIsHeldForSoLong) {
   ConditionWatch watch = a_watch({.raise_s = 10.0, .clear_s = 5.0});
-  EXPECT_FALSE(watch.see(at(0), true));
-  EXPECT_FALSE(watch.see(at(9), false));
-  EXPECT_FALSE(watch.see(at(10), true));
-  EXPECT_FALSE(watch.see(at(19), true));
-  const auto raised = watch.see(at(21), true).value();
+  EXPECT_FALSE(watch.update(at(0), true));
+  EXPECT_FALSE(watch.update(at(9), false));
+  EXPECT_FALSE(watch.update(at(10), true));
+  EXPECT_FALSE(watch.update(at(19), true));
+  const auto raised = watch.update(at(21), true).value();
   EXPECT_EQ(raised.evidence.since, at(10));
   EXPECT_EQ(raised.evidence.value, 11.0);
-  EXPECT_FALSE(watch.see(at(22), false));
-  EXPECT_FALSE(watch.see(at(26), false));
-  EXPECT_TRUE(watch.see(at(27), false));
+  EXPECT_FALSE(watch.update(at(22), false));
+  EXPECT_FALSE(watch.update(at(26), false));
+  EXPECT_TRUE(watch.update(at(27), false));
 }
 
 TEST(ConditionWatch, SaysOnceWhatWasNotThereToBeginWith) {
   ConditionWatch watch = a_watch();
-  const auto first = watch.see(at(0), false).value();
+  const auto first = watch.update(at(0), false).value();
   EXPECT_EQ(first.change, Change::Cleared);
-  EXPECT_FALSE(watch.see(at(1), false));
+  EXPECT_FALSE(watch.update(at(1), false));
 }
 
 TEST(ConditionWatch, DoesNotLookAtWhatIsEarlier) {
   ConditionWatch watch = a_watch();
-  ASSERT_TRUE(watch.see(at(1), false));
-  EXPECT_FALSE(watch.see(at(0), true));
-  const auto raised = watch.see(at(1), true).value();
+  ASSERT_TRUE(watch.update(at(1), false));
+  EXPECT_FALSE(watch.update(at(0), true));
+  const auto raised = watch.update(at(1), true).value();
   EXPECT_EQ(raised.change, Change::Raised);
-  EXPECT_FALSE(watch.see(at(1), false));
-  EXPECT_TRUE(watch.see(at(2), false));
+  EXPECT_FALSE(watch.update(at(1), false));
+  EXPECT_TRUE(watch.update(at(2), false));
 }
 
 }  // namespace spindrift::condition_watch_test

@@ -17,7 +17,7 @@ const std::vector<SampleContradiction::By> kBoth{{Sender::First, false, "A"}, {k
 
 TEST(ContradictionConditions, AboutEachSourceAreRaisedOnceAndNameBoth) {
   ContradictionConditions conditions{AlertLimits{}};
-  const ConditionChanges raised = conditions.see(of(0, kBoth));
+  const ConditionChanges raised = conditions.evaluate(of(0, kBoth));
   ASSERT_THAT(raised, SizeIs(2));
   for (std::size_t i = 0; i < 2; ++i) {
     EXPECT_EQ(raised[i].change, Change::Raised);
@@ -29,15 +29,15 @@ TEST(ContradictionConditions, AboutEachSourceAreRaisedOnceAndNameBoth) {
   EXPECT_EQ(raised[0].who, "B");
   EXPECT_EQ(alert_key(raised[1].code, raised[1].about), "link.contradiction:B");
   EXPECT_EQ(severity_of(raised[1].code), AlertSeverity::Warning);
-  EXPECT_THAT(conditions.see(of(1, kBoth)), IsEmpty());
+  EXPECT_THAT(conditions.evaluate(of(1, kBoth)), IsEmpty());
 }
 
 TEST(ContradictionConditions, EndAMinuteBehindTheLast) {
   ContradictionConditions conditions{AlertLimits{}};
-  conditions.see(of(0, kBoth));
-  conditions.see(of(10, kBoth));
-  EXPECT_THAT(conditions.see(at_s(69)), IsEmpty());
-  const ConditionChanges over = conditions.see(at_s(70));
+  conditions.evaluate(of(0, kBoth));
+  conditions.evaluate(of(10, kBoth));
+  EXPECT_THAT(conditions.evaluate(at_s(69)), IsEmpty());
+  const ConditionChanges over = conditions.evaluate(at_s(70));
   ASSERT_THAT(over, SizeIs(2));
   EXPECT_EQ(over.front().change, Change::Cleared);
 }
@@ -45,11 +45,11 @@ TEST(ContradictionConditions, EndAMinuteBehindTheLast) {
 TEST(ContradictionConditions, ThePreferredSourceIsNotDoubtedUnlessByItself) {
   ContradictionConditions conditions{AlertLimits{}};
   const ConditionChanges raised =
-      conditions.see(of(0, {{Sender::Preferred, true, "A"}, {kOther, false, "B"}}));
+      conditions.evaluate(of(0, {{Sender::Preferred, true, "A"}, {kOther, false, "B"}}));
   ASSERT_THAT(raised, SizeIs(1));
   EXPECT_EQ(raised.front().about, "B");
   EXPECT_EQ(raised.front().who, "A");
-  ASSERT_THAT(conditions.see(of(1, {{Sender::Preferred, false, "A"}})), SizeIs(1));
+  ASSERT_THAT(conditions.evaluate(of(1, {{Sender::Preferred, false, "A"}})), SizeIs(1));
 }
 
 TEST(ContradictionConditions, TakeSoManyInAMinuteAsTheLimitSays) {
@@ -57,7 +57,7 @@ TEST(ContradictionConditions, TakeSoManyInAMinuteAsTheLimitSays) {
   limits.contradicted_samples = 3.0;
   ContradictionConditions conditions{limits};
   const auto raises = [&](int t_s) {
-    const ConditionChanges changes = conditions.see(of(t_s, kBoth));
+    const ConditionChanges changes = conditions.evaluate(of(t_s, kBoth));
     return !changes.empty() && changes.front().change == Change::Raised;
   };
   EXPECT_FALSE(raises(0));

@@ -31,8 +31,8 @@ struct Supervised {
   explicit Supervised(std::optional<Contact> contact = std::nullopt)
       : conditions{AlertLimits{}, contact} {}
 
-  void see(const ServiceState& state) {
-    for (const ConditionChange& change : conditions.see(state)) {
+  void evaluate(const ServiceState& state) {
+    for (const ConditionChange& change : conditions.evaluate(state)) {
       const std::string key = alert_key(change.code, change.about);
       if (change.change == Change::Raised) {
         raised.emplace(key, name_of(change.severity));
@@ -44,11 +44,12 @@ struct Supervised {
   /// @param spoil Changes the state of each second.
   /// @return What is raised then.
   template <class Spoil>
-  const std::map<std::string, std::string_view>& see(int from_s, int to_s, const Spoil& spoil) {
+  const std::map<std::string, std::string_view>& evaluate(int from_s, int to_s,
+                                                          const Spoil& spoil) {
     for (int t_s = from_s; t_s < to_s; ++t_s) {
       ServiceState one = state(t_s);
       spoil(one, t_s);
-      see(one);
+      evaluate(one);
     }
     return raised;
   }
@@ -64,32 +65,33 @@ class ServiceConditionsTest : public ::testing::Test {
 };
 
 TEST_F(ServiceConditionsTest, RaiseNothingOfAServiceThatIsWell) {
-  EXPECT_EQ(service_.see(0, 200, kWell), Raised{});
+  EXPECT_EQ(service_.evaluate(0, 200, kWell), Raised{});
 }
 
 TEST_F(ServiceConditionsTest, RaiseSilenceAndClearItWhenTelemetryIsBack) {
-  EXPECT_EQ(service_.see(10, 15, kSilentFrom10), Raised{});
-  EXPECT_EQ(service_.see(15, 16, kSilentFrom10), (Raised{{"link.silent", "warning"}}));
-  EXPECT_EQ(service_.see(16, 17, [](auto& one, int /*t_s*/) { one.silent_s.reset(); }),
+  EXPECT_EQ(service_.evaluate(10, 15, kSilentFrom10), Raised{});
+  EXPECT_EQ(service_.evaluate(15, 16, kSilentFrom10), (Raised{{"link.silent", "warning"}}));
+  EXPECT_EQ(service_.evaluate(16, 17, [](auto& one, int /*t_s*/) { one.silent_s.reset(); }),
             (Raised{{"link.silent", "warning"}}));
-  EXPECT_EQ(service_.see(17, 18, kWell), Raised{});
+  EXPECT_EQ(service_.evaluate(17, 18, kWell), Raised{});
 }
 
 TEST_F(ServiceConditionsTest, ExpectTelemetryWithinAPlannedContactOnly) {
   Supervised service{Contact{.from = at(100.0), .to = at(200.0)}};
-  EXPECT_EQ(service.see(10, 104, kSilentFrom10), Raised{});
-  EXPECT_EQ(service.see(104, 106, kSilentFrom10), (Raised{{"link.silent", "critical"}}));
-  EXPECT_EQ(service.see(106, 200, kSilentFrom10).size(), 1U);
-  EXPECT_EQ(service.see(200, 202, kSilentFrom10), Raised{});
+  EXPECT_EQ(service.evaluate(10, 104, kSilentFrom10), Raised{});
+  EXPECT_EQ(service.evaluate(104, 106, kSilentFrom10), (Raised{{"link.silent", "critical"}}));
+  EXPECT_EQ(service.evaluate(106, 200, kSilentFrom10).size(), 1U);
+  EXPECT_EQ(service.evaluate(200, 202, kSilentFrom10), Raised{});
 }
 
 TEST_F(ServiceConditionsTest, RaiseTelemetryThatIsLateOrAhead) {
-  EXPECT_EQ(service_.see(0, 2, [](auto& one, int /*t_s*/) { one.late_s = 12.0; }), Raised{});
-  EXPECT_EQ(service_.see(2, 4, [](auto& one, int /*t_s*/) { one.late_s = 12.0; }),
+  EXPECT_EQ(service_.evaluate(0, 2, [](auto& one, int /*t_s*/) { one.late_s = 12.0; }), Raised{});
+  EXPECT_EQ(service_.evaluate(2, 4, [](auto& one, int /*t_s*/) { one.late_s = 12.0; }),
             (Raised{{"link.late", "warning"}}));
-  EXPECT_EQ(service_.see(4, 8, [](auto& one, int /*t_s*/) { one.late_s = -12.0; }),
+  EXPECT_EQ(service_.evaluate(4, 8, [](auto& one, int /*t_s*/) { one.late_s = -12.0; }),
             (Raised{{"link.ahead", "warning"}}));
-  EXPECT_EQ(service_.see(8, 12, [](auto& one, int /*t_s*/) { one.late_s.reset(); }).size(), 1U);
+  EXPECT_EQ(service_.evaluate(8, 12, [](auto& one, int /*t_s*/) { one.late_s.reset(); }).size(),
+            1U);
 }
 
 TEST_F(ServiceConditionsTest, RaiseWhatASourceDidWithinTheLastMinute) {
@@ -98,30 +100,31 @@ TEST_F(ServiceConditionsTest, RaiseWhatASourceDidWithinTheLastMinute) {
       one.sources["front-end"] = {.missing = 1, .restarts = 1, .repeated = 100};
     }
   };
-  EXPECT_EQ(service_.see(0, 11, did), (Raised{{"link.gap:front-end", "warning"},
-                                              {"link.repeated:front-end", "info"},
-                                              {"link.restarted:front-end", "info"}}));
-  EXPECT_EQ(service_.see(11, 70, did).size(), 3U);
-  EXPECT_EQ(service_.see(70, 71, did), Raised{});
+  EXPECT_EQ(service_.evaluate(0, 11, did), (Raised{{"link.gap:front-end", "warning"},
+                                                   {"link.repeated:front-end", "info"},
+                                                   {"link.restarted:front-end", "info"}}));
+  EXPECT_EQ(service_.evaluate(11, 70, did).size(), 3U);
+  EXPECT_EQ(service_.evaluate(70, 71, did), Raised{});
 }
 
 TEST_F(ServiceConditionsTest, ClearAGapThatIsFilled) {
   const auto is_missing = [](ServiceState& one, int t_s) {
     one.sources["front-end"].missing = t_s < 10 ? 3 : 0;
   };
-  EXPECT_EQ(service_.see(0, 10, is_missing).size(), 1U);
-  EXPECT_EQ(service_.see(10, 11, is_missing), Raised{});
+  EXPECT_EQ(service_.evaluate(0, 10, is_missing).size(), 1U);
+  EXPECT_EQ(service_.evaluate(10, 11, is_missing), Raised{});
 }
 
 TEST_F(ServiceConditionsTest, RaiseTheShareOfImpossibleSamples) {
-  service_.see(0, 100, kWell);
-  EXPECT_EQ(service_.see(100, 101, [](auto& one, int /*t_s*/) { one.rejected = 3; }), Raised{});
-  EXPECT_EQ(service_.see(101, 102, [](auto& one, int /*t_s*/) { one.rejected = 4; }),
+  service_.evaluate(0, 100, kWell);
+  EXPECT_EQ(service_.evaluate(100, 101, [](auto& one, int /*t_s*/) { one.rejected = 3; }),
+            Raised{});
+  EXPECT_EQ(service_.evaluate(101, 102, [](auto& one, int /*t_s*/) { one.rejected = 4; }),
             (Raised{{"link.rejected", "warning"}}));
 }
 
 TEST_F(ServiceConditionsTest, RaiseWhatIsWrongWithTheServiceAndItsHost) {
-  service_.see(0, 1, [](auto& one, int /*t_s*/) {
+  service_.evaluate(0, 1, [](auto& one, int /*t_s*/) {
     one.other_service = "another";
     one.backlog_s = 10.0;
     one.write_failed = true;
@@ -136,9 +139,9 @@ TEST_F(ServiceConditionsTest, RaiseWhatIsWrongWithTheServiceAndItsHost) {
                                      {"data.outdated:leap_seconds", "warning"},
                                      {"data.outdated:orbit", "warning"},
                                      {"service.twice", "warning"}}));
-  service_.see(1, 2, [](auto& one, int /*t_s*/) { one.data_until["leap_seconds"] = at(1e6); });
+  service_.evaluate(1, 2, [](auto& one, int /*t_s*/) { one.data_until["leap_seconds"] = at(1e6); });
   EXPECT_EQ(service_.raised, (Raised{{"clock.jump", "warning"}}));
-  EXPECT_EQ(service_.see(2, 63, kWell), Raised{});
+  EXPECT_EQ(service_.evaluate(2, 63, kWell), Raised{});
 }
 
 }  // namespace spindrift::service_conditions_test

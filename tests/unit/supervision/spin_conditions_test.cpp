@@ -58,8 +58,8 @@ struct Supervised {
       : conditions{config(), orbit(), AlertLimits{}, target} {}
 
   template <class Product>
-  void see(const Product& product) {
-    for (const ConditionChange& change : conditions.see(product)) {
+  void evaluate(const Product& product) {
+    for (const ConditionChange& change : conditions.evaluate(product)) {
       const std::string key = alert_key(change.code, change.about);
       if (change.change == Change::Raised) {
         raised.insert(key);
@@ -76,7 +76,7 @@ using Keys = std::set<std::string>;
 const Keys& give_estimates(Supervised& pass, Quality quality, double sigma_deg, double off_deg,
                            double from_s, double to_s) {
   for (double t_s = from_s; t_s < to_s; t_s += 1.0) {
-    pass.see(estimate(t_s, quality, sigma_deg, off_deg));
+    pass.evaluate(estimate(t_s, quality, sigma_deg, off_deg));
   }
   return pass.raised;
 }
@@ -88,9 +88,9 @@ void give_edges(Supervised& pass, std::int64_t revolution, std::optional<PulseCh
     if (channel != silent) {
       const double t_s =
           static_cast<double>(revolution) + 0.1 * static_cast<double>(index_of(channel));
-      pass.see(PulseUse{.pulse = {.t = at(t_s), .channel = channel},
-                        .revolution = revolution,
-                        .rejected_by = rejected_by});
+      pass.evaluate(PulseUse{.pulse = {.t = at(t_s), .channel = channel},
+                             .revolution = revolution,
+                             .rejected_by = rejected_by});
     }
   }
 }
@@ -115,13 +115,13 @@ TEST_F(SpinConditionsTest, RaiseNothingOfANominalPass) {
   give_estimates(pass, Quality::Ok, 0.05, 0.0, 30.0, 300.0);
   for (int revolution = 0; revolution < 300; ++revolution) {
     give_edges(pass, revolution, std::nullopt);
-    pass.see(
+    pass.evaluate(
         RevolutionProduct{.revolution = revolution, .t_sun1 = at(revolution), .period_s = 1.0});
-    pass.see(SpinMeasurement{.revolution = revolution,
-                             .quantity = SpinQuantity::Period,
-                             .value = 1.0,
-                             .sigma = 1e-4,
-                             .rejected_by = std::nullopt});
+    pass.evaluate(SpinMeasurement{.revolution = revolution,
+                                  .quantity = SpinQuantity::Period,
+                                  .value = 1.0,
+                                  .sigma = 1e-4,
+                                  .rejected_by = std::nullopt});
   }
   EXPECT_EQ(pass.raised, Keys{});
 }
@@ -132,7 +132,7 @@ TEST_F(SpinConditionsTest, RaiseAQualityThatIsHeldAndClearIt) {
             Keys{"spin.ambiguous"});
   EXPECT_EQ(give_estimates(pass_, Quality::Doubtful, 0.05, 0.0, 70.0, 140.0),
             Keys{"spin.doubtful"});
-  pass_.see(estimate(141.0, Quality::Lost));
+  pass_.evaluate(estimate(141.0, Quality::Lost));
   EXPECT_EQ(pass_.raised, (Keys{"attitude.lost", "spin.doubtful"}));
 }
 
@@ -172,14 +172,14 @@ TEST_F(SpinConditionsTest, HoldTheAxisAgainstTheTargetThatAnOperatorSets) {
 
 TEST_F(SpinConditionsTest, RaiseThatTheEstimatorsDiffer) {
   for (double t_s = 0.0; t_s < 20.0; t_s += 1.0) {
-    pass_.see(estimate(t_s, Quality::Ok));
-    pass_.see(estimate(t_s + 0.5, Quality::Ok, 0.05, 0.3, SpinEstimator::Mean));
+    pass_.evaluate(estimate(t_s, Quality::Ok));
+    pass_.evaluate(estimate(t_s + 0.5, Quality::Ok, 0.05, 0.3, SpinEstimator::Mean));
   }
   EXPECT_EQ(pass_.raised, Keys{"spin.disagree"});
 }
 
 TEST_F(SpinConditionsTest, RaiseAChannelThatTheAxisInForceShouldSee) {
-  pass_.see(estimate(0.0, Quality::Ok));
+  pass_.evaluate(estimate(0.0, Quality::Ok));
   give_turns(pass_, 0, 20);
   EXPECT_EQ(give_turns(pass_, 20, 29, NorthIn), Keys{});
   give_edges(pass_, 29, NorthIn);
@@ -192,7 +192,7 @@ TEST_F(SpinConditionsTest, RaiseAChannelThatIsDeadFromTheStart) {
   for (const PulseChannel dead : {Sun2, NorthOut}) {
     Supervised pass;
     EXPECT_EQ(give_turns(pass, 0, 30, dead), Keys{}) << "no axis yet";
-    pass.see(estimate(30.0, Quality::Ok));
+    pass.evaluate(estimate(30.0, Quality::Ok));
     EXPECT_EQ(give_turns(pass, 30, 42, dead),
               Keys{"channel.silent:" + std::string{kPulseChannelNames.at(index_of(dead))}});
   }
@@ -205,7 +205,7 @@ TEST_F(SpinConditionsTest, ExpectABeamThatHasNeverComeWhereTheMissionCallsItHeal
         .mount_angle_rad = 95.0 * kRadPerDeg, .azimuth_rad = 0.1, .healthy = healthy};
     Supervised pass;
     pass.conditions = SpinConditions{mission, orbit(), AlertLimits{}, std::nullopt};
-    pass.see(estimate(0.0, Quality::Ok));
+    pass.evaluate(estimate(0.0, Quality::Ok));
     EXPECT_EQ(give_turns(pass, 0, 30),
               healthy ? Keys({"channel.silent:south_in", "channel.silent:south_out"}) : Keys{});
   }
@@ -218,19 +218,19 @@ TEST_F(SpinConditionsTest, ExpectNoSunBehindTheEndOfASlit) {
     mission.sun_sensor.slit_cant_rad = 0.8;
     Supervised pass;
     pass.conditions = SpinConditions{mission, orbit(), AlertLimits{}, std::nullopt};
-    pass.see(estimate(0.0, Quality::Ok, 0.05, off_deg));
+    pass.evaluate(estimate(0.0, Quality::Ok, 0.05, off_deg));
     EXPECT_EQ(give_turns(pass, 0, 40, Sun2), off_deg > 0.0 ? Keys{} : Keys{"channel.silent:sun2"});
   }
 }
 
 TEST_F(SpinConditionsTest, GiveABeamThatComesIntoViewItsRevolutions) {
-  pass_.see(estimate(0.0, Quality::Ok));
+  pass_.evaluate(estimate(0.0, Quality::Ok));
   give_turns(pass_, 0, 20);
   SpinEstimate away = estimate(20.0, Quality::Ok);
   away.axis_icrf = Eigen::AngleAxisd{70.0 * kRadPerDeg, Eigen::Vector3d::UnitY()} * kAxis;
-  pass_.see(away);
+  pass_.evaluate(away);
   give_turns(pass_, 20, 55, NorthIn);
-  pass_.see(estimate(55.0, Quality::Ok));
+  pass_.evaluate(estimate(55.0, Quality::Ok));
   for (int revolution = 55; revolution < 64; ++revolution) {
     give_edges(pass_, revolution, NorthIn);
     EXPECT_EQ(pass_.raised, Keys{}) << revolution;
@@ -239,7 +239,7 @@ TEST_F(SpinConditionsTest, GiveABeamThatComesIntoViewItsRevolutions) {
 }
 
 TEST_F(SpinConditionsTest, ExpectNoEdgesOfABeamThatMissesTheEarth) {
-  pass_.see(estimate(0.0, Quality::Ok, 0.05, 70.0));
+  pass_.evaluate(estimate(0.0, Quality::Ok, 0.05, 70.0));
   give_turns(pass_, 0, 20);
   // From a quarter of the orbit on the Earth is 20 deg from that axis.
   EXPECT_EQ(give_turns(pass_, 2300, 2350, NorthIn), Keys{});
@@ -250,9 +250,9 @@ TEST_F(SpinConditionsTest, RaiseSharesOfTheLastHundredRevolutions) {
     const bool is_bad = revolution % 4 == 0;
     give_edges(pass_, revolution, std::nullopt,
                is_bad ? std::optional{Rejection::Phase} : std::nullopt);
-    pass_.see(
+    pass_.evaluate(
         RevolutionProduct{.revolution = revolution, .t_sun1 = at(revolution), .period_s = 1.0});
-    pass_.see(
+    pass_.evaluate(
         SpinMeasurement{.revolution = revolution,
                         .quantity = SpinQuantity::Period,
                         .value = 1.0,
@@ -273,10 +273,10 @@ TEST_F(SpinConditionsTest, CountEdgesThatFoundNoRevolution) {
     Supervised without_axis;
     for (int revolution = 0; revolution < 110; ++revolution) {
       give_edges(copied, revolution, std::nullopt);
-      copied.see(left_over(revolution, Sun1, rejection));
-      copied.see(left_over(revolution, Sun2, rejection));
+      copied.evaluate(left_over(revolution, Sun1, rejection));
+      copied.evaluate(left_over(revolution, Sun2, rejection));
       for (const PulseChannel channel : {Sun1, Sun2, NorthIn, NorthOut, SouthIn, SouthOut}) {
-        without_axis.see(left_over(revolution, channel, rejection));
+        without_axis.evaluate(left_over(revolution, channel, rejection));
       }
     }
     EXPECT_EQ(copied.raised, Keys{"spin.rejection"});
@@ -285,22 +285,22 @@ TEST_F(SpinConditionsTest, CountEdgesThatFoundNoRevolution) {
   Supervised by_operator;
   for (int revolution = 0; revolution < 110; ++revolution) {
     give_edges(by_operator, revolution, Sun1);
-    by_operator.see(left_over(revolution, Sun1, Rejection::Operator));
+    by_operator.evaluate(left_over(revolution, Sun1, Rejection::Operator));
   }
   EXPECT_EQ(by_operator.raised, Keys{});
 }
 
 /// Ten copies of one channel are five turns, not ten.
 TEST_F(SpinConditionsTest, TakeACopyForNoEdge) {
-  pass_.see(estimate(0.0, Quality::Ok));
+  pass_.evaluate(estimate(0.0, Quality::Ok));
   for (int revolution = 0; revolution < 30; ++revolution) {
     give_edges(pass_, revolution, revolution < 20 ? std::nullopt : std::optional{NorthIn});
     if (revolution >= 28) {
       EXPECT_EQ(pass_.raised.contains("channel.silent:north_in"), revolution == 29);
     }
-    pass_.see(PulseUse{.pulse = {.t = at(revolution + 0.5), .channel = Sun1},
-                       .revolution = {},
-                       .rejected_by = Rejection::Copy});
+    pass_.evaluate(PulseUse{.pulse = {.t = at(revolution + 0.5), .channel = Sun1},
+                            .revolution = {},
+                            .rejected_by = Rejection::Copy});
   }
 }
 
@@ -316,15 +316,15 @@ BatchSolution solution(double t_s, std::optional<double> half_angle_deg) {
 }
 
 TEST_F(SpinConditionsTest, RaiseANutationThatIsWideOrGrows) {
-  pass_.see(solution(0.0, std::nullopt));
-  pass_.see(solution(60.0, 0.1));
-  pass_.see(solution(120.0, 0.11));
+  pass_.evaluate(solution(0.0, std::nullopt));
+  pass_.evaluate(solution(60.0, 0.1));
+  pass_.evaluate(solution(120.0, 0.11));
   EXPECT_EQ(pass_.raised, Keys{});
-  pass_.see(solution(180.0, 0.12));
+  pass_.evaluate(solution(180.0, 0.12));
   EXPECT_EQ(pass_.raised, Keys{"spin.nutation"});
-  pass_.see(solution(240.0, 0.1));
+  pass_.evaluate(solution(240.0, 0.1));
   EXPECT_EQ(pass_.raised, Keys{});
-  pass_.see(solution(300.0, 0.6));
+  pass_.evaluate(solution(300.0, 0.6));
   EXPECT_EQ(pass_.raised, Keys{"spin.nutation"});
 }
 
@@ -335,7 +335,7 @@ TEST_F(SpinConditionsTest, GiveARateInRpm) {
                  .rate = SpinTarget::Rate{.rad_s = 5.0, .tolerance_rad_s = 0.1}}};
   std::optional<ConditionChange> raised;
   for (int t_s = 0; t_s < 20; ++t_s) {
-    for (const ConditionChange& change : conditions.see(estimate(t_s, Quality::Ok))) {
+    for (const ConditionChange& change : conditions.evaluate(estimate(t_s, Quality::Ok))) {
       raised = change.change == Change::Raised ? std::optional{change} : raised;
     }
   }

@@ -120,7 +120,7 @@ TEST(FrozenSamples, NeverIsAGyroWithNoiseOfAThirdOrMore) {
       for (int i = 0; i < 10'000; ++i) {
         const Vector3d rate =
             in_steps(normal_vector(rng, kNoise_rad_s / quieter), step * kNoise_rad_s);
-        ASSERT_EQ(gyro.note(rate, kNoise_rad_s), 0) << step << " " << quieter << " " << i;
+        ASSERT_EQ(gyro.learn_and_test(rate, kNoise_rad_s), 0) << step << " " << quieter << " " << i;
       }
     }
   }
@@ -142,15 +142,15 @@ TEST(FrozenSamples, OfReferencesTheSecondIs) {
   for (const int before : {0, 20}) {
     FrozenSamples samples = FrozenSamples::of_references();
     for (int i = 0; i < before; ++i) {
-      ASSERT_EQ(samples.note(star(rng, kStar, 1e-12), kStar), 0);
+      ASSERT_EQ(samples.learn_and_test(star(rng, kStar, 1e-12), kStar), 0);
     }
     const Eigen::Vector4d stuck = star(rng, kStar, 1e-12);
-    EXPECT_EQ(samples.note(stuck, kStar), 0);
+    EXPECT_EQ(samples.learn_and_test(stuck, kStar), 0);
     for (int row = 2; row < 10; ++row) {
-      EXPECT_EQ(samples.note(stuck, kStar), row);
+      EXPECT_EQ(samples.learn_and_test(stuck, kStar), row);
       EXPECT_EQ(samples.repeats(), row);
     }
-    EXPECT_EQ(samples.note(star(rng, kStar, 1e-12), kStar), 0);
+    EXPECT_EQ(samples.learn_and_test(star(rng, kStar, 1e-12), kStar), 0);
     EXPECT_EQ(samples.repeats(), 0);
   }
 }
@@ -162,7 +162,7 @@ TEST(FrozenSamples, OneValueOfAReferenceMayStandStill) {
   for (int i = 0; i < 100; ++i) {
     Eigen::Vector4d q = star(rng, kStar, 1e-9);
     q[3] = 1.0;
-    ASSERT_EQ(samples.note(q, kStar), 0);
+    ASSERT_EQ(samples.learn_and_test(q, kStar), 0);
   }
 }
 
@@ -173,7 +173,8 @@ TEST(FrozenSamples, AReferenceWithItsNoiseBelowTheStepIsNot) {
     FrozenSamples samples = FrozenSamples::of_references();
     samples.learn(Eigen::Vector4d::Zero(), Eigen::Vector4d::Constant(step * kStar));
     for (int i = 0; i < 1000; ++i) {
-      ASSERT_EQ(samples.note(star(rng, kStar / 3.0, step * kStar), kStar), 0) << step << " " << i;
+      ASSERT_EQ(samples.learn_and_test(star(rng, kStar / 3.0, step * kStar), kStar), 0)
+          << step << " " << i;
     }
   }
 }

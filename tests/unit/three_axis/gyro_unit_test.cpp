@@ -34,9 +34,10 @@ std::optional<double> found(const TurningBody& body, std::mt19937_64& rng, doubl
   for (int i = 0; i < 4 * seconds; ++i) {
     GyroSample sample = sensors.gyro(0.25 * i);
     sample.rate_body_rad_s *= times;
-    unit.note(sample);
+    unit.observe(sample);
     if (i % 4 == 1) {
-      unit.note(at_s(0.25 * i + 0.1), observed(sensors.star(0.25 * i + 0.1), *config.star_tracker));
+      unit.observe(at_s(0.25 * i + 0.1),
+                   observed(sensors.star(0.25 * i + 0.1), *config.star_tracker));
     }
   }
   return unit.factor();
@@ -82,9 +83,9 @@ TEST(GyroUnit, ThatIsSetRightIsBelievedAgain) {
   for (int i = 0; i < 800; ++i) {
     GyroSample sample = sensors.gyro(0.25 * i);
     sample.rate_body_rad_s *= i < 400 ? kDegPerRad : 1.0;
-    unit.note(sample);
+    unit.observe(sample);
     if (i % 4 == 0) {
-      unit.note(sample.t, observed(sensors.star(0.25 * i), *config.star_tracker));
+      unit.observe(sample.t, observed(sensors.star(0.25 * i), *config.star_tracker));
     }
     if (i == 399) {
       EXPECT_EQ(unit.factor(), kDegPerRad);

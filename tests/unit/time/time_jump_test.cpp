@@ -10,11 +10,11 @@ TEST(TimeJump, IsShownByAStreamThatGoesOnFromThere) {
   TimeJump jump;
   jump.hear(0);
   for (std::int64_t t_s = 0; t_s < 20; ++t_s) {
-    jump.see(at(1000 + t_s), 0);
+    jump.add_ahead(at(1000 + t_s), 0);
     EXPECT_FALSE(jump.has_shown());
   }
   EXPECT_TRUE(jump.could_be());
-  jump.see(at(1020), 0);
+  jump.add_ahead(at(1020), 0);
   EXPECT_TRUE(jump.has_shown());
 }
 
@@ -23,7 +23,7 @@ TEST(TimeJump, IsNotShownWhileTheTimeBeforeGoesOnHoweverManyThereAre) {
   for (std::int64_t t_s = 0; t_s < 1000; ++t_s) {
     jump.hear(0);
     for (int i = 0; i < 100; ++i) {
-      jump.see(at(100'000 + t_s), 0);
+      jump.add_ahead(at(100'000 + t_s), 0);
     }
     EXPECT_FALSE(jump.has_shown());
   }
@@ -32,7 +32,7 @@ TEST(TimeJump, IsNotShownWhileTheTimeBeforeGoesOnHoweverManyThereAre) {
 TEST(TimeJump, IsNotShownBySamplesThatDoNotFollowOneAnother) {
   TimeJump jump;
   for (std::int64_t i = 0; i < 1000; ++i) {
-    jump.see(at(100'000 + 61 * (i * 7919 % 1009)), 0);
+    jump.add_ahead(at(100'000 + 61 * (i * 7919 % 1009)), 0);
     EXPECT_FALSE(jump.has_shown());
   }
 }
@@ -42,10 +42,10 @@ TEST(TimeJump, IsNotShownByOneKindAloneWhereThereAreSeveral) {
   jump.hear(1);
   jump.hear(2);
   for (std::int64_t t_s = 0; t_s < 1000; ++t_s) {
-    jump.see(at(100'000 + t_s), 1);
+    jump.add_ahead(at(100'000 + t_s), 1);
   }
   EXPECT_FALSE(jump.could_be());
-  jump.see(at(101'000), 2);
+  jump.add_ahead(at(101'000), 2);
   EXPECT_TRUE(jump.has_shown());
 }
 

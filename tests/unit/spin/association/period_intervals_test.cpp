@@ -49,7 +49,7 @@ TEST_F(PeriodIntervalsTest, NoneStartsOrIsAcceptedAtABadEdge) {
 TEST_F(PeriodIntervalsTest, ANoteCountsWhereNoIntervalEnds) {
   constexpr double kNoted_s = 0.80005;
   for (int number = 0; number < 2; ++number) {
-    intervals_.note({.t_sun1 = *with_sun1(number).edge(Sun1), .period_s = kNoted_s});
+    intervals_.keep({.t_sun1 = *with_sun1(number).edge(Sun1), .period_s = kNoted_s});
   }
   const auto noted = candidate(with_sun1(0));
   ASSERT_TRUE(noted);
@@ -61,7 +61,7 @@ TEST_F(PeriodIntervalsTest, ANoteCountsWhereNoIntervalEnds) {
 
 TEST_F(PeriodIntervalsTest, OnlyTheLastSixteenNotesAreKept) {
   for (int number = 0; number < 20; ++number) {
-    intervals_.note({.t_sun1 = *with_sun1(number).edge(Sun1), .period_s = kPeriod_s});
+    intervals_.keep({.t_sun1 = *with_sun1(number).edge(Sun1), .period_s = kPeriod_s});
   }
   ASSERT_EQ(intervals_.notes().size(), 16U);
   EXPECT_EQ(intervals_.notes().front().t_sun1, *with_sun1(4).edge(Sun1));

@@ -20,7 +20,7 @@ SpinPeriodWindow window_of(int length) {
 
 TEST(SpinPeriodWindow, AGapOfSeveralTurnsIsDividedByThem) {
   SpinPeriodWindow window = window_of(100);
-  const PeriodCandidate candidate = window.add(after(0.0), after(3.0), 4, 0.75);
+  const PeriodCandidate candidate = window.judge(after(0.0), after(3.0), 4, 0.75);
   EXPECT_FALSE(candidate.rejected_by);
   EXPECT_NEAR(candidate.period_s, 0.75, kRounding_s);
   EXPECT_DOUBLE_EQ(candidate.sigma_s, kCandidateSigma_s / 4.0);
@@ -34,9 +34,9 @@ TEST(SpinPeriodWindow, AGapOfSeveralTurnsIsDividedByThem) {
 TEST(SpinPeriodWindow, RefusesAWrongInterval) {
   SpinPeriodWindow window = window_of(100);
   for (int turn = 0; turn < 30; ++turn) {
-    EXPECT_FALSE(window.add(after(turn), after(turn + 1), 1, 1.0).rejected_by);
+    EXPECT_FALSE(window.judge(after(turn), after(turn + 1), 1, 1.0).rejected_by);
   }
-  const PeriodCandidate candidate = window.add(after(30.0), after(31.004), 1, 1.0);
+  const PeriodCandidate candidate = window.judge(after(30.0), after(31.004), 1, 1.0);
   EXPECT_EQ(candidate.rejected_by, Rejection::Period);
   EXPECT_NEAR(candidate.period_s, 1.004, kRounding_s);
 }
@@ -47,23 +47,23 @@ TEST(SpinPeriodWindow, ADriftOfTheRateHidesNoWrongInterval) {
   const auto edge = [](double turn) { return after(turn + 0.5e-3 * turn * turn); };
   const auto expected_s = [](double turn) { return 1.0 + 1e-3 * (turn + 0.5); };
   for (int turn = 0; turn < 150; ++turn) {
-    EXPECT_FALSE(window.add(edge(turn), edge(turn + 1), 1, expected_s(turn)).rejected_by);
+    EXPECT_FALSE(window.judge(edge(turn), edge(turn + 1), 1, expected_s(turn)).rejected_by);
   }
   const TaiTime late = shifted(edge(151), 0.004);
-  EXPECT_TRUE(window.add(edge(150), late, 1, expected_s(150)).rejected_by);
+  EXPECT_TRUE(window.judge(edge(150), late, 1, expected_s(150)).rejected_by);
 }
 
 TEST(SpinPeriodWindow, WhatAllIntervalsShareRefusesNone) {
   SpinPeriodWindow window = window_of(100);
   for (int turn = 0; turn < 30; ++turn) {
-    EXPECT_TRUE(!window.add(1.0, 1.02).rejected_by || turn == 0);
+    EXPECT_TRUE(!window.judge(1.0, 1.02).rejected_by || turn == 0);
   }
 }
 
 TEST(SpinPeriodWindow, ForgetsWhatLiesBeforeTheWindow) {
   SpinPeriodWindow window = window_of(20);
   for (int turn = 0; turn < 60; ++turn) {
-    window.add(after(turn), after(turn + 1), 1, 1.0);
+    window.judge(after(turn), after(turn + 1), 1, 1.0);
   }
   EXPECT_EQ(window.size(), 20U);
 }
@@ -72,13 +72,13 @@ TEST(SpinPeriodWindow, FollowsAChangeOfRateOnceItIsTheMajority) {
   SpinPeriodWindow window = window_of(20);
   double t_s = 0.0;
   for (int turn = 0; turn < 20; ++turn, t_s += 1.0) {
-    window.add(after(t_s), after(t_s + 1.0), 1, 1.0);
+    window.judge(after(t_s), after(t_s + 1.0), 1, 1.0);
   }
-  EXPECT_TRUE(window.add(after(t_s), after(t_s + 1.1), 1, 1.0).rejected_by);
+  EXPECT_TRUE(window.judge(after(t_s), after(t_s + 1.1), 1, 1.0).rejected_by);
   PeriodCandidate last{};
   for (int turn = 0; turn < 11; ++turn) {
     t_s += 1.1;
-    last = window.add(after(t_s), after(t_s + 1.1), 1, 1.0);
+    last = window.judge(after(t_s), after(t_s + 1.1), 1, 1.0);
   }
   EXPECT_FALSE(last.rejected_by);
 }

@@ -111,7 +111,7 @@ TEST_F(BatchEstimatorTest, BeginsAtThePriorWhereThePassHasNoFix) {
   PassEdges pass;
   for (const PassEdge& edge : scene.pass(1200.0)) {
     if (sees_the_sun(edge.pulse.channel) || edge.pulse.channel == PulseChannel::NorthIn) {
-      pass.note(SpinProduct{
+      pass.collect(SpinProduct{
           PulseUse{.pulse = edge.pulse, .revolution = edge.revolution, .rejected_by = {}}});
     }
   }

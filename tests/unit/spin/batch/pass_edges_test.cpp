@@ -36,12 +36,12 @@ SpinFix ambiguous(const Eigen::Vector3d& axis_icrf, const Eigen::Vector3d& alter
 
 TEST(PassEdges, AreThoseThatARevolutionHasAPlaceForInOrderAndOnce) {
   PassEdges pass;
-  pass.note(use(30, PulseChannel::NorthIn, 1));
-  pass.note(use(10, PulseChannel::Sun1, 1));
-  pass.note(use(10, PulseChannel::Sun1, 1));  // The same edge is reported again, now decided.
-  pass.note(use(20, PulseChannel::Sun2, 1, Rejection::SunAngle));
-  pass.note(use(25, PulseChannel::Sun2, 1, Rejection::Phase));
-  pass.note(use(40, PulseChannel::SouthIn, std::nullopt, Rejection::Unassociated));
+  pass.collect(use(30, PulseChannel::NorthIn, 1));
+  pass.collect(use(10, PulseChannel::Sun1, 1));
+  pass.collect(use(10, PulseChannel::Sun1, 1));  // The same edge is reported again, now decided.
+  pass.collect(use(20, PulseChannel::Sun2, 1, Rejection::SunAngle));
+  pass.collect(use(25, PulseChannel::Sun2, 1, Rejection::Phase));
+  pass.collect(use(40, PulseChannel::SouthIn, std::nullopt, Rejection::Unassociated));
   const auto edges = std::move(pass).edges();
   ASSERT_EQ(edges.size(), 3U);
   EXPECT_EQ(edges[0].pulse.channel, PulseChannel::Sun1);
@@ -53,12 +53,12 @@ TEST(PassEdges, AreThoseThatARevolutionHasAPlaceForInOrderAndOnce) {
 TEST(PassEdges, KnowThatNoiseChoseAmongCopies) {
   PassEdges pass;
   SpinEstimate mean = estimate(SpinEstimator::Mean, Eigen::Vector3d::UnitX(), Quality::Ok);
-  pass.note(mean);
+  pass.collect(mean);
   EXPECT_FALSE(pass.noise_chose_among_copies());
   doubt(mean.assessment, {ReasonCode::CopiesInNoise});
   EXPECT_EQ(mean.assessment.quality, Quality::Doubtful);
-  pass.note(mean);
-  pass.note(estimate(SpinEstimator::Sequential, Eigen::Vector3d::UnitX(), Quality::Lost));
+  pass.collect(mean);
+  pass.collect(estimate(SpinEstimator::Sequential, Eigen::Vector3d::UnitX(), Quality::Lost));
   EXPECT_TRUE(pass.noise_chose_among_copies());
 }
 
@@ -68,7 +68,7 @@ TEST(PassEdges, OfMoreThanADayAreTheLast) {
   constexpr std::int64_t kEdges = 2 * kMost + 17;
   for (std::int64_t i = 0; i < kEdges; ++i) {
     EXPECT_TRUE(i > kMost || !pass.forgot_some());
-    pass.note(use(i, PulseChannel::Sun1, i));
+    pass.collect(use(i, PulseChannel::Sun1, i));
   }
   EXPECT_TRUE(pass.forgot_some());
   const auto edges = std::move(pass).edges();
@@ -80,7 +80,7 @@ TEST(PassEdges, OfMoreThanADayAreTheLast) {
 TEST(PassEdges, KeepTheLastRevolutions) {
   PassEdges pass;
   for (std::int64_t revolution = 0; revolution < 10; ++revolution) {
-    pass.note(use(revolution, PulseChannel::Sun1, revolution));
+    pass.collect(use(revolution, PulseChannel::Sun1, revolution));
   }
   pass.keep_last(3);
   const auto edges = std::move(pass).edges();
@@ -96,13 +96,13 @@ TEST(PassEdges, BeginAtTheEstimatesAndWhereTheseAreAmbiguousAtAllCandidates) {
   PassEdges pass;
   EXPECT_TRUE(pass.starts({}).axes_icrf.empty());
   EXPECT_EQ(pass.starts(prior).axes_icrf, std::vector<Eigen::Vector3d>{-z});
-  pass.note(ambiguous(x, y));
+  pass.collect(ambiguous(x, y));
   EXPECT_EQ(pass.starts(prior).axes_icrf.size(), 2U);
-  pass.note(estimate(SpinEstimator::Sequential, x, Quality::Ambiguous));
+  pass.collect(estimate(SpinEstimator::Sequential, x, Quality::Ambiguous));
   EXPECT_EQ(pass.starts(prior).axes_icrf.size(), 2U);
-  pass.note(estimate(SpinEstimator::Mean, z, Quality::Ok));
+  pass.collect(estimate(SpinEstimator::Mean, z, Quality::Ok));
   EXPECT_EQ(pass.starts(prior).axes_icrf.size(), 3U);
-  pass.note(estimate(SpinEstimator::Sequential, x, Quality::Ok));
+  pass.collect(estimate(SpinEstimator::Sequential, x, Quality::Ok));
   const auto starts = pass.starts(prior).axes_icrf;
   ASSERT_EQ(starts.size(), 2U);
   EXPECT_EQ(starts[0], x);
@@ -113,10 +113,10 @@ TEST(PassEdges, BeginAtEstimatesThatDifferByADegree) {
   // One of the two estimates may lie in a narrow chord that the other misses.
   const Eigen::Vector3d x = Eigen::Vector3d::UnitX();
   PassEdges pass;
-  pass.note(estimate(SpinEstimator::Sequential, x, Quality::Doubtful));
-  pass.note(estimate(SpinEstimator::Mean, {std::cos(0.01), std::sin(0.01), 0.0}, Quality::Ok));
+  pass.collect(estimate(SpinEstimator::Sequential, x, Quality::Doubtful));
+  pass.collect(estimate(SpinEstimator::Mean, {std::cos(0.01), std::sin(0.01), 0.0}, Quality::Ok));
   EXPECT_EQ(pass.starts({}).axes_icrf.size(), 2U);
-  pass.note(estimate(SpinEstimator::Mean, {std::cos(0.001), std::sin(0.001), 0.0}, Quality::Ok));
+  pass.collect(estimate(SpinEstimator::Mean, {std::cos(0.001), std::sin(0.001), 0.0}, Quality::Ok));
   EXPECT_EQ(pass.starts({}).axes_icrf.size(), 1U);
 }
 

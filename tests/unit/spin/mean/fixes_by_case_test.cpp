@@ -35,8 +35,8 @@ class FixesByCaseTest : public ::testing::Test {
       if (geometry_case == 4) {
         reject(measured, SpinQuantity::SunAngle, Rejection::SunAngle);
       }
-      fixes.add(geometry_case, fixes.next_stretch(geometry_case), scene.config, measured,
-                scene.sun_earth(), scene.axis_icrf);
+      fixes.add_fix(geometry_case, fixes.next_stretch(geometry_case), scene.config, measured,
+                    scene.sun_earth(), scene.axis_icrf);
       if (others != nullptr) {
         others->add(scene.config, measured, scene.sun_earth(), scene.axis_icrf);
       }

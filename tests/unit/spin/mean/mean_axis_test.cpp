@@ -21,7 +21,7 @@ Eigen::Vector3d at_deg(double ra_deg, double dec_deg) {
 Eigen::Vector3d mean_of(const std::vector<Eigen::Vector3d>& axes) {
   MeanAxis mean;
   for (const Eigen::Vector3d& axis : axes) {
-    mean.add(made_fix(axis, Eigen::Matrix2d::Identity()));
+    mean.add_fix(made_fix(axis, Eigen::Matrix2d::Identity()));
   }
   return mean.axis_icrf();
 }
@@ -30,7 +30,7 @@ TEST(MeanAxis, OfOneFixIsThatFix) {
   Eigen::Matrix2d covariance_rad2;
   covariance_rad2 << 4e-6, 1e-6, 1e-6, 2e-6;
   MeanAxis mean;
-  mean.add(made_fix(at_deg(123.0, -45.0), covariance_rad2));
+  mean.add_fix(made_fix(at_deg(123.0, -45.0), covariance_rad2));
   EXPECT_EQ(mean.count(), 1U);
   EXPECT_LT(angle_between_rad(mean.axis_icrf(), at_deg(123.0, -45.0)), kRounding);
   EXPECT_LT((mean.covariance_rad2() - covariance_rad2).norm(), 1e-6 * kRounding);
@@ -55,15 +55,15 @@ TEST(MeanAxis, CovarianceFallsWithTheNumberOfFixes) {
   const Eigen::Matrix2d covariance_rad2 = Eigen::Vector2d{4e-6, 1e-6}.asDiagonal();
   MeanAxis mean;
   for (int i = 0; i < 100; ++i) {
-    mean.add(made_fix(at_deg(200.0, 33.0), covariance_rad2));
+    mean.add_fix(made_fix(at_deg(200.0, 33.0), covariance_rad2));
   }
   EXPECT_LT((mean.covariance_rad2() - covariance_rad2 / 100.0).norm(), 1e-6 * kRounding);
 }
 
 TEST(MeanAxis, WeightsUnequalFixesForTheLeastVariance) {
   MeanAxis mean;
-  mean.add(made_fix(at_deg(200.0, 33.0), 4e-6 * Eigen::Matrix2d::Identity()));
-  mean.add(made_fix(at_deg(200.0, 33.0), 1e-6 * Eigen::Matrix2d::Identity()));
+  mean.add_fix(made_fix(at_deg(200.0, 33.0), 4e-6 * Eigen::Matrix2d::Identity()));
+  mean.add_fix(made_fix(at_deg(200.0, 33.0), 1e-6 * Eigen::Matrix2d::Identity()));
   EXPECT_LT((mean.covariance_rad2() - 0.8e-6 * Eigen::Matrix2d::Identity()).norm(),
             1e-6 * kRounding);
 }
@@ -76,7 +76,7 @@ TEST(MeanAxis, CovarianceAcrossThePoleKeepsItsDirections) {
   for (const double ra_deg : {0.0, 90.0, 180.0, 270.0}) {
     const Eigen::Vector3d axis = at_deg(ra_deg, 89.99);
     const Eigen::Vector2d along = tangent_basis(axis).transpose() * uncertain_icrf;
-    mean.add(made_fix(axis, 1e-6 * along * along.transpose()));
+    mean.add_fix(made_fix(axis, 1e-6 * along * along.transpose()));
   }
   const Eigen::Vector2d along = tangent_basis(mean.axis_icrf()).transpose() * uncertain_icrf;
   const Eigen::Matrix2d covariance_rad2 = mean.covariance_rad2();
@@ -103,7 +103,7 @@ TEST(MeanAxis, CovarianceIsTheScatterOfTheMean) {
       const Eigen::Vector3d axis = (truth + basis * off_rad).normalized();
       // The covariance is given in the tangent plane of the fix.
       const Eigen::Matrix2d turn = tangent_basis(axis).transpose() * basis;
-      mean.add(made_fix(axis, turn * covariance_rad2 * turn.transpose()));
+      mean.add_fix(made_fix(axis, turn * covariance_rad2 * turn.transpose()));
     }
     const Eigen::Vector2d error_rad =
         tangent_basis(mean.axis_icrf()).transpose() * (truth - mean.axis_icrf());
@@ -124,7 +124,7 @@ TEST(MeanAxis, KnowsWhenFixesScatterMoreThanTheyState) {
       MeanAxis mean;
       for (int count = 1; count <= 100; ++count) {
         const double east_rad = times * normal(rng);
-        mean.add(
+        mean.add_fix(
             made_fix((truth + basis * Eigen::Vector2d{east_rad, times * normal(rng)}).normalized(),
                      kSigma_rad * kSigma_rad * Eigen::Matrix2d::Identity()));
         if (times == 1.0) {
@@ -142,16 +142,16 @@ TEST(MeanAxis, KnowsWhenFixesScatterMoreThanTheyState) {
 TEST(AxisWindow, IsEmptyBeforeTheFirstFixAndWhereFixesCancel) {
   AxisWindow window{10};
   EXPECT_FALSE(window.axis_icrf());
-  window.add(made_fix(Eigen::Vector3d::UnitX(), Eigen::Matrix2d::Identity()));
+  window.add_fix(made_fix(Eigen::Vector3d::UnitX(), Eigen::Matrix2d::Identity()));
   EXPECT_TRUE(window.axis_icrf());
-  window.add(made_fix(-Eigen::Vector3d::UnitX(), Eigen::Matrix2d::Identity()));
+  window.add_fix(made_fix(-Eigen::Vector3d::UnitX(), Eigen::Matrix2d::Identity()));
   EXPECT_FALSE(window.axis_icrf());
 }
 
 TEST(AxisWindow, ForgetsWhatLiesBeforeIt) {
   AxisWindow window{2};
   for (int i = 0; i < 3; ++i) {
-    window.add(made_fix(Eigen::Vector3d::Unit(i), Eigen::Matrix2d::Identity()));
+    window.add_fix(made_fix(Eigen::Vector3d::Unit(i), Eigen::Matrix2d::Identity()));
   }
   const Eigen::Vector3d expected = Eigen::Vector3d{0.0, 1.0, 1.0}.normalized();
   EXPECT_LT((window.axis_icrf().value() - expected).norm(), kRounding);

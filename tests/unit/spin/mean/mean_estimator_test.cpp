@@ -25,7 +25,7 @@ class Pass {
     fix.revolution = ++number_;
     fix.axis_icrf = Eigen::AngleAxisd{turned_rad, Eigen::Vector3d::UnitX()} * fix.axis_icrf;
     mean_.keep(number_, measured, scene_.sun_earth());
-    EXPECT_TRUE(mean_.take(fix));
+    EXPECT_TRUE(mean_.add_fix(fix));
     return mean_.estimate(revolution);
   }
   SpinEstimate begin_anew() {

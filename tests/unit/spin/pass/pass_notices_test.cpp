@@ -33,14 +33,14 @@ Association of_one_revolution() {
 /// Returns the notices as sentences.
 std::vector<std::string> taken(PassNotices& notices) {
   std::vector<std::string> sentences;
-  for (const Notice& notice : notices.take()) {
+  for (const Notice& notice : notices.take_pending()) {
     sentences.push_back(sentence_of(notice));
   }
   return sentences;
 }
 
 std::vector<std::string> at_the_end(PassNotices& notices) {
-  notices.take();
+  notices.take_pending();
   notices.pass_ended({}, SequentialEstimator{kConfig});
   return taken(notices);
 }

@@ -31,8 +31,8 @@ struct Race {
   }
 
   void add(const Eigen::Vector3d& axis_icrf) {
-    ASSERT_TRUE(
-        hypotheses.add(at(axis_icrf), scene.body.config, seen[next].revolution, seen[next].sky));
+    ASSERT_TRUE(hypotheses.try_start(at(axis_icrf), scene.body.config, seen[next].revolution,
+                                     seen[next].sky));
   }
   void run(std::size_t revolutions) {
     for (const std::size_t end = next + revolutions; next < end; ++next) {
@@ -40,7 +40,9 @@ struct Race {
                          kStatedNoise);
     }
   }
-  void name_the_true_axis() { hypotheses.note({.points = {at(scene.body.axis_icrf)}, .fixes = 5}); }
+  void name_the_true_axis() {
+    hypotheses.count_fix({.points = {at(scene.body.axis_icrf)}, .fixes = 5});
+  }
   /// Returns an axis on the cone about the Earth, which only sun edges rule out at once.
   Eigen::Vector3d on_cone() const {
     return scene.turned_about(seen.at(next).sky.spacecraft.position_icrf_km, 10.0);

@@ -29,7 +29,7 @@ StartConfirmation after(int fixes, const StartingPoint& followed,
     if (change) {
       change(fix);
     }
-    start.note(fix, followed);
+    start.add_fix(fix, followed);
   }
   return start;
 }

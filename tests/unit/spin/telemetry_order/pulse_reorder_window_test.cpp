@@ -27,7 +27,7 @@ struct Receiver {
   std::vector<Pulse> released;
 
   void receive(const Pulse& pulse) {
-    ASSERT_EQ(window.add(pulse), Held);
+    ASSERT_EQ(window.offer(pulse), Held);
     const auto due = window.release();
     released.insert(released.end(), due.begin(), due.end());
   }
@@ -44,44 +44,44 @@ struct ReorderWindowTest : ::testing::Test {
 };
 
 TEST_F(ReorderWindowTest, HoldsAPulseForOneSecondOfTelemetryTime) {
-  EXPECT_EQ(window.add(pulse_at(0)), Held);
+  EXPECT_EQ(window.offer(pulse_at(0)), Held);
   EXPECT_THAT(window.release(), IsEmpty());
-  EXPECT_EQ(window.add(pulse_at(kSecond_ns - 1)), Held);
+  EXPECT_EQ(window.offer(pulse_at(kSecond_ns - 1)), Held);
   EXPECT_THAT(window.release(), IsEmpty());
-  EXPECT_EQ(window.add(pulse_at(kSecond_ns)), Held);
+  EXPECT_EQ(window.offer(pulse_at(kSecond_ns)), Held);
   EXPECT_THAT(window.release(), ElementsAre(pulse_at(0)));
 }
 
 TEST_F(ReorderWindowTest, GivesOutAllInTimeWhenTheStreamFallsSilent) {
   for (std::int64_t i = 0; i < 10; ++i) {
-    window.add(pulse_at(i * kSecond_ns));
+    window.offer(pulse_at(i * kSecond_ns));
     window.release();
   }
-  window.add(pulse_at(1000 * kSecond_ns));
+  window.offer(pulse_at(1000 * kSecond_ns));
   EXPECT_THAT(window.fall_silent(), ElementsAre(pulse_at(9 * kSecond_ns)));
   EXPECT_THAT(window.fall_silent(), IsEmpty());
-  EXPECT_EQ(window.add(pulse_at(9 * kSecond_ns - 1)), Late);
-  EXPECT_EQ(window.add(pulse_at(9 * kSecond_ns)), Duplicate);
-  EXPECT_EQ(window.add(pulse_at(9 * kSecond_ns + 1)), Held);
+  EXPECT_EQ(window.offer(pulse_at(9 * kSecond_ns - 1)), Late);
+  EXPECT_EQ(window.offer(pulse_at(9 * kSecond_ns)), Duplicate);
+  EXPECT_EQ(window.offer(pulse_at(9 * kSecond_ns + 1)), Held);
   EXPECT_EQ(window.release_all().out_of_time.size(), 1U);
 }
 
 TEST_F(ReorderWindowTest, GivesOutNothingOfTheFirstFewWhenTheStreamFallsSilent) {
-  window.add(pulse_at(2'000'000'000 * kSecond_ns));
+  window.offer(pulse_at(2'000'000'000 * kSecond_ns));
   for (std::int64_t i = 0; i < 7; ++i) {
-    window.add(pulse_at(i));
+    window.offer(pulse_at(i));
     EXPECT_THAT(window.fall_silent(), IsEmpty());
   }
-  window.add(pulse_at(7));
+  window.offer(pulse_at(7));
   EXPECT_EQ(window.fall_silent().size(), 8U);
 }
 
 TEST_F(ReorderWindowTest, ReleasesInOrderOfTimeThenChannelAndKnowsADuplicateOfWhatItHolds) {
-  EXPECT_EQ(window.add(pulse_at(5, SouthOut)), Held);
-  EXPECT_EQ(window.add(pulse_at(5, SouthOut)), Duplicate);
-  EXPECT_EQ(window.add(pulse_at(5, Sun1)), Held);
-  window.add(pulse_at(3, NorthIn));
-  window.add(pulse_at(4, Sun2));
+  EXPECT_EQ(window.offer(pulse_at(5, SouthOut)), Held);
+  EXPECT_EQ(window.offer(pulse_at(5, SouthOut)), Duplicate);
+  EXPECT_EQ(window.offer(pulse_at(5, Sun1)), Held);
+  window.offer(pulse_at(3, NorthIn));
+  window.offer(pulse_at(4, Sun2));
   EXPECT_THAT(window.release_all().in_time, ElementsAre(pulse_at(3, NorthIn), pulse_at(4, Sun2),
                                                         pulse_at(5, Sun1), pulse_at(5, SouthOut)));
   EXPECT_THAT(window.release_all().in_time, IsEmpty());
@@ -92,9 +92,9 @@ TEST(ReorderWindow, ABadClockMakesNothingLate) {
   for (const std::int64_t bad_every : {3, 50}) {
     Receiver at;
     for (std::int64_t i = 0; i < 300; ++i) {
-      ASSERT_EQ(at.window.add(pulse_at(i * kSecond_ns / 5)), Held) << i;
+      ASSERT_EQ(at.window.offer(pulse_at(i * kSecond_ns / 5)), Held) << i;
       if (i % bad_every == 1) {
-        ASSERT_EQ(at.window.add(pulse_at(kYears_ns + i * kSecond_ns)), Held) << i;
+        ASSERT_EQ(at.window.offer(pulse_at(kYears_ns + i * kSecond_ns)), Held) << i;
       }
       for (const Pulse& pulse : at.window.release()) {
         at.released.push_back(pulse);
@@ -109,7 +109,7 @@ TEST(ReorderWindow, ABadClockMakesNothingLate) {
 
 TEST(ReorderWindow, ABadClockThatSpeaksFirstMakesNothingLate) {
   Receiver at;
-  EXPECT_EQ(at.window.add(pulse_at(2'000'000'000 * kSecond_ns)), Held);
+  EXPECT_EQ(at.window.offer(pulse_at(2'000'000'000 * kSecond_ns)), Held);
   for (std::int64_t i = 0; i < 100; ++i) {
     at.receive(pulse_at(i * kSecond_ns / 5));
   }
@@ -119,11 +119,11 @@ TEST(ReorderWindow, ABadClockThatSpeaksFirstMakesNothingLate) {
 
 TEST_F(ReorderWindowTest, FewFarAheadAtTheEndAreOutOfTime) {
   for (std::int64_t i = 0; i < 20; ++i) {
-    window.add(pulse_at(i * kSecond_ns));
+    window.offer(pulse_at(i * kSecond_ns));
     window.release();
   }
   for (std::int64_t i = 0; i < 7; ++i) {
-    window.add(pulse_at((1000 + i) * kSecond_ns));
+    window.offer(pulse_at((1000 + i) * kSecond_ns));
     window.release();
   }
   const ReorderWindow::Rest rest = window.release_all();
@@ -134,11 +134,11 @@ TEST_F(ReorderWindowTest, FewFarAheadAtTheEndAreOutOfTime) {
 // A restarted service reads the samples back without their duplicates.
 TEST_F(ReorderWindowTest, DuplicatesOfHeldSamplesChangeNothing) {
   for (std::int64_t i = 0; i < 8; ++i) {
-    window.add(pulse_at(i));
+    window.offer(pulse_at(i));
   }
   for (std::int64_t i = 0; i < 8; ++i) {
-    EXPECT_EQ(window.add(pulse_at((1000 + 3 * i) * kSecond_ns)), Held);
-    EXPECT_EQ(window.add(pulse_at(0)), Duplicate);
+    EXPECT_EQ(window.offer(pulse_at((1000 + 3 * i) * kSecond_ns)), Held);
+    EXPECT_EQ(window.offer(pulse_at(0)), Duplicate);
   }
   EXPECT_EQ(window.release().size(), 15U);
 }
@@ -160,29 +160,29 @@ TEST(ReorderWindow, GoesOnAfterASilenceOfAnyLength) {
 
 TEST_F(ReorderWindowTest, KnowsADuplicateOfWhatItReleasedWithinTenMinutes) {
   for (std::int64_t second = 0; second <= 602; ++second) {
-    window.add(pulse_at(second * kSecond_ns));
+    window.offer(pulse_at(second * kSecond_ns));
     window.release();
   }
-  EXPECT_EQ(window.add(pulse_at(0)), Late);
-  EXPECT_EQ(window.add(pulse_at(1 * kSecond_ns)), Duplicate);
-  EXPECT_EQ(window.add(pulse_at(601 * kSecond_ns)), Duplicate);
-  EXPECT_EQ(window.add(pulse_at(300 * kSecond_ns + 1)), Late);
+  EXPECT_EQ(window.offer(pulse_at(0)), Late);
+  EXPECT_EQ(window.offer(pulse_at(1 * kSecond_ns)), Duplicate);
+  EXPECT_EQ(window.offer(pulse_at(601 * kSecond_ns)), Duplicate);
+  EXPECT_EQ(window.offer(pulse_at(300 * kSecond_ns + 1)), Late);
 }
 
 TEST_F(ReorderWindowTest, WhatPrecedesAReleasedPulseIsLate) {
-  window.add(pulse_at(10, Sun2));
-  window.add(pulse_at(10 + kSecond_ns));
+  window.offer(pulse_at(10, Sun2));
+  window.offer(pulse_at(10 + kSecond_ns));
   EXPECT_THAT(window.release(), ElementsAre(pulse_at(10, Sun2)));
-  EXPECT_EQ(window.add(pulse_at(9)), Late);
-  EXPECT_EQ(window.add(pulse_at(10, Sun1)), Late);
-  EXPECT_EQ(window.add(pulse_at(10, NorthIn)), Held);
+  EXPECT_EQ(window.offer(pulse_at(9)), Late);
+  EXPECT_EQ(window.offer(pulse_at(10, Sun1)), Late);
+  EXPECT_EQ(window.offer(pulse_at(10, NorthIn)), Held);
 }
 
 TEST_F(ReorderWindowTest, ALatePulseIsNeverReleased) {
-  window.add(pulse_at(2 * kSecond_ns));
-  window.add(pulse_at(4 * kSecond_ns));
+  window.offer(pulse_at(2 * kSecond_ns));
+  window.offer(pulse_at(4 * kSecond_ns));
   window.release();
-  window.add(pulse_at(kSecond_ns));
+  window.offer(pulse_at(kSecond_ns));
   EXPECT_THAT(window.release_all().in_time, ElementsAre(pulse_at(4 * kSecond_ns)));
 }
 
@@ -219,8 +219,8 @@ TEST(ReorderWindow, TheEndsOfTimeDoNotOverflow) {
   ReorderWindow window;
   std::size_t out = 0;
   for (std::int64_t i = 0; i < 20; ++i) {
-    window.add(pulse_at(kLeast_ns + i));
-    window.add(pulse_at(kMost_ns - i));
+    window.offer(pulse_at(kLeast_ns + i));
+    window.offer(pulse_at(kMost_ns - i));
     out += window.release().size();
   }
   const ReorderWindow::Rest rest = window.release_all();
@@ -250,10 +250,10 @@ TEST(ReorderWindow, AFewFarBeforeTheFirstRunAreLeftOut) {
 }
 
 TEST_F(ReorderWindowTest, ADuplicateDoesNotSpeakAgainstAJump) {
-  window.add(pulse_at(0));
+  window.offer(pulse_at(0));
   for (std::int64_t i = 0; i < 8; ++i) {
-    EXPECT_EQ(window.add(pulse_at(0)), Duplicate);
-    EXPECT_EQ(window.add(pulse_at((100 + 3 * i) * kSecond_ns)), Held);
+    EXPECT_EQ(window.offer(pulse_at(0)), Duplicate);
+    EXPECT_EQ(window.offer(pulse_at((100 + 3 * i) * kSecond_ns)), Held);
   }
   EXPECT_THAT(window.release(), ::testing::Contains(pulse_at(100 * kSecond_ns)));
 }

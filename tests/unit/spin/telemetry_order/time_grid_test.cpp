@@ -22,14 +22,14 @@ class Train {
   /// @param steps_ns Step of the delays after sun1, as from on-board counters.
   void turn(TimeGrid& grid, std::int64_t steps_ns = 1) {
     const std::int64_t sun1_ns = on_grid(kStart_ns + turns_++ * kTurn_ns + noise_ns(kNoise.sun_s));
-    grid.note({.t = tai_from_ns(sun1_ns), .channel = PulseChannel::Sun1});
+    grid.learn({.t = tai_from_ns(sun1_ns), .channel = PulseChannel::Sun1});
     for (std::size_t i = 1; i < kPulseChannels; ++i) {
       const auto channel = static_cast<PulseChannel>(i);
       const std::int64_t delay_ns =
           static_cast<std::int64_t>(i) * 123'456'789 + noise_ns(edge_sigma_s(kNoise, channel));
       const std::int64_t counted_ns = delay_ns / steps_ns * steps_ns;
-      grid.note({.t = tai_from_ns(i < cut_ ? on_grid(sun1_ns + counted_ns) : sun1_ns + counted_ns),
-                 .channel = channel});
+      grid.learn({.t = tai_from_ns(i < cut_ ? on_grid(sun1_ns + counted_ns) : sun1_ns + counted_ns),
+                  .channel = channel});
     }
   }
 
@@ -78,7 +78,7 @@ TEST(TimeGrid, IsNotHiddenByEdgesOfAnotherClock) {
     train.turn(grid);
     if (turn % 7 == 0) {
       stray_ns += 7 * kTurn_ns + 31;
-      grid.note({.t = tai_from_ns(stray_ns), .channel = PulseChannel::NorthIn});
+      grid.learn({.t = tai_from_ns(stray_ns), .channel = PulseChannel::NorthIn});
     }
   }
   EXPECT_DOUBLE_EQ(grid.width_s(), 1e-3);
@@ -100,7 +100,7 @@ TEST(TimeGrid, MayBeOfSomeChannelsOnly) {
 TEST(TimeGrid, IsNoneOfTurnsOfOneLength) {
   TimeGrid grid{kNoise};
   for (std::int64_t turn = 0; turn < 1'000; turn += turn % 7 == 0 ? 2 : 1) {
-    grid.note({.t = tai_from_ns(kStart_ns + turn * kTurn_ns), .channel = PulseChannel::Sun1});
+    grid.learn({.t = tai_from_ns(kStart_ns + turn * kTurn_ns), .channel = PulseChannel::Sun1});
   }
   EXPECT_EQ(grid.width_s(), 0.0);
 }

@@ -246,7 +246,7 @@ TEST(FrameReorderWindow, SortsFramesTwoTurnsOutOfOrder) {
   std::rotate(arriving.begin() + 10, arriving.begin() + 11, arriving.begin() + 13);
   std::vector<CodedFrame> received;
   for (const CodedFrame& frame : arriving) {
-    ASSERT_EQ(window.add(frame), FrameReorderWindow::Verdict::Held);
+    ASSERT_EQ(window.offer(frame), FrameReorderWindow::Verdict::Held);
     for (const CodedFrame& due : window.release()) {
       received.push_back(due);
     }
@@ -256,7 +256,7 @@ TEST(FrameReorderWindow, SortsFramesTwoTurnsOutOfOrder) {
     received.push_back(rest);
   }
   EXPECT_EQ(received, sent);
-  EXPECT_EQ(window.add(sent[7]), FrameReorderWindow::Verdict::Duplicate);
+  EXPECT_EQ(window.offer(sent[7]), FrameReorderWindow::Verdict::Duplicate);
 }
 
 TEST(FrameReorderWindow, WaitsTwoAndAHalfTurnsOfTheSlowestBodyWithoutAPeriod) {
