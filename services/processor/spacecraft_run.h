@@ -91,7 +91,8 @@ class SpacecraftRun {
   };
   Taken begin();
 
-  /// Called instead of `begin`: the run begins with the first samples or actions that `receive` gets.
+  /// Called instead of `begin`: the run begins with the first samples or actions that `receive`
+  /// gets.
   /// @param notice Stored with the run when it begins.
   void begin_later(RunNotice notice) { begins_with_ = std::move(notice); }
   bool has_begun() const { return !begins_with_; }
