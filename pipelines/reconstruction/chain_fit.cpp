@@ -191,7 +191,8 @@ class ChainProblem {
     return options;
   }
 
-  ceres::HuberLoss far_{3.0};  ///< In sigmas.
+  /// The loss of the coarse solution is linear beyond 3 sigmas.
+  ceres::HuberLoss far_{3.0};
   NearLoss near_;
   ceres::EigenQuaternionManifold manifold_;
   ceres::Problem problem_;

@@ -41,7 +41,7 @@ Expected<SolvedChain> coarse_solution(const Observations& all,
   const StarObservation& first = stars.front();
   Vector3d bias_rad_s = Vector3d::Zero();
   int iterations = 0;
-  // In the first span no bias turns the body far.
+  // The first span is so short that no gyro bias turns the body far within it.
   for (double span_s = 300.0;; span_s *= 4.0) {
     const double from_s = std::max(0.0, first.t_s - span_s);
     const double to_s = std::min(all.end_s, first.t_s + span_s);

@@ -20,7 +20,8 @@ struct PassInput {
   std::size_t spacecraft = 0;  ///< Index of the spacecraft's mission.
   std::string run_id;          ///< A change of this begins a new pass.
   PlacedValues values = {};
-  std::vector<Placed<OperatorAction>> actions = {};  ///< With places among the `values`.
+  /// Each action has a place in the order of `values`.
+  std::vector<Placed<OperatorAction>> actions = {};
   std::vector<BatchPlace> silences = {};  ///< Place of the element that follows each silence.
   NamesOfSenders senders = {};            ///< Names of the senders of `values`.
   /// When the last sample came. Empty after a restart, or when no sample made the input due.

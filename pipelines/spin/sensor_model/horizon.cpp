@@ -97,7 +97,8 @@ std::optional<LimbCrossing> limb_crossing(const HorizonAxes& axes, const EarthVi
   const double sin_mount = std::sin(mount_angle_rad);
   const double cos_mount = std::cos(mount_angle_rad);
   double azimuth_rad = *guess_rad;
-  // From the sphere's crossing, 0.2 deg away, three or four quadratic Newton steps suffice.
+  // Newton's method starts at the crossing of the sphere, which is at most 0.2 deg away. It
+  // converges quadratically there, so that three or four steps suffice.
   for (int step = 0; step < 12; ++step) {
     const Eigen::Vector3d beam{sin_mount * std::cos(azimuth_rad), sin_mount * std::sin(azimuth_rad),
                                cos_mount};

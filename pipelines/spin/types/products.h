@@ -130,8 +130,8 @@ using SpinProduct = std::variant<PulseUse, RevolutionProduct, SpinMeasurement, S
 struct KnownAxis {
   Eigen::Vector3d axis_icrf;  ///< Unit.
   double sigma_rad;
-  /// What told the axis from others; fixes chosen by the axis inherit it. Edges count as the
-  /// dispersion does: over many turns one axis goes on fitting them.
+  /// States what separated this axis from the other candidates. A fix that is chosen by this axis
+  /// takes it over. Edges count as Dispersion, because over many turns only one axis fits them.
   Resolution settled_by = Resolution::Dispersion;
 };
 
