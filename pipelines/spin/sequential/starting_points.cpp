@@ -55,7 +55,7 @@ bool contradict(const StartingPoint& one, const StartingPoint& other) {
 
 std::optional<StartingPoints::Known> StartingPoints::add(
     std::span<const StartingPoint> candidates) {
-  // If the fixes have named this many branches, no two of them agree on an axis.
+  // Fixes that have named this many branches do not agree on an axis.
   if (branches_.size() > 16) {
     forget();
   }
