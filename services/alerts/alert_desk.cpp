@@ -12,6 +12,7 @@
 #include <variant>
 
 #include "pipelines/three_axis/sample_kind.h"
+#include "services/archive/archive.h"
 #include "services/base/alert_words.h"
 #include "services/base/wall_clock.h"
 
@@ -126,10 +127,8 @@ ConditionChanges AlertDesk::changes_by(const Samples& samples, Supervised& super
   auto* const attitude = std::get_if<AttitudeConditions>(&supervised.conditions);
   ConditionChanges all;
   in_order_of_arrival(samples, [&](const auto& sample) {
-    if constexpr (requires { sample.is_left_out; }) {
-      if (sample.is_left_out) {
-        return;
-      }
+    if (is_left_out(sample)) {
+      return;
     }
     using Value = std::remove_cvref_t<decltype(sample.value)>;
     if constexpr (requires { kind_of(sample.value); }) {

@@ -19,11 +19,12 @@
 #include "pipelines/supervision/contradiction_conditions.h"
 #include "pipelines/supervision/service_conditions.h"
 #include "pipelines/supervision/spin_conditions.h"
-#include "services/archive/archive.h"
 #include "services/archive/records.h"
 #include "services/mission/mission.h"
 
 namespace spindrift {
+
+class Archive;
 
 struct OpenAlert {
   std::string spacecraft;
@@ -127,7 +128,7 @@ class AlertDesk {
 };
 
 /// Applies an operator's word to an alert of `desk` from now on. @return What was stored and
-/// announced; the errors of AlertDesk::take; the archive's error.
+/// announced; the errors of AlertDesk::obey; the archive's error.
 Expected<ArchiveBatch> take_word(const OperatorWord& word, AlertDesk& desk, Archive& archive);
 
 }  // namespace spindrift

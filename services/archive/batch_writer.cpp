@@ -214,7 +214,7 @@ void BatchWriter::insert(const ArchiveBatch& batch, const RunStart& start) {
 
 template <class Value>
 void BatchWriter::insert(const ArchiveBatch& batch, const ArrivedSample<Value>& sample, Came came) {
-  const RunPlace arrival{sample.is_left_out ? -sample.arrival.number : sample.arrival.number};
+  const std::int64_t arrival = sample.is_left_out ? -sample.arrival.number : sample.arrival.number;
   const auto store = [&](const std::string& run_id) {
     std::apply(
         [&](const auto&... column) {

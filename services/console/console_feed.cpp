@@ -64,7 +64,7 @@ void ConsoleFeed::put(const std::string& spacecraft, const std::string& run_id,
   if (shown == shown_.end()) {
     return;
   }
-  shown->second.show(run_id);
+  shown->second.switch_to(run_id);
   std::visit(
       [&]<class Kind>(const Kind& is) {
         if constexpr (!kEvent<Kind>.empty()) {
@@ -82,7 +82,7 @@ void ConsoleFeed::put(const std::string& spacecraft, const std::string& run_id,
                       const std::vector<Product>& results) {
   {
     const std::lock_guard lock{mutex_};
-    shown_.at(spacecraft).show(run_id);
+    shown_.at(spacecraft).switch_to(run_id);
   }
   for (const Product& result : results) {
     put(spacecraft, run_id, result);

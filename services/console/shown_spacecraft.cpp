@@ -106,7 +106,7 @@ ShownSpacecraft::ShownSpacecraft(const Mission& mission)
       health_{.spacecraft = mission.spacecraft_id, .link = LinkState::Waiting},
       ledger_{kShownRules} {}
 
-void ShownSpacecraft::show(const std::string& run_id) {
+void ShownSpacecraft::switch_to(const std::string& run_id) {
   if (run_id != run_id_) {
     run_id_ = run_id;
     answers_ = nlohmann::json::object();
@@ -166,7 +166,7 @@ void ShownSpacecraft::show(const ReconstructionProduct& separation) {
 
 void ShownSpacecraft::take_details(const ArchiveBatch& stored) {
   if (stored.start || stored.continuation) {
-    show(stored.run_id);
+    switch_to(stored.run_id);
   }
   if (stored.run_id != run_id_) {
     return;

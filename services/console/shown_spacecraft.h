@@ -26,7 +26,7 @@ class ShownSpacecraft {
   explicit ShownSpacecraft(const Mission& mission);
 
   /// Switches to a run and clears what was shown of another run.
-  void show(const std::string& run_id);
+  void switch_to(const std::string& run_id);
   const std::string& run_id() const { return run_id_; }
 
   /// @name Products of the run

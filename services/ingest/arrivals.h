@@ -46,7 +46,7 @@ class Arrivals {
       batch.samples.template of<Value>().push_back(*std::move(sample));
     } else {
       const std::lock_guard lock{mutex_};
-      count<Value>(message, sample, batch);
+      track<Value>(message, sample, batch);
     }
   }
 
@@ -59,7 +59,7 @@ class Arrivals {
   void take_other(const bus::MessageOf<Value>& message) {
     const auto sample = from_idl<Value>(message);
     const std::lock_guard lock{mutex_};
-    if (count(message, sample, rest_)) {
+    if (track(message, sample, rest_)) {
       ++entry_of(rest_.others, sample->spacecraft).second;
     }
   }
@@ -72,9 +72,10 @@ class Arrivals {
   CountsBySpacecraft by_spacecraft() const;
 
  private:
+  /// Records the origin of a sample and rejects one that cannot be true. `mutex_` must be held.
   /// @return Whether the sample can be true.
   template <class Value>
-  bool count(const bus::MessageOf<Value>& message, const Expected<TelemetrySample<Value>>& sample,
+  bool track(const bus::MessageOf<Value>& message, const Expected<TelemetrySample<Value>>& sample,
              SampleBatch& batch) {
     const Origin origin = sample ? sample->origin : origin_from_idl(message);
     tracker_.record(origin, message.spacecraft, kTelemetryKind<Value>);

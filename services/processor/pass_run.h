@@ -30,7 +30,8 @@ namespace spindrift {
 /// solution could not be made; `forget`, which drops what belongs to the run before; `noting`,
 /// which returns the function that PassComputing calls with what the pass makes; `last_solution`,
 /// which returns the task of the solution at the end of the run, or nothing when there is nothing
-/// to solve; `expects_solution`, whether a user misses that solution when it cannot be made.
+/// to solve; `expects_solution`, whether a user misses that solution when it cannot be made. It may
+/// replace `settle`.
 template <class Run, class Pass>
 class PassRun {
  public:

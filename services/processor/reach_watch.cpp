@@ -6,7 +6,7 @@
 
 namespace spindrift {
 
-void ReachWatch::advance_to(TaiTime t) {
+void ReachWatch::include(TaiTime t) {
   first_ = std::min(first_.value_or(t), t);
   if (contact_ && contact_->from <= t && t < contact_->to) {
     spans_.insert((t - contact_->from) / kSpan);

@@ -32,7 +32,8 @@ class ReachWatch {
 
   explicit ReachWatch(std::optional<Contact> contact) : contact_{contact} {}
 
-  void advance_to(TaiTime t);
+  /// Counts a sample in, whether or not its time turns out to be right.
+  void include(TaiTime t);
   /// Notes that the pass has reached `t` (PassWatch). A sample with a wrong time does not get here.
   void carry_on(TaiTime t);
 

@@ -183,7 +183,7 @@ void SpacecraftRun::go_on(const StoredPass& stored, const Moment& moment, Taken&
           hand_on(arrived, out.inputs);
         } else {
           received_.count(arrived.value);
-          reach_.advance_to(arrived.value.t);
+          reach_.include(arrived.value.t);
           sources_.restore(arrived.value.t, moment);
           place(arrived, out);
         }
@@ -328,10 +328,12 @@ template <class Value>
 void SpacecraftRun::sort(TelemetrySample<Value>&& sample, const Moment& moment, Taken& out) {
   senders_.put_into(sample);
   switch (judge(sample, moment)) {
-    case SourceWatch::Verdict::Apart:
-      out.batches.back().samples.of<Value>().push_back(arrived(std::move(sample)));
-      out.batches.back().samples.of<Value>().back().is_left_out = true;
+    case SourceWatch::Verdict::Apart: {
+      ArrivedSample<Value> apart = arrived(std::move(sample));
+      apart.is_left_out = true;
+      out.batches.back().samples.of<Value>().push_back(std::move(apart));
       return;
+    }
     case SourceWatch::Verdict::Healed:
       accept(sources_.take_held(sample.origin), out);
       break;
@@ -368,7 +370,7 @@ void SpacecraftRun::accept(const TelemetryValues& held, Taken& out) {
   in_order_of_arrival(held, [&]<class Value>(const Arrived<Value>& left_out) {
     const Arrived<Value> arrived{.arrival = new_arrival(), .value = left_out.value};
     received_.count(arrived.value);
-    reach_.advance_to(arrived.value.t);
+    reach_.include(arrived.value.t);
     out.batches.back().moved.of<Value>().push_back(arrived);
     place(arrived, out);
   });
@@ -378,7 +380,7 @@ template <class Value>
 void SpacecraftRun::accept(TelemetrySample<Value>&& sample, Taken& out) {
   ArrivedSample<Value> taken = arrived(std::move(sample));
   received_.count(taken.value);
-  reach_.advance_to(taken.value.t);
+  reach_.include(taken.value.t);
   if (!is_known(taken.value)) {
     place(Arrived<Value>{.arrival = taken.arrival, .value = taken.value}, out);
   }

@@ -61,8 +61,8 @@ struct Received {
 /// once, independently of what is computed from it and when.
 /// A new run begins after a silence that ends a pass (PassWatch), or when the time of another
 /// source turns out to be right (SourceWatch). It begins in the batch of the sample that decides
-/// this; the samples held until then arrive anew, so that the samples of
-/// a run are numbered without gaps. Files are read in order of time, whatever source they name.
+/// this; the samples held until then arrive anew, so that the samples of a run are numbered without
+/// gaps. Files are read in order of time, whatever source they name.
 class SpacecraftRun {
  public:
   SpacecraftRun(const Mission& mission, const TelemetrySource& source, std::size_t index);

@@ -59,8 +59,8 @@ class Telling {
   ConditionChanges changes_;
 };
 
-Expected<void> see_files(const CompareOptions& options, const std::string& spacecraft_id,
-                         Telling& telling) {
+Expected<void> compare_files(const CompareOptions& options, const std::string& spacecraft_id,
+                             Telling& telling) {
   auto input = TelemetryInput::open(options.telemetry, spacecraft_id, false);
   if (!input) {
     return Unexpected{std::move(input.error())};
@@ -83,12 +83,12 @@ Expected<void> see_files(const CompareOptions& options, const std::string& space
   return {};
 }
 
-Expected<void> see_archive(const CompareOptions& options, const Mission& mission,
-                           Telling& telling) {
+Expected<void> compare_archive(const CompareOptions& options, const Mission& mission,
+                               Telling& telling) {
   return find_telemetry(options.db, mission.spacecraft_id, mission.preferred_source,
                         telling.span().from, telling.span().to)
       .map([&](const PlacedValues& values) {
-        in_order_of_arrival(values, [&](const auto& arrived) { telling.compare(arrived.value); });
+        in_order_of_arrival(values, [&](const auto& placed) { telling.compare(placed.value); });
       });
 }
 
@@ -194,10 +194,10 @@ Expected<void> compare(const CompareOptions& options) {
   }
   const std::string& id = mission->spacecraft_id;
   Telling telling{*model, mission->alerts.departure_sigmas};
-  if (auto seen = options.telemetry.empty() ? see_archive(options, *mission, telling)
-                                            : see_files(options, id, telling);
-      !seen) {
-    return seen;
+  if (auto compared = options.telemetry.empty() ? compare_archive(options, *mission, telling)
+                                                : compare_files(options, id, telling);
+      !compared) {
+    return compared;
   }
   telling.finish();
   if (telling.samples().empty()) {

@@ -127,8 +127,8 @@ Expected<void> publish(const Scenario& scenario, const PlacedValues& values,
                        TelemetryOutput& output) {
   ProgressBar progress{"publishing", count_of(values)};
   Expected<void> sent;
-  in_order_of_arrival(values, [&, done = std::uint64_t{0}](const auto& arrived) mutable {
-    if (sent && (sent = output.publish(scenario.spacecraft_id, arrived.value))) {
+  in_order_of_arrival(values, [&, done = std::uint64_t{0}](const auto& placed) mutable {
+    if (sent && (sent = output.publish(scenario.spacecraft_id, placed.value))) {
       progress.advance_to(++done);
     }
   });

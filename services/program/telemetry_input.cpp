@@ -35,7 +35,7 @@ Expected<void> find_bad_rows_of(const std::filesystem::path& path, BadRows& bad)
       return {};
     }
     if (const auto* const rejected = std::get_if<RejectedInput>(&**row)) {
-      bad.report(*rejected);
+      bad.collect(*rejected);
     }
   }
 }
@@ -58,7 +58,7 @@ Unexpected nothing_in(std::span<const TelemetryFile> files) {
 
 }  // namespace
 
-void BadRows::report(const RejectedInput& row) {
+void BadRows::collect(const RejectedInput& row) {
   ++count;
   if (first.size() < kRowsShown) {
     first.push_back(row);
@@ -91,7 +91,7 @@ Expected<BadRows> find_bad_rows(std::span<const TelemetryFile> files) {
   for (const TelemetryFile& file : files) {
     Expected<void> looked;
     if (!file.kind) {
-      bad.report(empty_file(file));
+      bad.collect(empty_file(file));
     } else {
       looked = std::visit(
           [&]<class Value>(Kind<Value>) { return find_bad_rows_of<Value>(file.path, bad); },
@@ -142,7 +142,7 @@ Expected<SampleBatch> TelemetryInput::next() {
   auto batch = is_empty(first_) ? stream_.next() : Expected<SampleBatch>{std::exchange(first_, {})};
   if (batch) {
     for (const RejectedInput& row : batch->rejected) {
-      bad_rows_.report(row);
+      bad_rows_.collect(row);
     }
   }
   return batch;

@@ -23,7 +23,7 @@ struct BadRows {
   std::uint64_t count = 0;
   std::vector<RejectedInput> first = {};
 
-  void report(const RejectedInput& row);
+  void collect(const RejectedInput& row);
   std::string text() const;
 };
 

@@ -38,7 +38,7 @@ struct Range {
   double low;
   double high;
 };
-/// Returns the range of all values, which contains at least `low` and `high`.
+/// Returns the range of all values; its lower end is at most `low`, its upper end at least `high`.
 Range range_of(const std::vector<Curve>& curves, double low, double high);
 
 /// An instant that is shown in all panels.

@@ -109,6 +109,10 @@ template <class Value>
 constexpr bool is_left_out(const Arrived<Value>& /*in_time*/) {
   return false;
 }
+template <class Value>
+constexpr bool is_left_out(const Placed<Value>& /*in_time*/) {
+  return false;
+}
 /// @}
 
 /// Counts the elements of all kinds.

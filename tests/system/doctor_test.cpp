@@ -6,6 +6,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
@@ -53,10 +54,12 @@ Diagnosis diagnose(const bus::BusConfig& bus, const std::vector<std::string>& ar
 template <class Is>
 Diagnosis diagnosed(const bus::BusConfig& bus, const Words& arguments, const Is& is) {
   Diagnosis diagnosis{};
-  EXPECT_TRUE(eventually([&] {
-    diagnosis = diagnose(bus, arguments);
-    return is(diagnosis);
-  })) << diagnosis.report;
+  if (!eventually([&] {
+        diagnosis = diagnose(bus, arguments);
+        return is(diagnosis);
+      })) {
+    throw std::runtime_error{diagnosis.report.dump()};
+  }
   return diagnosis;
 }
 

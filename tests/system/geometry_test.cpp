@@ -3,8 +3,8 @@
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
+#include "tests/support/lines.h"
 #include "tests/support/ran.h"
 #include "tests/support/recorded_files.h"
 #include "tests/support/test_paths.h"
@@ -52,15 +52,6 @@ nlohmann::json planned(const std::vector<std::string>& arguments) {
   const Ran program = succeeded(arguments);
   EXPECT_EQ(program.log, "");
   return program.json();
-}
-
-std::vector<std::string> lines_of(const std::string& text) {
-  std::vector<std::string> lines;
-  std::istringstream stream{text};
-  for (std::string line; std::getline(stream, line);) {
-    lines.push_back(line);
-  }
-  return lines;
 }
 
 TEST(Geometry, PrintsATableAndWhatHolds) {

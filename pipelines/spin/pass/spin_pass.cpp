@@ -12,6 +12,7 @@
 #include "pipelines/spin/fix/axis_candidates.h"
 #include "pipelines/spin/pass/revolution_products.h"
 #include "pipelines/spin/types/model_allowance.h"
+#include "pipelines/statistics/median.h"
 #include "pipelines/statistics/significance.h"
 #include "pipelines/time/time_span.h"
 
@@ -29,9 +30,7 @@ Eigen::Vector3d median_axis(const std::vector<Eigen::Vector3d>& axes) {
     std::vector<double> components(axes.size());
     std::transform(axes.begin(), axes.end(), components.begin(),
                    [i](const Eigen::Vector3d& axis) { return axis[i]; });
-    const auto middle = components.begin() + static_cast<std::ptrdiff_t>(components.size() / 2);
-    std::nth_element(components.begin(), middle, components.end());
-    median[i] = *middle;
+    median[i] = upper_median(components);
   }
   return median.normalized();
 }

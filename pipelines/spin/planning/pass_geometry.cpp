@@ -24,7 +24,7 @@ BeamSight view_without_edges(double mount_angle_rad, double earth_angle_rad, dou
                                                                 : BeamSight::Misses;
 }
 
-/// Does the same as `SunEarthEphemeris::sightlines`, but from the sky, which also knows the end of
+/// Does the same as `SunEarthEphemeris::sun_earth`, but from the sky, which also knows the end of
 /// the turn where the orbit ends before it.
 SunEarthDirections sightlines_of(const Sky& sky, const RevolutionMeasurements& measured,
                                  double disc_rad) {

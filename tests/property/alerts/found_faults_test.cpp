@@ -216,17 +216,17 @@ std::vector<Fault> faults() {
     erase(sent, [](const Sent& /*one*/) { return true; });
   };
   const auto axis_moves = [](std::vector<Sent>& sent) {
-    turn_to(sent, with(spinner(), "dec_deg = -55.0", "dec_deg = -45.0"));
+    turn_to(sent, replaced(spinner(), "dec_deg = -55.0", "dec_deg = -45.0"));
   };
   const auto magnetometer_dies = [](std::vector<Sent>& sent) {
     add_magnetometer(sent);
     dead<MagneticField>()(sent);
   };
-  const std::string near_beams = with(spinner(), "azimuth_deg = 92.0", "azimuth_deg = 100.0") +
+  const std::string near_beams = replaced(spinner(), "azimuth_deg = 92.0", "azimuth_deg = 100.0") +
                                  "\n[spin.screening]\ninterference_s = 0.002\n";
-  const std::string nutating = with(with(text_of(scenarios() / "gto-nutating.toml"),
-                                         "half_angle_deg = 0.2", "half_angle_deg = 1.0"),
-                                    "duration_s = 600.0", "duration_s = 150.0");
+  const std::string nutating = replaced(replaced(text_of(scenarios() / "gto-nutating.toml"),
+                                                 "half_angle_deg = 0.2", "half_angle_deg = 1.0"),
+                                        "duration_s = 600.0", "duration_s = 150.0");
   const std::set<std::string> lost_or_diverged = {"attitude.lost", "attitude.diverged"};
   return {
       {"sun1 dead", silent("sun1"), spinner(), dead({Sun1})},
@@ -242,7 +242,7 @@ std::vector<Fault> faults() {
        0.0},
       {"off target by 5 deg",
        {"spin.off_target"},
-       with(spinner(), "dec_deg = -55.0", "dec_deg = -50.0"),
+       replaced(spinner(), "dec_deg = -55.0", "dec_deg = -50.0"),
        {},
        target,
        0.0},
@@ -260,7 +260,7 @@ std::vector<Fault> faults() {
       {"gyro bias jumps by 0.005 deg/s", lost_or_diverged, leosat, bias_jumps(0.005)},
       {"tumbling beyond the gyro's range",
        {"attitude.lost"},
-       with(leosat, "noise_deg_s = 0.002", "noise_deg_s = 0.002\nrange_deg_s = 10.0"),
+       replaced(leosat, "noise_deg_s = 0.002", "noise_deg_s = 0.002\nrange_deg_s = 10.0"),
        tumble},
       {"link silent", {"link.silent"}, spinner(), silent_link},
       {"five samples lost", {"link.gap:front-end"}, spinner(), {}, {}, kFault_s, lose_five},

@@ -21,6 +21,7 @@
 #include "services/simulation/pass_files.h"
 #include "services/simulation/scenario.h"
 #include "services/simulation/simulated_pass.h"
+#include "tests/support/scenario_text.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/test_paths.h"
 #include "tests/support/text_of.h"
@@ -204,19 +205,12 @@ class SupervisedPass {
   RaisedByKey raised_;
 };
 
-/// Replaces the first occurrence of `from`, which must exist.
-inline std::string with(std::string text, const std::string& from, const std::string& to) {
-  const auto at = text.find(from);
-  EXPECT_NE(at, std::string::npos) << from;
-  return at == std::string::npos ? text : text.replace(at, from.size(), to);
-}
-
 /// Returns deploy/scenarios/separation.toml without faults and with star fixes from 120 s on.
 inline std::string three_axis_text() {
   std::string text = text_of(scenarios() / "separation.toml");
   text = text.substr(0, text.find("[faults]"));
-  text = with(text, "duration_s = 309.0", "duration_s = 600.0");
-  return with(text, "first_star_fix_s = 300.0", "first_star_fix_s = 120.0");
+  text = replaced(text, "duration_s = 309.0", "duration_s = 600.0");
+  return replaced(text, "first_star_fix_s = 300.0", "first_star_fix_s = 120.0");
 }
 
 }  // namespace spindrift::testing

@@ -1,6 +1,7 @@
 #include "services/archive/batch_queue.h"
 
 #include <chrono>
+#include <stdexcept>
 #include <string>
 #include <thread>
 #include <utility>
@@ -42,7 +43,9 @@ ArchiveBatch details(std::size_t count, const std::string& run_id = "details") {
 
 template <class... Batches>
 void push(BatchQueue& queue, Batches... batches) {
-  ASSERT_TRUE((queue.push(std::move(batches)) && ...));
+  if (!(queue.push(std::move(batches)) && ...)) {
+    throw std::runtime_error{"the queue refuses a batch"};
+  }
 }
 
 std::vector<std::string> names_of(const std::vector<ArchiveBatch>& batches) {

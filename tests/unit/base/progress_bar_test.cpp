@@ -6,9 +6,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <cstdio>
 #include <functional>
 #include <string>
+#include <system_error>
 
 #include "tests/support/matchers.h"
 
@@ -37,7 +39,9 @@ std::string standard_error_of(int descriptor, int reading, const std::function<v
 std::string shown_on_a_terminal(const std::function<void()>& work) {
   int ours = 0;
   int theirs = 0;
-  EXPECT_EQ(openpty(&ours, &theirs, nullptr, nullptr, nullptr), 0);
+  if (openpty(&ours, &theirs, nullptr, nullptr, nullptr) != 0) {
+    throw std::system_error{errno, std::generic_category(), "openpty"};
+  }
   return standard_error_of(theirs, ours, work);
 }
 

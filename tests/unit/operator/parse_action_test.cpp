@@ -3,9 +3,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <filesystem>
-#include <regex>
-#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -13,8 +10,6 @@
 #include "pipelines/frames/angle.h"
 #include "tests/support/matchers.h"
 #include "tests/support/outcome.h"
-#include "tests/support/test_paths.h"
-#include "tests/support/text_of.h"
 
 namespace spindrift::parse_action_test {
 
@@ -146,31 +141,6 @@ TEST(ParseAction, SaysWhatIsWrongOfArguments) {
               HasSubstr("sigma_deg: 0: must be a number, 0.001 to 180"));
   EXPECT_EQ(why_not({{"action", "mark_manoeuvre"}, {"ra_deg", 1}}),
             "mark_manoeuvre: ra_deg is not known here: nothing is asked for");
-}
-
-/// Returns what the first group of `pattern` matches in the part of a file between two texts.
-std::set<std::string> names_in(const std::filesystem::path& file, const std::string& from,
-                               const std::string& to, const std::regex& pattern) {
-  const std::string text = text_of(source_folder() / file);
-  const auto begin = text.find(from);
-  const std::string part = text.substr(begin, text.find(to, begin) - begin);
-  std::set<std::string> names;
-  for (std::sregex_iterator match{part.begin(), part.end(), pattern};
-       match != std::sregex_iterator{}; ++match) {
-    names.insert((*match)[1]);
-  }
-  return names;
-}
-
-TEST(ParseAction, KnowsTheActionsOfTheSchemaAndOfThePage) {
-  const std::vector<std::string_view> known = action_names();
-  const std::set<std::string> all{known.begin(), known.end()};
-  ASSERT_EQ(all.size(), std::variant_size_v<SpinAction>);
-  EXPECT_EQ(names_in("schemas/tables.sql", "CHECK (action IN (", "))", std::regex{"'(\\w+)'"}),
-            all);
-  EXPECT_EQ(names_in("services/console/web/page/actions.js", "const actions = {", "\n};",
-                     std::regex{"(?:^|\\n)  (\\w+): \\{"}),
-            all);
 }
 
 }  // namespace spindrift::parse_action_test

@@ -9,7 +9,7 @@ using namespace std::chrono_literals;
 constexpr TaiTime kT = tai_from_ns(1'795'143'637'000'000'000);
 
 void see(ReachWatch& watch, TaiTime t) {
-  watch.advance_to(t);
+  watch.include(t);
   watch.carry_on(t);
 }
 
@@ -20,7 +20,7 @@ TEST(ReachWatch, TellsAnEarlierBeginningAtOnceAndALaterEndOnceAMinute) {
   EXPECT_EQ(watch.take_news().value().last, kT);
   see(watch, kT + 59s);
   EXPECT_FALSE(watch.take_news());
-  watch.advance_to(kT - 1s);
+  watch.include(kT - 1s);
   EXPECT_EQ(watch.take_news().value().first, kT - 1s);
   see(watch, kT + 119s);
   EXPECT_EQ(watch.take_news().value().last, kT + 119s);
@@ -32,7 +32,7 @@ TEST(ReachWatch, TellsAnEarlierBeginningAtOnceAndALaterEndOnceAMinute) {
 TEST(ReachWatch, DoesNotEndWithATimeToWhichThePassHasNotCome) {
   ReachWatch watch{std::nullopt};
   see(watch, kT);
-  watch.advance_to(kT + 10'000h);
+  watch.include(kT + 10'000h);
   EXPECT_EQ(watch.take_last().value().last, kT);
 }
 

@@ -1,6 +1,6 @@
 #include "pipelines/supervision/alert_book.h"
 
-#include <gtest/gtest.h>
+#include "tests/support/matchers.h"
 
 namespace spindrift::alert_book_test {
 
@@ -113,8 +113,8 @@ TEST(AlertBook, IsAcknowledgedOnceAndClearedAfterwards) {
   EXPECT_FALSE(raised.book.acknowledge(raised.id, at(3), "night shift", "seen"));
   EXPECT_EQ(raised.book.open().size(), 1U);
   EXPECT_EQ(raised.book.clear(occurrence(4)).value().from, AlertState::Acknowledged);
-  EXPECT_EQ(raised.book.acknowledge(raised.id, at(5), "night shift", "seen").error().message,
-            "no alert '" + raised.id + "' is open");
+  EXPECT_THAT(raised.book.acknowledge(raised.id, at(5), "night shift", "seen"),
+              IsRefused(ErrorCode::InvalidInput, "no alert '" + raised.id + "' is open"));
 }
 
 TEST(AlertBook, IsActiveAgainWhenItsShelvingIsOver) {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 #include <random>
+#include <stdexcept>
 #include <vector>
 
 #include "tests/support/spinning_body.h"
@@ -32,7 +33,11 @@ class ExpectedPhasesTest : public ::testing::Test {
     return counts;
   }
 
-  void learn_north_in() { ASSERT_TRUE(phases_.learn(NorthIn, counts(20, 0.3), kFewest, 0.0)); }
+  void learn_north_in() {
+    if (!phases_.learn(NorthIn, counts(20, 0.3), kFewest, 0.0)) {
+      throw std::runtime_error{"twenty edges of one phase are not learned"};
+    }
+  }
 
   SpinConfig config_ = usual_config();
   ExpectedPhases phases_{config_};

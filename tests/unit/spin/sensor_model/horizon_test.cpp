@@ -81,7 +81,7 @@ TEST_P(EdgesOnHorizons, EveryEdgeComesAtThePhasePredicted) {
       }
       const double phase_rad = scene.body.first_turn_rad + scene.body.rate_rad_s * edge.t_s;
       // The oracle is accurate to 1e-12 s; a grazing beam amplifies that, and the rounding of a
-      // flat crossing, up to 30 times (kSteepest).
+      // flat crossing, up to 30 times, at the steepest crossing that is predicted.
       ASSERT_NEAR(wrapped_rad(phase_rad - predicted->phase_rad), 0.0, 3e-9)
           << "trial " << trial << ' ' << name_of(edge.channel);
       ++seen.at(index_of(edge.channel));
