@@ -198,7 +198,11 @@ void ShownSpacecraft::take_details(const ArchiveBatch& stored) {
 }
 
 void ShownSpacecraft::remember(const SpinMeasurement& measurement) {
-  if (measurement.rejected_by && measurement.test) {
+  if (!measurement.said) {
+    return;
+  }
+  ledger_.add({&*measurement.said, 1});
+  if (measurement.rejected_by) {
     failed_.insert_or_assign({measurement.revolution, measurement.quantity}, measurement);
     if (failed_.size() > kFailedKept) {
       failed_.erase(failed_.begin());
@@ -215,8 +219,8 @@ nlohmann::json ShownSpacecraft::held_against(const PulseUse& edge) const {
   if (failed != failed_.end()) {
     const SpinMeasurement& measured = failed->second;
     const double unit = SpinMeasurementTable::to_unit(measured);
-    return {{"off", (measured.value - measured.test->expected) * unit},
-            {"limit", measured.test->limit * unit},
+    return {{"off", SpinMeasurementTable::off_of(*measured.said) * unit},
+            {"limit", SpinMeasurementTable::largest_of(*measured.said) * unit},
             {"off_unit", SpinMeasurementTable::is_time(measured) ? "s" : "deg"}};
   }
   if (edge.said && edge.said->residual.freedom > 0) {

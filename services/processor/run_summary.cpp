@@ -19,7 +19,11 @@ struct Count {
     }
   }
   void operator()(const RevolutionProduct& /*revolution*/) const { ++summary.revolutions; }
-  void operator()(const SpinMeasurement& /*measurement*/) const {}
+  void operator()(const SpinMeasurement& measurement) const {
+    if (measurement.said) {
+      summary.ledger.add({&*measurement.said, 1});
+    }
+  }
   void operator()(const SampleContradiction& /*contradiction*/) const {}
   void operator()(const AxisChoice& /*choice*/) const {}
   void operator()(const SpinFix& fix) const {

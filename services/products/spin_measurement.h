@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <optional>
 #include <string_view>
 #include <tuple>
@@ -22,6 +23,12 @@ struct SpinMeasurementTable {
   static constexpr bool is_time(const SpinMeasurement& measurement) {
     return measurement.quantity == SpinQuantity::Period;
   }
+  /// Returns how far the value is off what was expected of it.
+  static double off_of(const Observation& said) { return said.residual.value[0]; }
+  /// Returns the largest deviation that passes the test.
+  static double largest_of(const Observation& said) {
+    return std::sqrt(said.limit) * said.residual.sigma[0];
+  }
   static constexpr double to_unit(const SpinMeasurement& measurement) {
     return is_time(measurement) ? 1.0 : kDegPerRad;
   }
@@ -38,11 +45,12 @@ struct SpinMeasurementTable {
                     [](const SpinMeasurement& one) { return name_of(one.rejected_by); }},
       ProductColumn{"expected",
                     [](const SpinMeasurement& one) {
-                      return one.test ? std::optional{one.test->expected * to_unit(one)}
-                                      : std::nullopt;
+                      return one.said
+                                 ? std::optional{(one.value - off_of(*one.said)) * to_unit(one)}
+                                 : std::nullopt;
                     }},
       ProductColumn{"limit", [](const SpinMeasurement& one) {
-                      return one.test ? std::optional{one.test->limit * to_unit(one)}
+                      return one.said ? std::optional{largest_of(*one.said) * to_unit(one)}
                                       : std::nullopt;
                     }});
 };

@@ -18,7 +18,7 @@ PeriodCandidate SpinPeriodWindow::judge(TaiTime from, TaiTime to, std::int64_t t
                                         double expected_s) {
   assert(turns > 0 && to > from);
   const auto turns_d = static_cast<double>(turns);
-  return judge(elapsed_s(from, to) / turns_d, turns_d, expected_s);
+  return judge(to, elapsed_s(from, to) / turns_d, turns_d, expected_s);
 }
 
 PeriodCandidate SpinPeriodWindow::refused(TaiTime from, TaiTime to, std::int64_t turns,
@@ -29,15 +29,16 @@ PeriodCandidate SpinPeriodWindow::refused(TaiTime from, TaiTime to, std::int64_t
           .rejected_by = rejected_by};
 }
 
-PeriodCandidate SpinPeriodWindow::judge(double period_s, double turns, double expected_s) {
+PeriodCandidate SpinPeriodWindow::judge(TaiTime t, double period_s, double turns,
+                                        double expected_s) {
   const double difference_s = period_s - expected_s;
   differences_s_.add(difference_s);
   const RobustMean mean =
       differences_s_.mean({.sigma = screening_.sigma, .stated = candidate_sigma_s_});
-  return {.period_s = period_s,
-          .sigma_s = candidate_sigma_s_ / turns,
-          .rejected_by = mean.keeps(difference_s) ? std::nullopt : std::optional{Rejection::Period},
-          .test = Rational{.expected = expected_s + mean.mean, .limit = mean.limit}};
+  const double sigma_s = candidate_sigma_s_ / turns;
+  const Observation said = Observation::of(t, SampleSource::Period, difference_s - mean.mean,
+                                           sigma_s, mean.limit, Rejection::Period);
+  return {.period_s = period_s, .sigma_s = sigma_s, .rejected_by = said.rejected_by, .said = said};
 }
 
 void PeriodIntervals::begin_anew(double edge_sigma_s) {
@@ -96,7 +97,7 @@ std::optional<PeriodCandidate> PeriodIntervals::noted(
   if (note == notes_.end() || !(note->period_s > 0.0)) {
     return std::nullopt;
   }
-  return window_.judge(note->period_s, expected_s(*sun1));
+  return window_.judge(*sun1, note->period_s, expected_s(*sun1));
 }
 
 }  // namespace spindrift

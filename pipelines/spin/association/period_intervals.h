@@ -34,8 +34,8 @@ class SpinPeriodWindow {
   /// Tests the interval `from` -> `to`, `turns` > 0 revolutions long, and adds it.
   PeriodCandidate judge(TaiTime from, TaiTime to, std::int64_t turns, double expected_s);
   /// Tests and adds the period of one turn, timed on board.
-  PeriodCandidate judge(double period_s, double expected_s) {
-    return judge(period_s, 1.0, expected_s);
+  PeriodCandidate judge(TaiTime t, double period_s, double expected_s) {
+    return judge(t, period_s, 1.0, expected_s);
   }
   /// Returns the candidate of an interval that ends at a rejected edge, without adding it.
   PeriodCandidate refused(TaiTime from, TaiTime to, std::int64_t turns,
@@ -44,7 +44,7 @@ class SpinPeriodWindow {
   std::size_t size() const { return differences_s_.size(); }
 
  private:
-  PeriodCandidate judge(double period_s, double turns, double expected_s);
+  PeriodCandidate judge(TaiTime t, double period_s, double turns, double expected_s);
 
   SpinScreening screening_;
   double candidate_sigma_s_;  ///< One sigma of a candidate over one turn.

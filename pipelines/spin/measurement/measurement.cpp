@@ -180,10 +180,13 @@ void reject(RevolutionMeasurements& measured, SpinQuantity quantity, Rejection w
   }
 }
 
-void note_test(RevolutionMeasurements& measured, SpinQuantity quantity, const Rational& test) {
+void judge(RevolutionMeasurements& measured, SpinQuantity quantity, const Observation& said) {
   std::optional<Measured>* const slot = slot_of(measured, quantity);
   if (slot != nullptr && *slot) {
-    (*slot)->test = test;
+    (*slot)->said = said;
+  }
+  if (said.rejected_by) {
+    reject(measured, quantity, *said.rejected_by);
   }
 }
 

@@ -24,7 +24,7 @@ struct Measured {
   EdgeNoise noise_rad;  ///< Two measurements are correlated where both have an entry.
   /// Empty when good; else the failed test, or the rejection of an edge that the value rests on.
   std::optional<Rejection> rejected_by = {};
-  std::optional<Rational> test = {};  ///< Empty if not tested.
+  std::optional<Observation> said = {};  ///< Empty if not tested.
 };
 
 /// Holds the measurements of one infrared sensor. Chord and dihedral share both edges.
@@ -70,8 +70,8 @@ std::optional<Measured> good_value_of(const RevolutionMeasurements& measured,
 /// Marks a quantity as rejected, unless it is already.
 void reject(RevolutionMeasurements& measured, SpinQuantity quantity, Rejection why);
 
-/// Notes the test that a quantity went through.
-void note_test(RevolutionMeasurements& measured, SpinQuantity quantity, const Rational& test);
+/// Stores what a quantity said, and rejects it if its test did.
+void judge(RevolutionMeasurements& measured, SpinQuantity quantity, const Observation& said);
 
 /// Returns the measurements. One without meaning (slit lag of a quarter turn or more, chord of a
 /// whole turn or more) is absent; one that rests on a rejected edge is rejected for the same

@@ -31,12 +31,12 @@ SpinMeasurement measurement_of(const Revolution& revolution, const RevolutionMea
   if (verdict.quantity == SpinQuantity::Period) {
     product.value = revolution.period_candidate->period_s;
     product.sigma = revolution.period_candidate->sigma_s;
-    product.test = revolution.period_candidate->test;
+    product.said = revolution.period_candidate->said;
   } else {
     const Measured value = *value_of(measured, verdict.quantity);
     product.value = value.value_rad;
     product.sigma = value.sigma_rad;
-    product.test = value.test;
+    product.said = value.said;
   }
   return product;
 }

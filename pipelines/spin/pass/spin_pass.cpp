@@ -371,13 +371,9 @@ void SpinPass::predict(Candidate& candidate, const Eigen::Vector3d& axis_icrf) {
 
 void SpinPass::screen(Candidate& candidate) const {
   for (const AngleResidual& residual : candidate.residuals) {
-    const auto& mean = screening_.mean_of(residual.quantity);
-    if (mean) {
-      const double value_rad = value_of(candidate.measured, residual.quantity)->value_rad;
-      note_test(candidate.measured, residual.quantity,
-                {.expected = value_rad - (residual.value_rad - mean->mean), .limit = mean->limit});
-    }
-    if (!mean || !mean->keeps(residual.value_rad)) {
+    if (const auto said = screening_.judged(candidate.revolution.t_start, residual)) {
+      judge(candidate.measured, residual.quantity, *said);
+    } else {
       reject(candidate.measured, residual.quantity, rejection_of(residual.quantity));
     }
   }

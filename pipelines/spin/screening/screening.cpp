@@ -72,8 +72,12 @@ void ScreeningWindow::add(const AngleResidual& residual) {
   channel.mean = channel.values_rad.mean({.sigma = sigma_, .stated = residual.sigma_rad});
 }
 
-const std::optional<RobustMean>& ScreeningWindow::mean_of(SpinQuantity quantity) const {
-  return channels_.at(static_cast<std::size_t>(quantity)).mean;
+std::optional<Observation> ScreeningWindow::judged(TaiTime t, const AngleResidual& residual) const {
+  const auto& mean = channels_.at(static_cast<std::size_t>(residual.quantity)).mean;
+  return mean ? std::optional{Observation::of(t, source_of(residual.quantity),
+                                              residual.value_rad - mean->mean, residual.sigma_rad,
+                                              mean->limit, rejection_of(residual.quantity))}
+              : std::nullopt;
 }
 
 }  // namespace spindrift

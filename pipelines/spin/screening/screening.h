@@ -42,8 +42,9 @@ class ScreeningWindow {
   explicit ScreeningWindow(const SpinScreening& screening);
 
   void add(const AngleResidual& residual);
-  /// Returns the mean after the quantity's last residual; empty when there was none.
-  const std::optional<RobustMean>& mean_of(SpinQuantity quantity) const;
+  /// Returns what a residual says against the mean after its quantity's last one; empty when there
+  /// was none.
+  std::optional<Observation> judged(TaiTime t, const AngleResidual& residual) const;
 
  private:
   struct Channel {

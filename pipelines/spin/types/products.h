@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "pipelines/core/assessment.h"
-#include "pipelines/core/rational.h"
 #include "pipelines/observation/observation.h"
 #include "pipelines/spin/types/pulse.h"
 #include "pipelines/time/sample_contradiction.h"
@@ -30,6 +29,11 @@ enum class SpinQuantity {
 };
 inline constexpr std::size_t kSpinQuantities = 7;
 std::string_view name_of(SpinQuantity quantity);
+
+constexpr SampleSource source_of(SpinQuantity quantity) {
+  return static_cast<SampleSource>(index_of(SampleSource::Period) +
+                                   static_cast<std::size_t>(quantity));
+}
 
 /// Returns the rejection that the test of a quantity gives.
 Rejection rejection_of(SpinQuantity quantity);
@@ -56,7 +60,7 @@ struct SpinMeasurement {
   double value;  ///< s for the period, rad otherwise.
   double sigma;  ///< One standard deviation from the stated pulse noise; same unit.
   std::optional<Rejection> rejected_by;
-  std::optional<Rational> test = {};  ///< Empty: it was not tested.
+  std::optional<Observation> said = {};  ///< Empty: it was not tested.
 };
 
 enum class Resolution { Geometry, Constraint, Prior, Dispersion, Ambiguous };

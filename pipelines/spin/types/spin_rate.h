@@ -6,8 +6,7 @@
 
 #include <optional>
 
-#include "pipelines/core/rational.h"
-#include "pipelines/observation/rejection.h"
+#include "pipelines/observation/observation.h"
 #include "pipelines/time/tai_time.h"
 
 namespace spindrift {
@@ -37,8 +36,8 @@ struct PeriodCandidate {
   double sigma_s;  ///< One sigma from the stated pulse noise.
   /// Rejection by its test, or with the edge that it ends at; empty: accepted.
   std::optional<Rejection> rejected_by;
-  /// Expectation and limit of the test; empty: it was rejected with its edge.
-  std::optional<Rational> test = {};
+  /// What it said against the other intervals; empty: it was rejected with its edge.
+  std::optional<Observation> said = {};
 };
 
 struct SpinPeriod {

@@ -7,12 +7,13 @@
 namespace spindrift::to_json_test {
 
 TEST(ProductToJson, HasTheColumnsOfTheTable) {
-  const auto object = json_of(SpinMeasurement{.revolution = 3,
-                                              .quantity = SpinQuantity::Period,
-                                              .value = 0.5,
-                                              .sigma = 0.25,
-                                              .rejected_by = Rejection::Period,
-                                              .test = Rational{.expected = 0.25, .limit = 0.125}});
+  const auto object = json_of(SpinMeasurement{
+      .revolution = 3,
+      .quantity = SpinQuantity::Period,
+      .value = 0.5,
+      .sigma = 0.25,
+      .rejected_by = Rejection::Period,
+      .said = Observation::of({}, SampleSource::Period, 0.25, 0.25, 0.125, Rejection::Period)});
   EXPECT_EQ(object, nlohmann::json::parse(R"({"revolution": 3, "quantity": "period", "value": 0.5,
       "unit": "s", "sigma": 0.25, "accepted": false, "rejected_by": "period",
       "expected": 0.25, "limit": 0.125})"));

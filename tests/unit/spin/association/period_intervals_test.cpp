@@ -42,7 +42,7 @@ TEST_F(PeriodIntervalsTest, NoneStartsOrIsAcceptedAtABadEdge) {
   const auto bad = candidate(with_sun1(2, Rejection::Phase));
   ASSERT_TRUE(bad);
   EXPECT_EQ(bad->rejected_by, Rejection::Phase);
-  EXPECT_FALSE(bad->test);
+  EXPECT_FALSE(bad->said);
   ASSERT_TRUE(candidate(with_sun1(3)));
 }
 

@@ -56,7 +56,7 @@ TEST(SpinPeriodWindow, ADriftOfTheRateHidesNoWrongInterval) {
 TEST(SpinPeriodWindow, WhatAllIntervalsShareRefusesNone) {
   SpinPeriodWindow window = window_of(100);
   for (int turn = 0; turn < 30; ++turn) {
-    EXPECT_TRUE(!window.judge(1.0, 1.02).rejected_by || turn == 0);
+    EXPECT_TRUE(!window.judge(after(turn), 1.0, 1.02).rejected_by || turn == 0);
   }
 }
 

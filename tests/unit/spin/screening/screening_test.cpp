@@ -165,8 +165,8 @@ ScreeningWindow settled(int count, double level_rad, std::mt19937_64& rng) {
 }
 
 bool keeps(const ScreeningWindow& window, const AngleResidual& residual) {
-  const auto& mean = window.mean_of(residual.quantity);
-  return mean && mean->keeps(residual.value_rad);
+  const auto said = window.judged({}, residual);
+  return said && !said->rejected_by;
 }
 
 bool adds_and_keeps(ScreeningWindow& window, const AngleResidual& residual) {
