@@ -6,8 +6,8 @@
 /// RATE is in edges/s; 0 sends as fast as the service accepts. Prints the numbers of edges and of
 /// rows at the end, and the edges/s from the first write to the commit of the last row.
 
+#include <SQLiteCpp/Database.h>
 #include <fmt/format.h>
-#include <sqlite3.h>
 
 #include <chrono>
 #include <cstdlib>
@@ -28,35 +28,7 @@ using std::chrono::steady_clock;
 
 constexpr std::chrono::milliseconds kPoll{5};
 constexpr std::chrono::minutes kPatience{5};
-
-/// Runs a query whose result is one number.
-class Query {
- public:
-  Query(const std::string& archive, const std::string& sql) {
-    if (sqlite3_open_v2(archive.c_str(), &database_, SQLITE_OPEN_READONLY, nullptr) != SQLITE_OK ||
-        sqlite3_prepare_v2(database_, sql.c_str(), -1, &statement_, nullptr) != SQLITE_OK) {
-      fmt::print(stderr, "bus_load: {}\n", sqlite3_errmsg(database_));
-      std::exit(1);
-    }
-  }
-  ~Query() {
-    sqlite3_finalize(statement_);
-    sqlite3_close(database_);
-  }
-  Query(const Query&) = delete;
-  Query& operator=(const Query&) = delete;
-
-  std::int64_t value() {
-    sqlite3_step(statement_);
-    const std::int64_t value = sqlite3_column_int64(statement_, 0);
-    sqlite3_reset(statement_);
-    return value;
-  }
-
- private:
-  sqlite3* database_ = nullptr;
-  sqlite3_stmt* statement_ = nullptr;
-};
+constexpr int kBusy_ms = 30'000;
 
 void publish(TelemetryPublisher<Pulse>& publisher, const std::vector<Pulse>& pulses,
              const std::string& spacecraft, double rate) {
@@ -83,17 +55,21 @@ void run(const std::string& file, const std::string& spacecraft, const std::stri
                                                              bus::Sending::Packed));
   or_exit(publisher.wait_for_subscriber(std::chrono::seconds{30}));
 
-  Query last{archive, "SELECT max(t_tai_ns) FROM pulse WHERE spacecraft_id = '" + spacecraft + "'"};
+  SQLite::Database database{archive, SQLite::OPEN_READONLY, kBusy_ms};
+  const auto stored = [&](const std::string& what) {
+    return database
+        .execAndGet(
+            fmt::format("SELECT {} FROM pulse WHERE spacecraft_id = '{}'", what, spacecraft))
+        .getInt64();
+  };
   const auto start = steady_clock::now();
   publish(publisher, pulses, spacecraft, rate);
-  while (last.value() < tai_ns(pulses.back().t) && steady_clock::now() - start < kPatience) {
+  while (stored("max(t_tai_ns)") < tai_ns(pulses.back().t) &&
+         steady_clock::now() - start < kPatience) {
     std::this_thread::sleep_for(kPoll);
   }
   const std::chrono::duration<double> taken = steady_clock::now() - start;
-  const std::int64_t rows =
-      Query{archive, "SELECT count(*) FROM pulse WHERE spacecraft_id = '" + spacecraft + "'"}
-          .value();
-  fmt::print("{} {} {:.0f}\n", pulses.size(), rows,
+  fmt::print("{} {} {:.0f}\n", pulses.size(), stored("count(*)"),
              static_cast<double>(pulses.size()) / taken.count());
 }
 

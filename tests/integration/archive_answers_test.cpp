@@ -1,5 +1,3 @@
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <sqlite3.h>
 
 #include <string>
@@ -8,33 +6,29 @@
 #include "pipelines/frames/angle.h"
 #include "services/archive/archive.h"
 #include "tests/integration/archive_fixture.h"
+#include "tests/support/matchers.h"
 
 namespace spindrift::archive_answers_test {
 
 using testing::attitude_at;
 using testing::batch_of;
-using ::testing::ElementsAre;
 using testing::estimate_at;
 using testing::start_of;
+using testing::with_products;
 
 /// Views of the archive on the products of a run: its answers and its verdict.
 class ArchiveAnswers : public testing::ArchiveFixture {};
-using Archive = spindrift::Archive;
 
 TEST_F(ArchiveAnswers, VerdictOfAPassIsThatOfBatchElseOfSequentialElseOfMean) {
-  const auto archive = open();
-  ArchiveBatch batch = start_of("0");
-  ASSERT_TRUE(archive->submit(batch));
+  std::vector<ArchiveBatch> runs{start_of("0")};
   std::vector<Product> estimates;
   for (const SpinEstimator estimator :
        {SpinEstimator::Mean, SpinEstimator::Sequential, SpinEstimator::Batch}) {
     estimates.emplace_back(estimate_at(1, estimator, 20.0));
     estimates.emplace_back(estimate_at(2, estimator, 30.0));
-    batch = start_of(std::to_string(estimates.size()));
-    batch.products = estimates;
-    ASSERT_TRUE(archive->submit(batch));
+    runs.push_back(with_products(start_of(std::to_string(estimates.size())), estimates));
   }
-  ASSERT_TRUE(archive->flush());
+  store(runs);
 
   EXPECT_THAT(texts("SELECT format('%s %.3g %s: %s', ifnull(estimator, '-'), ifnull(dec_deg, 0), "
                     "why, against) FROM pass_verdict ORDER BY run_id"),
@@ -93,12 +87,11 @@ TEST_F(ArchiveAnswers, VerdictOfARunIsFoundAsFastAmongMany) {
   int run = 1;
   for (const int runs : {2, 40}) {
     for (; run <= runs; ++run) {
-      ArchiveBatch batch = start_of("run-" + std::to_string(run));
-      batch.products = {estimate_at(1, SpinEstimator::Mean, 20.0),
-                        estimate_at(1, SpinEstimator::Batch, 20.0), attitude_at(1, Quality::Ok)};
-      ASSERT_TRUE(archive->submit(batch));
+      commit(*archive, with_products(start_of("run-" + std::to_string(run)),
+                                     {estimate_at(1, SpinEstimator::Mean, 20.0),
+                                      estimate_at(1, SpinEstimator::Batch, 20.0),
+                                      attitude_at(1, Quality::Ok)}));
     }
-    ASSERT_TRUE(archive->flush());
     steps.push_back(steps_to_verdict(reader()));
   }
   EXPECT_LT(steps.back(), 2 * steps.front());
@@ -120,25 +113,16 @@ TEST_F(ArchiveAnswers, VerdictOfARunThatFailedToComputeIsDoubtfulUnlessItIsLost)
   const RunFault fault{.t = tai_from_ns(1'795'143'637'250'000'000), .what = "no such angle"};
   SpinEstimate lost = estimate_at(1, SpinEstimator::Mean, 20.0);
   lost.assessment.quality = Quality::Lost;
-  const auto archive = open();
-  for (const auto& [run_id, products] : std::vector<std::pair<std::string, std::vector<Product>>>{
-           {"1", {fault}},
-           {"2", {fault, estimate_at(1, SpinEstimator::Mean, 30.0)}},
-           {"3", {fault, lost}}}) {
-    ArchiveBatch batch = start_of(run_id);
-    batch.products = products;
-    ASSERT_TRUE(archive->submit(batch));
-  }
-  ASSERT_TRUE(archive->flush());
+  store({with_products(start_of("1"), {fault}),
+         with_products(start_of("2"), {fault, estimate_at(1, SpinEstimator::Mean, 30.0)}),
+         with_products(start_of("3"), {fault, lost})});
 
+  const std::string failed = "computing failed at 2026-11-20T03:00:00.250Z: no such angle";
   EXPECT_THAT(
       texts("SELECT format('%s %.3g %s', quality, ifnull(dec_deg, 0), why) FROM pass_verdict ORDER "
             "BY run_id"),
-      ElementsAre(
-          "DOUBTFUL 0 computing failed at 2026-11-20T03:00:00.250Z: no such angle; no estimate",
-          "DOUBTFUL 30 computing failed at 2026-11-20T03:00:00.250Z: no such angle; OK",
-          "LOST 20 computing failed at 2026-11-20T03:00:00.250Z: no such angle; LOST"));
-  const std::string failed = "computing failed at 2026-11-20T03:00:00.250Z: no such angle";
+      ElementsAre("DOUBTFUL 0 " + failed + "; no estimate", "DOUBTFUL 30 " + failed + "; OK",
+                  "LOST 20 " + failed + "; LOST"));
   EXPECT_THAT(texts("SELECT against FROM pass_verdict ORDER BY run_id"),
               ElementsAre(failed + "; no estimate", failed, failed + "; LOST"));
 }
@@ -154,13 +138,11 @@ TEST_F(ArchiveAnswers, AnswerOfAPassIsTheLastEstimateOfEachEstimator) {
 }
 
 TEST_F(ArchiveAnswers, EstimatorsDisagreeBeyondThreeOfTheLargerSigma) {
-  ArchiveBatch batch = start_of("run-1");
   const double sigma_deg = 3e-4 / kRadPerDeg;
   SpinEstimate better = estimate_at(10, SpinEstimator::Batch, 1.0);
   better.covariance_rad2 *= 0.25;
-  batch.products = {estimate_at(10, SpinEstimator::Sequential, 1.0 + 2.9 * sigma_deg), better,
-                    estimate_at(10, SpinEstimator::Mean, 1.0 - 3.1 * sigma_deg)};
-  store(batch);
+  store_run({estimate_at(10, SpinEstimator::Sequential, 1.0 + 2.9 * sigma_deg), better,
+             estimate_at(10, SpinEstimator::Mean, 1.0 - 3.1 * sigma_deg)});
 
   EXPECT_THAT(
       texts("SELECT format('%s %s %.4f %d', one, other, apart_sigmas, disagree) FROM "
@@ -170,30 +152,28 @@ TEST_F(ArchiveAnswers, EstimatorsDisagreeBeyondThreeOfTheLargerSigma) {
 
 TEST_F(ArchiveAnswers, VerdictIsNoBetterThanWhatTheEstimatorsContradictEachOtherIn) {
   const double sigma_deg = 3e-4 / kRadPerDeg;
-  const auto archive = open();
-  const auto run_of = [&](const std::string& run_id, Quality sequential, double apart_sigmas,
-                          Quality batch_solution) {
-    ArchiveBatch batch = start_of(run_id);
-    SpinEstimate one = estimate_at(1, SpinEstimator::Sequential, apart_sigmas * sigma_deg);
-    SpinEstimate other = estimate_at(1, SpinEstimator::Batch, 0.0);
-    one.assessment.quality = sequential;
-    other.assessment.quality = batch_solution;
-    batch.products = {one, other};
-    ASSERT_TRUE(archive->submit(batch));
+  struct Run {
+    const char* run_id;
+    Quality sequential;
+    double apart_sigmas;
+    Quality batch;
+    const char* verdict;
   };
-  run_of("1", Quality::Ok, 2.9, Quality::Ok);
-  run_of("2", Quality::Ok, 3.5, Quality::Ok);
-  run_of("3", Quality::Ambiguous, 1.0, Quality::Ok);
-  run_of("4", Quality::Ambiguous, 3.5, Quality::Ok);
-  run_of("5", Quality::Doubtful, 3.5, Quality::Ok);
-  run_of("6", Quality::Ok, 3.5, Quality::Converging);
-  run_of("7", Quality::Ok, 3.5, Quality::Lost);
-  run_of("8", Quality::Ambiguous, 3.5, Quality::Ambiguous);
-  ASSERT_TRUE(archive->flush());
-
-  EXPECT_THAT(texts("SELECT quality FROM pass_verdict ORDER BY run_id"),
-              ElementsAre("OK", "DOUBTFUL", "AMBIGUOUS", "DOUBTFUL", "OK", "CONVERGING", "LOST",
-                          "AMBIGUOUS"));
+  using enum Quality;
+  for (const Run& run :
+       {Run{"1", Ok, 2.9, Ok, "OK"}, Run{"2", Ok, 3.5, Ok, "DOUBTFUL"},
+        Run{"3", Ambiguous, 1.0, Ok, "AMBIGUOUS"}, Run{"4", Ambiguous, 3.5, Ok, "DOUBTFUL"},
+        Run{"5", Doubtful, 3.5, Ok, "OK"}, Run{"6", Ok, 3.5, Converging, "CONVERGING"},
+        Run{"7", Ok, 3.5, Lost, "LOST"}, Run{"8", Ambiguous, 3.5, Ambiguous, "AMBIGUOUS"}}) {
+    SpinEstimate one = estimate_at(1, SpinEstimator::Sequential, run.apart_sigmas * sigma_deg);
+    SpinEstimate other = estimate_at(1, SpinEstimator::Batch, 0.0);
+    one.assessment.quality = run.sequential;
+    other.assessment.quality = run.batch;
+    store(with_products(start_of(run.run_id), {one, other}));
+    EXPECT_EQ(text(fmt::format("SELECT quality FROM pass_verdict WHERE run_id = '{}'", run.run_id)),
+              run.verdict)
+        << run.run_id;
+  }
   EXPECT_EQ(text("SELECT why FROM pass_verdict WHERE run_id = '2'"),
             "sequential and batch disagree by 0.060 deg, 3.5 sigma; OK");
   EXPECT_EQ(text("SELECT why FROM pass_verdict WHERE run_id = '3'"),
@@ -217,14 +197,10 @@ TEST_F(ArchiveAnswers, AnswerOfBeforeAManoeuvreIsNoneOnceAnotherCameAfterIt) {
   const auto reported = [&] { return text("SELECT estimator FROM pass_verdict"); };
   EXPECT_EQ(reported(), "batch");
 
-  batch = batch_of("run-1");
-  batch.products = {estimate_at(8, SpinEstimator::Sequential, 0.0)};
-  store(batch);
+  store_more({estimate_at(8, SpinEstimator::Sequential, 0.0)});
   EXPECT_EQ(reported(), "sequential");
 
-  batch = batch_of("run-1");
-  batch.products = {estimate_at(9, SpinEstimator::Batch, 0.0)};
-  store(batch);
+  store_more({estimate_at(9, SpinEstimator::Batch, 0.0)});
   EXPECT_EQ(reported(), "batch");
 }
 

@@ -1,5 +1,3 @@
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -20,11 +18,11 @@
 
 #include "services/archive/archive.h"
 #include "tests/integration/archive_fixture.h"
+#include "tests/support/matchers.h"
 
 namespace spindrift::archive_failure_test {
 
 using testing::batch_of;
-using ::testing::HasSubstr;
 using testing::pulse_at;
 using testing::start_of;
 
@@ -49,8 +47,6 @@ class FileSizeLimit {
   }
   FileSizeLimit(const FileSizeLimit&) = delete;
   FileSizeLimit& operator=(const FileSizeLimit&) = delete;
-  FileSizeLimit(FileSizeLimit&&) = delete;
-  FileSizeLimit& operator=(FileSizeLimit&&) = delete;
   ~FileSizeLimit() { setrlimit(RLIMIT_FSIZE, &before_); }
 
  private:
@@ -124,9 +120,7 @@ TEST_F(ArchiveFailure, StopRefusesAtOnceAndClosingStoresAllThatWasAccepted) {
     const FileSizeLimit full_disk{little_room()};
     accepted = fill(*archive);
     EXPECT_EQ(failed.get_future().get().code, ErrorCode::Unavailable);
-    const auto refused = archive->flush();
-    ASSERT_FALSE(refused);
-    EXPECT_THAT(refused.error().message, HasSubstr(path().string()));
+    EXPECT_THAT(archive->flush(), IsRefused(ErrorCode::Unavailable, HasSubstr(path().string())));
     EXPECT_TRUE(archive->statistics().failure.has_value());
     EXPECT_LT(stored_pulses(), accepted * kPulsesPerBatch);
   }
@@ -139,18 +133,14 @@ TEST_F(ArchiveFailure, StopRefusesAtOnceAndClosingStoresAllThatWasAccepted) {
 TEST_F(ArchiveFailure, ClosingOnAFullDiskSaysHowManyRowsAreNotStored) {
   std::promise<Error> failed;
   const auto archive = open_watched(OnWriteFailure::Stop, failed);
-  std::int64_t accepted = 0;
   {
     const FileSizeLimit full_disk{little_room()};
-    accepted = fill(*archive);
+    const std::int64_t accepted = fill(*archive);
     const auto closed = archive->close();
-
-    ASSERT_FALSE(closed);
-    EXPECT_EQ(closed.error().code, ErrorCode::Unavailable);
     const std::int64_t lost = accepted * kPulsesPerBatch - stored_pulses();
     EXPECT_GT(lost, 0);
-    EXPECT_THAT(closed.error().message,
-                ::testing::StartsWith(std::to_string(lost) + " rows that were accepted"));
+    EXPECT_THAT(closed, IsRefused(ErrorCode::Unavailable,
+                                  StartsWith(std::to_string(lost) + " rows that were accepted")));
   }
   EXPECT_EQ(text("PRAGMA integrity_check"), "ok");
 }
@@ -204,9 +194,8 @@ TEST_F(ArchiveFailure, RowThatBreaksTheSchemaStopsEvenRetryAndCostsOnlyItsOwnBat
   EXPECT_EQ(error.code, ErrorCode::InvalidInput);
   EXPECT_THAT(error.message, HasSubstr("revolution.period_s"));
   EXPECT_FALSE(archive->submit(batch_of("run-1")));
-  const auto closed = archive->close();
-  ASSERT_FALSE(closed);
-  EXPECT_THAT(closed.error().message, ::testing::StartsWith("1 rows that were accepted"));
+  EXPECT_THAT(archive->close(),
+              IsRefused(ErrorCode::Unavailable, StartsWith("1 rows that were accepted")));
   EXPECT_EQ(stored_pulses(), 2 * kPulsesPerBatch);
 }
 
@@ -229,11 +218,8 @@ TEST_F(ArchiveFailure, ClosingSaysWhereTheRowsAreWhenAnotherFileIsAtThePath) {
   ASSERT_TRUE(archive->submit(pulses_from(0)));
   std::ofstream{directory() / "other"} << "another file";
   std::filesystem::rename(directory() / "other", path());
-  const auto closed = archive->close();
-
-  ASSERT_FALSE(closed);
-  EXPECT_EQ(closed.error().code, ErrorCode::Unavailable);
-  EXPECT_THAT(closed.error().message, HasSubstr(path().string() + ".rescued-"));
+  EXPECT_THAT(archive->close(),
+              IsRefused(ErrorCode::Unavailable, HasSubstr(path().string() + ".rescued-")));
   for (const auto& entry : std::filesystem::directory_iterator{directory()}) {
     if (entry.path().string().find(".rescued-") != std::string::npos) {
       std::filesystem::rename(entry.path(), path());
@@ -247,10 +233,8 @@ TEST_F(ArchiveFailure, ClosingFailsWhenTheFileWasTruncatedThoughNothingIsLeftToS
   const auto archive = open();
   commit(*archive, start_of("run-1"));
   std::filesystem::resize_file(path(), 4096);
-  const auto closed = archive->close();
-
-  ASSERT_FALSE(closed);
-  EXPECT_THAT(closed.error().message, HasSubstr("was truncated or overwritten"));
+  EXPECT_THAT(archive->close(),
+              IsRefused(ErrorCode::Unavailable, HasSubstr("was truncated or overwritten")));
   EXPECT_EQ(std::filesystem::file_size(path()), 4096U);
 }
 
@@ -271,9 +255,7 @@ TEST_F(ArchiveFailure, ClosingFailsWhenTheFileWasTruncatedThoughNothingIsLeftToS
     _exit(1);
   }
   for (std::int64_t number = first;; ++number) {
-    ArchiveBatch batch = batch_of(run_id);
-    batch.samples.of<Pulse>() = {pulse_at(number)};
-    if (!(*archive)->submit(std::move(batch))) {
+    if (!(*archive)->submit(testing::with_pulses(batch_of(run_id), {pulse_at(number)}))) {
       _exit(1);
     }
   }

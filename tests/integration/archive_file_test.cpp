@@ -1,8 +1,6 @@
 #include <SQLiteCpp/Exception.h>
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -17,26 +15,31 @@
 #include "services/archive/archive.h"
 #include "services/archive/schema.h"
 #include "tests/integration/archive_fixture.h"
+#include "tests/support/matchers.h"
+#include "tests/support/text_of.h"
 
-namespace spindrift {
+namespace spindrift::archive_file_test {
 
-namespace {
-
-using ::testing::HasSubstr;
 using testing::start_of;
 
-class ArchiveFile : public testing::ArchiveFixture {};
-using Archive = spindrift::Archive;
+constexpr ErrorCode kBad = ErrorCode::InvalidConfiguration;
 
-std::string bytes_of(const std::filesystem::path& path) {
-  std::ifstream file{path, std::ios::binary};
-  return {std::istreambuf_iterator<char>{file}, {}};
+std::ptrdiff_t files_in(const std::filesystem::path& directory) {
+  return std::distance(std::filesystem::directory_iterator{directory}, {});
 }
 
-std::size_t files_in(const std::filesystem::path& directory) {
-  return static_cast<std::size_t>(
-      std::distance(std::filesystem::directory_iterator{directory}, {}));
-}
+class ArchiveFile : public testing::ArchiveFixture {
+ protected:
+  /// Expects writers and readers to be refused, and the file to stay as it is, alone in its folder.
+  template <class Message>
+  void expect_refused_and_untouched(const Message& message) const {
+    const std::string before = text_of(path());
+    EXPECT_THAT(Archive::open(path(), {}), IsRefused(kBad, message));
+    EXPECT_THAT(open_for_reading(path()), IsRefused(kBad, message));
+    EXPECT_EQ(text_of(path()), before);
+    EXPECT_EQ(files_in(directory()), 1);
+  }
+};
 
 TEST_F(ArchiveFile, SecondWriterIsRefusedWithTheHolderNamed) {
   const auto archive = open();
@@ -44,11 +47,9 @@ TEST_F(ArchiveFile, SecondWriterIsRefusedWithTheHolderNamed) {
   std::filesystem::create_symlink(path(), link);
 
   for (const std::filesystem::path& name : {path(), link}) {
-    const auto second = Archive::open(name, {});
-    ASSERT_FALSE(second);
-    EXPECT_EQ(second.error().code, ErrorCode::Unavailable);
-    EXPECT_THAT(second.error().message,
-                HasSubstr("is being written by pid " + std::to_string(getpid()) + " ("));
+    EXPECT_THAT(Archive::open(name, {}),
+                IsRefused(ErrorCode::Unavailable,
+                          HasSubstr(fmt::format("is being written by pid {} (", getpid()))));
   }
 }
 
@@ -67,10 +68,8 @@ TEST_F(ArchiveFile, LockOfAKilledWriterBlocksNobody) {
   ASSERT_EQ(read(ready[0], &byte, 1), 1);
   close(ready[0]);
 
-  const auto refused = Archive::open(path(), {});
-  ASSERT_FALSE(refused);
-  EXPECT_THAT(refused.error().message, HasSubstr("pid " + std::to_string(child)));
-
+  EXPECT_THAT(Archive::open(path(), {}),
+              IsRefused(ErrorCode::Unavailable, HasSubstr("pid " + std::to_string(child))));
   ASSERT_EQ(kill(child, SIGKILL), 0);
   ASSERT_EQ(waitpid(child, nullptr, 0), child);
   EXPECT_TRUE(std::filesystem::exists(path().string() + ".lock"));
@@ -82,27 +81,14 @@ TEST_F(ArchiveFile, FileThatIsNotSqliteIsRefusedAndLeftUntouched) {
        {std::string{"t_tai_ns,channel\n1,sun1\n"}, std::string{"SQLite format 3\0", 16},
         std::string(4096, 'x')}) {
     std::ofstream{path(), std::ios::binary | std::ios::trunc} << content;
-
-    const auto archive = Archive::open(path(), {});
-    ASSERT_FALSE(archive);
-    EXPECT_EQ(archive.error().code, ErrorCode::InvalidConfiguration);
-    EXPECT_THAT(archive.error().message, HasSubstr("is not an archive"));
-    EXPECT_EQ(bytes_of(path()), content);
-    EXPECT_EQ(files_in(directory()), 1U);
+    expect_refused_and_untouched(HasSubstr("is not an archive"));
   }
 }
 
 TEST_F(ArchiveFile, DatabaseOfAnotherProgramIsRefusedAndLeftUntouched) {
   SQLite::Database{path().string(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE}.exec(
       "PRAGMA application_id = 42; PRAGMA journal_mode = WAL; CREATE TABLE pulse (x)");
-  const std::string before = bytes_of(path());
-
-  for (const auto& error : {Archive::open(path(), {}).error(), open_for_reading(path()).error()}) {
-    EXPECT_EQ(error.code, ErrorCode::InvalidConfiguration);
-    EXPECT_THAT(error.message, HasSubstr("application_id 42"));
-  }
-  EXPECT_EQ(bytes_of(path()), before);
-  EXPECT_EQ(files_in(directory()), 1U);
+  expect_refused_and_untouched(HasSubstr("application_id 42"));
 }
 
 TEST_F(ArchiveFile, ArchiveWithOtherTablesIsRefusedByWritersAndReadersAndLeftUntouched) {
@@ -111,15 +97,8 @@ TEST_F(ArchiveFile, ArchiveWithOtherTablesIsRefusedByWritersAndReadersAndLeftUnt
   for (const std::string version : {"12", "99", "0", "-1", "-2147483648"}) {
     SQLite::Database{path().string(), SQLite::OPEN_READWRITE}.exec("PRAGMA user_version = " +
                                                                    version);
-    const std::string before = bytes_of(path());
-    for (const auto& error :
-         {Archive::open(path(), {}).error(), open_for_reading(path()).error()}) {
-      EXPECT_EQ(error.code, ErrorCode::InvalidConfiguration);
-      EXPECT_THAT(error.message, HasSubstr("schema version " + version + ", this program"));
-      EXPECT_THAT(error.message, HasSubstr("process its telemetry again into a new one"));
-    }
-    EXPECT_EQ(bytes_of(path()), before);
-    EXPECT_EQ(files_in(directory()), 1U);
+    expect_refused_and_untouched(AllOf(HasSubstr("schema version " + version + ", this program"),
+                                       HasSubstr("process its telemetry again into a new one")));
   }
 }
 
@@ -170,10 +149,10 @@ TEST_F(ArchiveFile, TablesOfEveryEdgeTakeNoOtherNamesThanThoseOfTheContract) {
 TEST_F(ArchiveFile, NameThatSqliteTakesForSomethingElseIsRefused) {
   for (const char* name :
        {":memory:", "file:pass.db", "file:pass.db?mode=memory", "file::memory:"}) {
-    for (const auto& error : {Archive::open(name, {}).error(), open_for_reading(name).error()}) {
-      EXPECT_EQ(error.code, ErrorCode::InvalidConfiguration);
-      EXPECT_THAT(error.message, HasSubstr("takes this name for something else than a file"));
-    }
+    const auto is_refused =
+        IsRefused(kBad, HasSubstr("takes this name for something else than a file"));
+    EXPECT_THAT(Archive::open(name, {}), is_refused);
+    EXPECT_THAT(open_for_reading(name), is_refused);
     EXPECT_FALSE(std::filesystem::exists(name));
   }
 }
@@ -195,8 +174,6 @@ class ReadOnlyFolder {
   }
   ReadOnlyFolder(const ReadOnlyFolder&) = delete;
   ReadOnlyFolder& operator=(const ReadOnlyFolder&) = delete;
-  ReadOnlyFolder(ReadOnlyFolder&&) = delete;
-  ReadOnlyFolder& operator=(ReadOnlyFolder&&) = delete;
 
  private:
   static constexpr uid_t kNobody = 65534;
@@ -212,9 +189,7 @@ std::string kind_in(const std::filesystem::path& archive) {
 }
 
 TEST_F(ArchiveFile, IsReadInAFolderWhereNoFileMayBeMade) {
-  const auto archive = open();
-  ASSERT_TRUE(archive->submit(start_of("run-1")));
-  ASSERT_TRUE(archive->close());
+  store(start_of("run-1"));
   for (const bool empty_log : {false, true}) {
     if (empty_log) {
       std::ofstream{log_of(path())}.close();
@@ -248,28 +223,22 @@ TEST_F(ArchiveFile, PathThatCannotBeThatOfAFileIsRefusedAndLeavesNoLock) {
       {directory() / "file" / "pass.db", "there is no directory " + directory().string()},
       {directory() / "absent/", "there is no directory " + directory().string()}};
   for (const auto& [bad, message] : cases) {
-    const auto archive = Archive::open(bad, {});
-    ASSERT_FALSE(archive) << bad;
-    EXPECT_EQ(archive.error().code, ErrorCode::InvalidConfiguration) << bad;
-    EXPECT_THAT(archive.error().message, HasSubstr(message));
+    EXPECT_THAT(Archive::open(bad, {}), IsRefused(kBad, HasSubstr(message))) << bad;
     EXPECT_FALSE(std::filesystem::exists(bad.string() + ".lock"));
   }
-  EXPECT_EQ(files_in(directory()), 2U);
-  EXPECT_EQ(files_in(folder), 0U);
+  EXPECT_EQ(files_in(directory()), 2);
+  EXPECT_EQ(files_in(folder), 0);
 }
 
 TEST_F(ArchiveFile, RelativePathIsThatOfTheSameFile) {
   const auto archive = open();
-  const auto again = Archive::open(std::filesystem::relative(path()), {});
-  ASSERT_FALSE(again);
-  EXPECT_THAT(again.error().message, HasSubstr("is being written by"));
+  EXPECT_THAT(Archive::open(std::filesystem::relative(path()), {}),
+              IsRefused(ErrorCode::Unavailable, HasSubstr("is being written by")));
 }
 
 TEST_F(ArchiveFile, FolderThatTakesNoFilesIsAnError) {
-  const auto archive = Archive::open("/proc/pass.db", {});
-  ASSERT_FALSE(archive);
-  EXPECT_EQ(archive.error().code, ErrorCode::InvalidConfiguration);
-  EXPECT_THAT(archive.error().message, HasSubstr("cannot lock /proc/pass.db.lock"));
+  EXPECT_THAT(Archive::open("/proc/pass.db", {}),
+              IsRefused(kBad, HasSubstr("cannot lock /proc/pass.db.lock")));
 }
 
 TEST_F(ArchiveFile, ReaderSeesWhatIsCommittedAndCannotWrite) {
@@ -310,14 +279,12 @@ TEST_F(ArchiveFile, SecondWriterIsRefusedWhateverNameItHasForTheFile) {
   for (const char* name : {"link.db", "another.db"}) {
     const std::filesystem::path other = directory() / name;
     std::filesystem::create_hard_link(path(), other);
-    const auto second = Archive::open(other, {});
-    ASSERT_FALSE(second);
-    EXPECT_EQ(second.error().code, ErrorCode::Unavailable);
-    EXPECT_THAT(second.error().message, HasSubstr("is being written under another name"));
-    EXPECT_THAT(second.error().message, HasSubstr("by pid " + std::to_string(getpid())));
+    EXPECT_THAT(
+        Archive::open(other, {}),
+        IsRefused(ErrorCode::Unavailable, AllOf(HasSubstr("is being written under another name"),
+                                                HasSubstr("by pid " + std::to_string(getpid())))));
   }
   EXPECT_EQ(lock_of_sqlite(path()), F_RDLCK);
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::archive_file_test

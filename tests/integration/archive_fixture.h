@@ -20,6 +20,7 @@
 #include "pipelines/frames/celestial.h"
 #include "services/archive/archive.h"
 #include "services/archive/connection.h"
+#include "tests/support/outcome.h"
 #include "tests/support/temporary_folder.h"
 
 namespace spindrift::testing {
@@ -45,6 +46,11 @@ inline ArchiveBatch start_of(const std::string& run_id) {
 
 inline ArchiveBatch with_products(ArchiveBatch batch, std::vector<Product> products) {
   batch.products = std::move(products);
+  return batch;
+}
+
+inline ArchiveBatch with_pulses(ArchiveBatch batch, std::vector<ArrivedSample<Pulse>> pulses) {
+  batch.samples.of<Pulse>() = std::move(pulses);
   return batch;
 }
 
@@ -96,11 +102,7 @@ class ArchiveFixture : public ::testing::Test {
   std::filesystem::path path() const { return folder_.path() / "pass.db"; }
 
   std::unique_ptr<Archive> open(ArchiveOptions options = {}) const {
-    auto archive = Archive::open(path(), std::move(options));
-    if (!archive) {
-      throw std::runtime_error{archive.error().message};
-    }
-    return std::move(*archive);
+    return value_or_throw(Archive::open(path(), std::move(options)));
   }
 
   /// Commits the batches through an archive that is opened for them and closed again.
@@ -131,13 +133,7 @@ class ArchiveFixture : public ::testing::Test {
     commit(archive, std::vector{batch});
   }
 
-  SQLite::Database reader() const {
-    auto database = open_for_reading(path());
-    if (!database) {
-      throw std::runtime_error{database.error().message};
-    }
-    return std::move(*database);
-  }
+  SQLite::Database reader() const { return value_or_throw(open_for_reading(path())); }
 
   std::int64_t number(const std::string& query) const {
     return reader().execAndGet(query).getInt64();

@@ -3,14 +3,13 @@
 #include <unistd.h>
 
 #include <atomic>
-#include <chrono>
 #include <cstdint>
 #include <filesystem>
 #include <random>
-#include <thread>
 #include <utility>
 
 #include "tests/integration/archive_fixture.h"
+#include "tests/support/eventually.h"
 
 namespace {
 
@@ -54,16 +53,9 @@ class ArchiveLog : public testing::ArchiveFixture {
   std::int64_t pulses() const { return pulses_; }
   std::uintmax_t log_bytes() const { return std::filesystem::file_size(path().string() + "-wal"); }
 
-  /// Returns whether the open file grows to `bytes` within a minute.
+  /// Waits until the open file has grown to `bytes`.
   bool file_reaches(std::uintmax_t bytes) const {
-    const auto deadline = std::chrono::steady_clock::now() + std::chrono::minutes{1};
-    while (std::filesystem::file_size(path()) < bytes) {
-      if (std::chrono::steady_clock::now() > deadline) {
-        return false;
-      }
-      std::this_thread::sleep_for(std::chrono::milliseconds{10});
-    }
-    return true;
+    return eventually([&] { return std::filesystem::file_size(path()) >= bytes; });
   }
 
  private:

@@ -1,7 +1,5 @@
 #include <SQLiteCpp/Statement.h>
 #include <fmt/format.h>
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <memory>
 #include <numbers>
@@ -15,11 +13,11 @@
 #include "services/archive/archive.h"
 #include "services/archive/stored_results.h"
 #include "tests/integration/archive_fixture.h"
+#include "tests/support/matchers.h"
 
 namespace spindrift::archive_products_test {
 
 using testing::attitude_at;
-using ::testing::ElementsAre;
 using testing::estimate_at;
 using testing::going_on_from;
 using testing::pulse_at;
@@ -30,7 +28,6 @@ using testing::with_products;
 constexpr double kDegTolerance = 1e-12;
 
 class ArchiveProducts : public testing::ArchiveFixture {};
-using Archive = spindrift::Archive;
 
 constexpr std::int64_t kNewYear2017_ns = 1'483'228'837'000'000'000;
 
@@ -118,8 +115,7 @@ TEST_F(ArchiveProducts, SpinFixIsStoredInDegreesWithItsCovariance) {
   EXPECT_EQ(text("SELECT format('%d %d %d %s %g %d', revolution, t_tai_ns, geometry_case, "
                  "resolution, norm, accepted) FROM spin_fix"),
             "12 1000000000 3 GEOMETRY 1 1");
-  EXPECT_EQ(number("SELECT alternate_ra_deg IS NULL AND alternate_dec_deg IS NULL FROM spin_fix"),
-            1);
+  EXPECT_EQ(count("spin_fix WHERE alternate_ra_deg IS NULL AND alternate_dec_deg IS NULL"), 1);
 }
 
 TEST_F(ArchiveProducts, AmbiguousFixKeepsBothCandidates) {
@@ -330,15 +326,13 @@ TEST_F(ArchiveProducts, TwoArchivesMergeByNaturalKey) {
   const std::filesystem::path other = directory() / "other.db";
   for (const auto& [name, run_id, first_ns] :
        {std::tuple{path(), "run-1", 0}, std::tuple{other, "run-2", 5}}) {
-    auto archive = Archive::open(name, {});
-    ASSERT_TRUE(archive) << archive.error().message;
-    ArchiveBatch batch = start_of(run_id);
-    batch.products = {fix_at(100.0, -55.0)};
+    ArchiveBatch batch = with_products(start_of(run_id), {fix_at(100.0, -55.0)});
     for (int i = 0; i < 10; ++i) {
       batch.samples.of<Pulse>().push_back(pulse_at(first_ns + i));
     }
-    ASSERT_TRUE((*archive)->submit(batch));
-    ASSERT_TRUE((*archive)->close());
+    const auto archive = value_or_throw(Archive::open(name, {}));
+    commit(*archive, batch);
+    ASSERT_TRUE(archive->close());
   }
 
   SQLite::Database database{path().string(), SQLite::OPEN_READWRITE};
@@ -350,59 +344,58 @@ TEST_F(ArchiveProducts, TwoArchivesMergeByNaturalKey) {
   EXPECT_EQ(count("spin_fix"), 2);
 }
 
-/// Returns a batch with the solution of a pass that ends at `t_tai_ns`.
-ArchiveBatch solution_with(std::int64_t t_tai_ns, std::vector<BiasEstimate> biases) {
-  ArchiveBatch batch = testing::batch_of("run-1");
-  batch.products.emplace_back(std::make_shared<const BatchSolution>(
-      BatchSolution{.estimate = estimate_at(t_tai_ns, SpinEstimator::Batch, 0.0),
-                    .drift_rad_s2 = 1e-6,
-                    .drift_sigma_rad_s2 = 1e-8,
-                    .bound_rad = 1e-4,
-                    .consider_sigma_rad = 1e-3,
-                    .biases = std::move(biases),
-                    .undetermined = {},
-                    .singular_values = {},
-                    .changed = {},
-                    .edges = 100,
-                    .outliers = 0,
-                    .noise = 1.0,
-                    .iterations = 5,
-                    .nutation = {},
-                    .nutation_t = tai_from_ns(t_tai_ns),
-                    .coning = {}}));
-  return batch;
+/// Returns the solution of a pass that ends at `t_tai_ns`.
+BatchSolution solution_at(std::int64_t t_tai_ns, std::vector<BiasEstimate> biases = {}) {
+  return {.estimate = estimate_at(t_tai_ns, SpinEstimator::Batch, 0.0),
+          .drift_rad_s2 = 1e-6,
+          .drift_sigma_rad_s2 = 1e-8,
+          .bound_rad = 1e-4,
+          .consider_sigma_rad = 1e-3,
+          .biases = std::move(biases),
+          .undetermined = {},
+          .singular_values = {},
+          .changed = {},
+          .edges = 100,
+          .outliers = 0,
+          .noise = 1.0,
+          .iterations = 5,
+          .nutation = {},
+          .nutation_t = tai_from_ns(t_tai_ns),
+          .coning = {}};
+}
+
+ArchiveBatch with_solution(BatchSolution solution) {
+  return with_products(testing::batch_of("run-1"),
+                       {std::make_shared<const BatchSolution>(std::move(solution))});
 }
 
 TEST_F(ArchiveProducts, BiasesAreThoseOfTheLastSolutionAndSayWhetherTheyAreInTheAxis) {
-  const std::string stored =
-      "SELECT ifnull(group_concat(format('%s %d', name, estimated), '; '), '') FROM spin_bias";
   const BiasEstimate chord{NorthChordBias, 0.01, 0.001, true, true};
   const BiasEstimate dihedral{DihedralBias, 0.01, 0.001, true, false};
   const auto archive = open();
   commit(*archive, start_of("run-1"));
   const auto after = [&](const ArchiveBatch& batch) {
     commit(*archive, batch);
-    return text(stored);
+    return text(
+        "SELECT ifnull(group_concat(format('%s %d', name, estimated), '; '), '') FROM spin_bias");
   };
-  EXPECT_EQ(after(solution_with(100, {chord, dihedral})), "dihedral 0; north_chord 1");
-  EXPECT_EQ(after(solution_with(200, {dihedral})), "dihedral 0");
-  EXPECT_EQ(after(solution_with(150, {chord})), "dihedral 0");
+  EXPECT_EQ(after(with_solution(solution_at(100, {chord, dihedral}))), "dihedral 0; north_chord 1");
+  EXPECT_EQ(after(with_solution(solution_at(200, {dihedral}))), "dihedral 0");
+  EXPECT_EQ(after(with_solution(solution_at(150, {chord}))), "dihedral 0");
   EXPECT_EQ(after(going_on_from(201)), "dihedral 0");
   EXPECT_EQ(after(going_on_from(200)), "");
 }
 
 TEST_F(ArchiveProducts, ResidualsOfBatchGoWithTheirSolutionAllTogether) {
   const auto with_residuals = [](std::int64_t t_tai_ns) {
-    ArchiveBatch batch = solution_with(t_tai_ns, {});
-    BatchSolution solution = *std::get<BatchProduct>(batch.products.front());
+    BatchSolution solution = solution_at(t_tai_ns);
     for (std::int64_t t = 10; t <= t_tai_ns; t += 10) {
       solution.said.push_back({.pulse = {.t = tai_from_ns(t), .channel = PulseChannel::Sun1},
                                .residual_s = 1e-5,
                                .sigma_s = 1e-4,
                                .used = true});
     }
-    batch.products = {std::make_shared<const BatchSolution>(std::move(solution))};
-    return batch;
+    return with_solution(std::move(solution));
   };
   const auto archive = open();
   commit(*archive, start_of("run-1"));
@@ -415,7 +408,7 @@ TEST_F(ArchiveProducts, ResidualsOfBatchGoWithTheirSolutionAllTogether) {
   EXPECT_EQ(after(going_on_from(50)), 0);
   EXPECT_EQ(after(with_residuals(60)), 6);
   // A solution during the pass has no residuals to store.
-  EXPECT_EQ(after(solution_with(120, {})), 0);
+  EXPECT_EQ(after(with_solution(solution_at(120))), 0);
 }
 
 TEST_F(ArchiveProducts, TheChoiceOfARunIsThatOfBatchUntilItIsMadeAgain) {
@@ -444,7 +437,8 @@ TEST_F(ArchiveProducts, TheChoiceOfARunIsThatOfBatchUntilItIsMadeAgain) {
 }
 
 TEST_F(ArchiveProducts, BiasThatIsNotObservableHasNoValue) {
-  store({start_of("run-1"), solution_with(100, {{NorthChordBias, 0.0, 0.001, false, true}})});
+  store({start_of("run-1"),
+         with_solution(solution_at(100, {{NorthChordBias, 0.0, 0.001, false, true}}))});
   EXPECT_EQ(text("SELECT ifnull(value, 'none') FROM spin_bias"), "none");
 }
 

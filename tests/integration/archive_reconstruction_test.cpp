@@ -1,6 +1,3 @@
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include <memory>
 #include <string>
 #include <utility>
@@ -9,13 +6,10 @@
 #include "services/archive/archive.h"
 #include "services/archive/stored_results.h"
 #include "tests/integration/archive_fixture.h"
+#include "tests/support/matchers.h"
+#include "tests/support/of_kind.h"
 
 namespace spindrift::archive_reconstruction_test {
-
-using testing::batch_of;
-using ::testing::ElementsAre;
-using ::testing::IsEmpty;
-using testing::start_of;
 
 constexpr std::int64_t kSecond_ns = 1'000'000'000;
 
@@ -76,40 +70,29 @@ AttitudeEstimate filtered_at(std::int64_t t_s) {
           .assessment = {Quality::Ok}};
 }
 
-class ArchiveReconstruction : public testing::ArchiveFixture {
- protected:
-  void store_products(std::vector<Product> products) const {
-    ArchiveBatch batch = batch_of("run-1");
-    batch.products = std::move(products);
-    store(batch);
-  }
-  std::vector<std::string> rows(const std::string& query) const { return texts(query); }
-};
+class ArchiveReconstruction : public testing::ArchiveFixture {};
 
 TEST_F(ArchiveReconstruction, ALaterSolutionTakesThePlaceOfAllOfTheEarlier) {
-  store(start_of("run-1"));
-  store_products(
-      {filtered_at(4), early_solution(), product(Sequential, 10, {{Separation, 1}}, {1})});
-  store_products({later_solution()});
-  EXPECT_THAT(rows("SELECT source || (t_tai_ns / 1000000000) FROM attitude ORDER BY 1"),
+  store_run({filtered_at(4), early_solution(), product(Sequential, 10, {{Separation, 1}}, {1})});
+  store_more({later_solution()});
+  EXPECT_THAT(texts("SELECT source || (t_tai_ns / 1000000000) FROM attitude ORDER BY 1"),
               ElementsAre("batch1", "batch2", "batch6", "mekf4", "sequential1"));
-  EXPECT_THAT(rows("SELECT method || event FROM reconstruction_event ORDER BY 1"),
+  EXPECT_THAT(texts("SELECT method || event FROM reconstruction_event ORDER BY 1"),
               ElementsAre("batchT1", "batchT2", "batchT4", "sequentialT1"));
-  EXPECT_THAT(rows("SELECT method || samples FROM reconstruction ORDER BY 1"),
+  EXPECT_THAT(texts("SELECT method || samples FROM reconstruction ORDER BY 1"),
               ElementsAre("batch20", "sequential10"));
 }
 
 TEST_F(ArchiveReconstruction, AttitudesOfALiveRunSayWhenTheyWereAnnounced) {
-  ArchiveBatch live = start_of("run-1");
+  ArchiveBatch live = testing::start_of("run-1");
   live.start->mode = RunMode::Live;
   store(live);
-  store_products({early_solution()});
+  store_more({early_solution()});
   EXPECT_EQ(text("SELECT count(announced_utc) FROM attitude"), "5");
 }
 
 TEST_F(ArchiveReconstruction, ReconstructedAttitudesDoNotPoseAsThatOfThePass) {
-  store(start_of("run-1"));
-  store_products({filtered_at(4), early_solution()});
+  store_run({filtered_at(4), early_solution()});
   EXPECT_EQ(text("SELECT source || (t_tai_ns / 1000000000) FROM attitude_answer"), "mekf4");
   EXPECT_EQ(text("SELECT estimator FROM pass_verdict"), "mekf");
   EXPECT_EQ(text("SELECT format('%s %s %d %g %.3f %.3f', method, quality, t1_tai_ns / 1000000000, "
@@ -117,27 +100,20 @@ TEST_F(ArchiveReconstruction, ReconstructedAttitudesDoNotPoseAsThatOfThePass) {
             "batch OK 1 0.5 2.000 1.333");
 
   const auto stored = find_stored_results(path(), "run-1").value();
-  std::vector<TaiTime> attitudes;
-  for (const Product& product : stored.in_force()) {
-    if (const auto* const attitude = std::get_if<AttitudeEstimate>(&product)) {
-      attitudes.push_back(attitude->t);
-    }
-  }
-  EXPECT_THAT(attitudes, ElementsAre(filtered_at(4).t));
+  const auto attitudes = of_kind<AttitudeEstimate>(stored.in_force());
+  EXPECT_THAT(attitudes, ElementsAre(::testing::Field(&AttitudeEstimate::t, filtered_at(4).t)));
 }
 
 TEST_F(ArchiveReconstruction, TheVerdictOfARunThatOnlyReconstructsIsItsT1) {
-  store(start_of("run-1"));
-  store_products({product(Sequential, 10, {{Separation, 1}}, {1}), early_solution()});
+  store_run({product(Sequential, 10, {{Separation, 1}}, {1}), early_solution()});
   EXPECT_EQ(text("SELECT format('%s %s %g %.3f %s', estimator, quality, qw, sigma_deg, why) FROM "
                  "pass_verdict"),
             "batch OK 0.5 2.000 OK");
-  EXPECT_THAT(rows("SELECT source FROM attitude_answer"), IsEmpty());
+  EXPECT_THAT(texts("SELECT source FROM attitude_answer"), IsEmpty());
 }
 
 TEST_F(ArchiveReconstruction, ComesBackAsItIsAnnouncedAndOneOfMoreSamplesIsNews) {
-  store(start_of("run-1"));
-  store_products({early_solution()});
+  store_run({early_solution()});
   const auto stored = find_stored_results(path(), "run-1").value();
   ASSERT_EQ(stored.in_force().size(), 1U);
   const auto back = std::get<ReconstructionProduct>(stored.in_force().front());
@@ -158,12 +134,9 @@ TEST_F(ArchiveReconstruction, ComesBackAsItIsAnnouncedAndOneOfMoreSamplesIsNews)
 }
 
 TEST_F(ArchiveReconstruction, StaysWhenProductsOfARunThatGoesOnAreWithdrawn) {
-  store(start_of("run-1"));
-  store_products({filtered_at(2), filtered_at(4), early_solution()});
-  ArchiveBatch going_on = batch_of("run-1");
-  going_on.continuation = Continuation{.t = tai_from_ns(3 * kSecond_ns)};
-  store(going_on);
-  EXPECT_THAT(rows("SELECT source || (t_tai_ns / 1000000000) FROM attitude ORDER BY 1"),
+  store_run({filtered_at(2), filtered_at(4), early_solution()});
+  store(testing::going_on_from(3 * kSecond_ns));
+  EXPECT_THAT(texts("SELECT source || (t_tai_ns / 1000000000) FROM attitude ORDER BY 1"),
               ElementsAre("batch1", "batch2", "batch3", "batch4", "batch5", "mekf2"));
   EXPECT_EQ(count("reconstruction_event"), 4);
   EXPECT_EQ(count("reconstruction"), 1);

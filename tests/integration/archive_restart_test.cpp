@@ -1,8 +1,6 @@
 // What a service that resumes a pass reads back from the archive.
 
 #include <fmt/format.h>
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <algorithm>
 #include <optional>
@@ -14,11 +12,11 @@
 #include "services/archive/stored_pass.h"
 #include "services/archive/stored_results.h"
 #include "tests/integration/archive_fixture.h"
+#include "tests/support/matchers.h"
 
 namespace spindrift::archive_restart_test {
 
 using testing::batch_of;
-using ::testing::ElementsAre;
 using testing::going_on_from;
 using testing::kRunStart;
 using testing::pulse_at;
@@ -158,16 +156,12 @@ TEST_F(ArchiveRestart, WhatWasLeftOutMakesWayForASampleOfItsTime) {
 
 TEST_F(ArchiveRestart, WhatARunLeftOutComesBackApartUntilARunTakesIt) {
   const auto archive = open();
-  ASSERT_TRUE(archive->submit(begun("run-1", 100)));
-  ASSERT_TRUE(archive->submit(arrived("run-1", 100, {pulse_at(50)})));
-  ArchiveBatch left_out = batch_of("run-1");
-  left_out.samples.of<Pulse>() = {pulse_at(20, 8), pulse_at(10, 7)};
-  left_out.samples.of<Pulse>()[0].arrival = {101};
-  left_out.samples.of<Pulse>()[1].arrival = {102};
+  ArchiveBatch left_out = arrived("run-1", 101, {pulse_at(20, 8), pulse_at(10, 7)});
+  left_out.reach = {};
   for (auto& sample : left_out.samples.of<Pulse>()) {
     sample.is_left_out = true;
   }
-  commit(*archive, left_out);
+  commit(*archive, {begun("run-1", 100), arrived("run-1", 100, {pulse_at(50)}), left_out});
 
   auto pass = stored();
   ASSERT_TRUE(pass);

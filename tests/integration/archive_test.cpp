@@ -1,8 +1,5 @@
 #include "services/archive/archive.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include <future>
 #include <map>
 #include <set>
@@ -14,20 +11,19 @@
 #include "services/archive/schema.h"
 #include "tests/integration/archive_fixture.h"
 #include "tests/support/lines.h"
+#include "tests/support/matchers.h"
 
 namespace spindrift::archive_test {
 
 using testing::batch_of;
-using ::testing::ElementsAre;
-using ::testing::HasSubstr;
 using ::testing::IsSupersetOf;
 using testing::pulse_at;
 using testing::start_of;
 using ::testing::UnorderedElementsAreArray;
 using testing::with_products;
+using testing::with_pulses;
 
 class ArchiveTest : public testing::ArchiveFixture {};
-using Archive = spindrift::Archive;
 
 /// Returns SQLite's query plan.
 std::string plan_of(SQLite::Database& database, const std::string& query) {
@@ -163,12 +159,9 @@ TEST_F(ArchiveTest, RunHasItsLabelTheDigestOfItsTelemetryAndHowFarItReaches) {
 
 TEST_F(ArchiveTest, PulseThatArrivesTwiceIsStoredOnceWithItsFirstOrigin) {
   const auto archive = open();
-  ArchiveBatch batch = start_of("run-1");
-  batch.samples.of<Pulse>() = {pulse_at(5, 1), pulse_at(6, 2), pulse_at(5, 3)};
-  ArchiveBatch again = batch_of("run-1");
-  again.samples.of<Pulse>() = {pulse_at(6, 4)};
-
-  commit(*archive, {batch, again});
+  commit(*archive,
+         {with_pulses(start_of("run-1"), {pulse_at(5, 1), pulse_at(6, 2), pulse_at(5, 3)}),
+          with_pulses(batch_of("run-1"), {pulse_at(6, 4)})});
 
   EXPECT_EQ(text("SELECT group_concat(t_tai_ns || ':' || channel || ':' || source || ':' || "
                  "session || ':' || seq, ' ') FROM pulse"),
@@ -187,10 +180,8 @@ TEST_F(ArchiveTest, EdgeThatBreaksARuleIsNotPassedOverAsIfItWereStored) {
   EXPECT_EQ(count("pulse_use"), 1);
 
   ASSERT_TRUE(archive->submit(with_products(batch_of("run-1"), {bad})));
-  const auto flushed = archive->flush();
-  ASSERT_FALSE(flushed);
-  EXPECT_EQ(flushed.error().code, ErrorCode::InvalidInput);
-  EXPECT_THAT(flushed.error().message, HasSubstr("CHECK constraint failed"));
+  EXPECT_THAT(archive->flush(),
+              IsRefused(ErrorCode::InvalidInput, HasSubstr("CHECK constraint failed")));
 }
 
 TEST_F(ArchiveTest, RejectedRowsOfOtherPathsAndSessionsAreOtherRows) {
@@ -240,10 +231,8 @@ TEST_F(ArchiveTest, BatchesAreAnnouncedInOrderAndOnlyOnceTheyCanBeRead) {
   ASSERT_TRUE(archive->submit(start_of("run-1")));
   std::vector<std::int64_t> submitted;
   for (std::int64_t t_tai_ns = 0; t_tai_ns < 200; ++t_tai_ns) {
-    ArchiveBatch batch = batch_of("run-1");
-    batch.samples.of<Pulse>() = {pulse_at(t_tai_ns)};
     submitted.push_back(t_tai_ns);
-    ASSERT_TRUE(archive->submit(batch));
+    ASSERT_TRUE(archive->submit(with_pulses(batch_of("run-1"), {pulse_at(t_tai_ns)})));
   }
   ASSERT_TRUE(archive->close());
 
@@ -266,9 +255,7 @@ TEST_F(ArchiveTest, WhatIsQueuedDuringACommitGoesIntoTheNextOne) {
     std::this_thread::yield();
   }
   for (std::int64_t t_tai_ns = 0; t_tai_ns < 100; ++t_tai_ns) {
-    ArchiveBatch batch = batch_of("run-1");
-    batch.samples.of<Pulse>() = {pulse_at(t_tai_ns)};
-    ASSERT_TRUE(archive->submit(batch));
+    ASSERT_TRUE(archive->submit(with_pulses(batch_of("run-1"), {pulse_at(t_tai_ns)})));
   }
   all_queued.set_value();
   ASSERT_TRUE(archive->flush());
@@ -283,9 +270,8 @@ TEST_F(ArchiveTest, ClosedArchiveRefusesWithAReason) {
   const auto archive = open();
   ASSERT_TRUE(archive->close());
 
-  const auto refused = archive->submit(start_of("run-1"));
-  ASSERT_FALSE(refused);
-  EXPECT_THAT(refused.error().message, HasSubstr("is closed"));
+  EXPECT_THAT(archive->submit(start_of("run-1")),
+              IsRefused(ErrorCode::Unavailable, HasSubstr("is closed")));
   EXPECT_TRUE(archive->close());
 }
 

@@ -1,6 +1,4 @@
 #include <dds/dds.h>
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <atomic>
 #include <chrono>
@@ -9,21 +7,16 @@
 
 #include "services/bus/cyclone_log.h"
 #include "services/bus/network.h"
-#include "services/bus/telemetry_messages.h"
 #include "services/bus/wait_set.h"
 #include "tests/support/bus_child.h"
 #include "tests/support/bus_fixture.h"
+#include "tests/support/matchers.h"
 
 namespace spindrift::bus_test {
 
 using namespace std::chrono_literals;
 using bus::Participant;
 using bus::Reader;
-using bus::Writer;
-using ::testing::AllOf;
-using ::testing::ElementsAre;
-using ::testing::EndsWith;
-using ::testing::HasSubstr;
 
 /// Sets CYCLONEDDS_URI during its lifetime.
 class NetworkOverride {
@@ -43,22 +36,10 @@ class NetworkOverride {
   }
   NetworkOverride(const NetworkOverride&) = delete;
   NetworkOverride& operator=(const NetworkOverride&) = delete;
-  NetworkOverride(NetworkOverride&&) = delete;
-  NetworkOverride& operator=(NetworkOverride&&) = delete;
 
  private:
   std::optional<std::string> before_;
 };
-
-Reader<spindrift_Pulse> pulse_reader(const Participant& participant,
-                                     const bus::Qos& qos = bus::telemetry_reader_qos()) {
-  return Reader<spindrift_Pulse>::create(participant, bus::topic_of<Pulse>(), qos).value();
-}
-
-Writer<spindrift_Pulse> pulse_writer(const Participant& participant,
-                                     const bus::Qos& qos = bus::telemetry_writer_qos()) {
-  return Writer<spindrift_Pulse>::create(participant, bus::topic_of<Pulse>(), qos).value();
-}
 
 class OnBus : public ::testing::Test {
  protected:
@@ -98,21 +79,17 @@ TEST(Participant, TellsDomainPartitionAndNetworkInForce) {
 }
 
 TEST(Participant, RefusesADomainWhosePortsDoNotExist) {
-  const auto refused = Participant::create({.domain = 231});
-  ASSERT_FALSE(refused.has_value());
-  EXPECT_EQ(refused.error().code, ErrorCode::InvalidConfiguration);
-  EXPECT_EQ(refused.error().message, "DDS domain 231: must be 0 to 230");
+  EXPECT_THAT(Participant::create({.domain = 231}),
+              IsRefused(ErrorCode::InvalidConfiguration, "DDS domain 231: must be 0 to 230"));
 }
 
 TEST(Participant, NamesTheCauseWhenTheNetworkIsRefused) {
   const NetworkOverride unknown{
       "<CycloneDDS><Domain><General><Interfaces><NetworkInterface name=\"nosuch0\"/>"
       "</Interfaces></General></Domain></CycloneDDS>"};
-  const auto refused = Participant::create(bus_of_its_own());
-  ASSERT_FALSE(refused.has_value());
-  EXPECT_EQ(refused.error().code, ErrorCode::Unavailable);
-  EXPECT_THAT(refused.error().message,
-              AllOf(HasSubstr("CYCLONEDDS_URI"), HasSubstr("nosuch0: does not match")));
+  EXPECT_THAT(Participant::create(bus_of_its_own()),
+              IsRefused(ErrorCode::Unavailable,
+                        AllOf(HasSubstr("CYCLONEDDS_URI"), HasSubstr("nosuch0: does not match"))));
 }
 
 TEST(Participant, SharesItsDomainWithOthersOfTheProcess) {
@@ -121,16 +98,16 @@ TEST(Participant, SharesItsDomainWithOthersOfTheProcess) {
   const auto second = Participant::create(config).value();
   first.reset();
   const auto third = Participant::create(config).value();
-  const auto reader = pulse_reader(second);
-  const auto writer = pulse_writer(third);
+  const auto reader = telemetry_reader<Pulse>(second);
+  const auto writer = telemetry_writer<Pulse>(third);
   ASSERT_TRUE(writer.wait_for_reader(30s));
   ASSERT_TRUE(writer.write(idl_pulse(7)));
   EXPECT_THAT(seqs_of(take_samples(reader, 1)), ElementsAre(7));
 }
 
 TEST_F(ReaderTest, GivesEveryFieldThatWasWritten) {
-  const auto reader = pulse_reader(participant_);
-  const auto writer = pulse_writer(participant_);
+  const auto reader = telemetry_reader<Pulse>(participant_);
+  const auto writer = telemetry_writer<Pulse>(participant_);
   const spindrift_Pulse sent{.spacecraft = "a spacecraft of 32 characters ..",
                              .source = "and its source, of as many, too.",
                              .session = 0xFEDC'BA98'7654'3210,
@@ -149,27 +126,23 @@ TEST_F(ReaderTest, GivesEveryFieldThatWasWritten) {
 }
 
 TEST_F(ReaderTest, ThatJoinsLateReceivesTheHistoryOfTelemetry) {
-  const auto writer = pulse_writer(participant_);
-  for (std::uint64_t seq = 0; seq < 1000; ++seq) {
-    ASSERT_TRUE(writer.write(idl_pulse(seq)));
-  }
-  EXPECT_EQ(seqs_of(take_samples(pulse_reader(participant_), 1000)), first_seqs(1000));
+  const auto writer = telemetry_writer<Pulse>(participant_);
+  ASSERT_TRUE(write_pulses(writer, 1000));
+  EXPECT_EQ(seqs_of(take_samples(telemetry_reader<Pulse>(participant_), 1000)), first_seqs(1000));
 }
 
 TEST_F(ReaderTest, ThatJoinsLateReceivesTheLastResultOnly) {
-  const auto writer = pulse_writer(participant_, bus::results_qos());
-  for (std::uint64_t seq = 0; seq < 10; ++seq) {
-    ASSERT_TRUE(writer.write(idl_pulse(seq)));
-  }
-  const auto reader = pulse_reader(participant_, bus::results_qos());
+  const auto writer = telemetry_writer<Pulse>(participant_, bus::results_qos());
+  ASSERT_TRUE(write_pulses(writer, 10));
+  const auto reader = telemetry_reader<Pulse>(participant_, bus::results_qos());
   EXPECT_THAT(seqs_of(take_samples(reader, 1)), ElementsAre(9));
 }
 
 TEST_F(ReaderTest, DoesNotHearAnotherPartition) {
   const auto theirs = stranger();
-  const auto reader = pulse_reader(participant_);
-  const auto stranger = pulse_writer(theirs);
-  const auto writer = pulse_writer(participant_);
+  const auto reader = telemetry_reader<Pulse>(participant_);
+  const auto stranger = telemetry_writer<Pulse>(theirs);
+  const auto writer = telemetry_writer<Pulse>(participant_);
   ASSERT_TRUE(stranger.write(idl_pulse(1)));
   ASSERT_TRUE(writer.write(idl_pulse(2)));
   EXPECT_THAT(seqs_of(take_samples(reader, 1)), ElementsAre(2));
@@ -177,11 +150,11 @@ TEST_F(ReaderTest, DoesNotHearAnotherPartition) {
 }
 
 TEST_F(ReaderTest, TakesTheEndOfASourceForNoSample) {
-  const auto reader = pulse_reader(participant_);
+  const auto reader = telemetry_reader<Pulse>(participant_);
   bus::Qos disposing = bus::telemetry_writer_qos();
   dds_qset_writer_data_lifecycle(disposing.get(), true);
   {
-    const auto writer = pulse_writer(participant_, disposing);
+    const auto writer = telemetry_writer<Pulse>(participant_, disposing);
     ASSERT_TRUE(writer.write(idl_pulse(0)));
     EXPECT_THAT(seqs_of(take_samples(reader, 1)), ElementsAre(0));
   }
@@ -192,7 +165,7 @@ TEST_F(ReaderTest, TakesTheEndOfASourceForNoSample) {
 }
 
 TEST_F(ReaderTest, NamesAnIncompatibleWriterOfAnotherProcess) {
-  const auto reader = pulse_reader(participant_);
+  const auto reader = telemetry_reader<Pulse>(participant_);
   ForeignWriter writer{config_, "weak", 0};
   ASSERT_TRUE(eventually([&] { return !reader.status().value().incompatible_writers.empty(); }));
   const auto status = reader.status().value();
@@ -206,11 +179,11 @@ TEST_F(ReaderTest, NamesAnIncompatibleWriterOfAnotherProcess) {
 }
 
 TEST_F(ReaderTest, ForgetsAnIncompatibleWriterThatLeft) {
-  const auto reader = pulse_reader(participant_);
+  const auto reader = telemetry_reader<Pulse>(participant_);
   bus::Qos exclusive = bus::telemetry_writer_qos();
   dds_qset_ownership(exclusive.get(), DDS_OWNERSHIP_EXCLUSIVE);
   {
-    const auto writer = pulse_writer(participant_, exclusive);
+    const auto writer = telemetry_writer<Pulse>(participant_, exclusive);
     EXPECT_THAT(reader.status().value().incompatible_writers,
                 ElementsAre(EndsWith("offers EXCLUSIVE; spindrift needs SHARED")));
   }
@@ -219,18 +192,18 @@ TEST_F(ReaderTest, ForgetsAnIncompatibleWriterThatLeft) {
 
 TEST_F(ReaderTest, DoesNotMindAnIncompatibleWriterOfAnotherPartition) {
   const auto theirs = stranger();
-  const auto reader = pulse_reader(participant_);
+  const auto reader = telemetry_reader<Pulse>(participant_);
   const bus::Qos weak{dds_create_qos()};
-  const auto near = pulse_writer(participant_, weak);
-  const auto far = pulse_writer(theirs, weak);
-  EXPECT_THAT(reader.status().value().incompatible_writers, ::testing::SizeIs(1));
+  const auto near = telemetry_writer<Pulse>(participant_, weak);
+  const auto far = telemetry_writer<Pulse>(theirs, weak);
+  EXPECT_THAT(reader.status().value().incompatible_writers, SizeIs(1));
 }
 
 TEST_F(WriterTest, NamesAnIncompatibleReader) {
-  const auto writer = pulse_writer(participant_, bus::results_qos());
+  const auto writer = telemetry_writer<Pulse>(participant_, bus::results_qos());
   bus::Qos demanding = bus::results_qos();
   dds_qset_deadline(demanding.get(), DDS_MSECS(500));
-  const auto reader = pulse_reader(participant_, demanding);
+  const auto reader = telemetry_reader<Pulse>(participant_, demanding);
   const auto status = writer.status().value();
   EXPECT_EQ(status.readers, 0U);
   EXPECT_THAT(
@@ -240,31 +213,28 @@ TEST_F(WriterTest, NamesAnIncompatibleReader) {
 }
 
 TEST_F(WriterTest, WaitsForAReaderOnlySoLong) {
-  const auto writer = pulse_writer(participant_);
-  const auto waited = writer.wait_for_reader(20ms);
-  ASSERT_FALSE(waited.has_value());
-  EXPECT_EQ(waited.error().code, ErrorCode::Unavailable);
-  EXPECT_THAT(waited.error().message, HasSubstr("waiting for a reader of spindrift/pulse"));
+  const auto writer = telemetry_writer<Pulse>(participant_);
+  EXPECT_THAT(
+      writer.wait_for_reader(20ms),
+      IsRefused(ErrorCode::Unavailable, HasSubstr("waiting for a reader of spindrift/pulse")));
 }
 
 TEST_F(WriterTest, GivesUpOnAFullReaderWhenStopped) {
-  const auto reader = pulse_reader(participant_, bus::telemetry_reader_qos(1));
-  const auto writer = pulse_writer(participant_);
+  const auto reader = telemetry_reader<Pulse>(participant_, bus::telemetry_reader_qos(1));
+  const auto writer = telemetry_writer<Pulse>(participant_);
   ASSERT_TRUE(writer.write(idl_pulse(0)));
   std::stop_source stop;
-  std::thread stopper{[&stop] {
+  const std::jthread stopper{[&stop] {
     std::this_thread::sleep_for(50ms);
     stop.request_stop();
   }};
-  const auto written = writer.write(idl_pulse(1), stop.get_token());
-  stopper.join();
-  ASSERT_FALSE(written.has_value());
-  EXPECT_THAT(written.error().message, HasSubstr("writing to spindrift/pulse"));
+  EXPECT_THAT(writer.write(idl_pulse(1), stop.get_token()),
+              IsRefused(ErrorCode::Unavailable, HasSubstr("writing to spindrift/pulse")));
 }
 
 TEST_F(WriterTest, OfAnotherProcessWaitsForASlowReaderAndLosesNothing) {
   constexpr std::size_t kCount = 20'000;
-  const auto reader = pulse_reader(participant_, bus::telemetry_reader_qos(500));
+  const auto reader = telemetry_reader<Pulse>(participant_, bus::telemetry_reader_qos(500));
   ForeignWriter writer{config_, "telemetry", kCount};
   // The reader must be full before the first sample is taken.
   ASSERT_TRUE(eventually([&] { return reader.status().value().rejected > 0; }));
@@ -273,8 +243,8 @@ TEST_F(WriterTest, OfAnotherProcessWaitsForASlowReaderAndLosesNothing) {
 }
 
 TEST_F(WaitSetTest, WakesForDataAndForStop) {
-  const auto reader = pulse_reader(participant_);
-  const auto writer = pulse_writer(participant_);
+  const auto reader = telemetry_reader<Pulse>(participant_);
+  const auto writer = telemetry_writer<Pulse>(participant_);
   auto waitset = bus::WaitSet::create(participant_).value();
   ASSERT_TRUE(waitset.attach(reader.data()));
   ASSERT_TRUE(writer.write(idl_pulse(0)));
@@ -308,13 +278,8 @@ TEST_F(ReaderTest, HandsOverNothingThatItsFilterRefuses) {
                                                         return pulse.seq % 2 == 0;
                                                       })
                           .value();
-  const auto writer = Writer<spindrift_Pulse>::create(participant_, bus::topic_of<Pulse>(),
-                                                      bus::telemetry_writer_qos())
-                          .value();
-  for (std::uint64_t seq = 0; seq < 10; ++seq) {
-    ASSERT_TRUE(writer.write(idl_pulse(seq)));
-  }
-  EXPECT_EQ(seqs_of(take_samples(reader, 5)), (std::vector<std::uint64_t>{0, 2, 4, 6, 8}));
+  ASSERT_TRUE(write_pulses(telemetry_writer<Pulse>(participant_), 10));
+  EXPECT_THAT(seqs_of(take_samples(reader, 5)), ElementsAre(0, 2, 4, 6, 8));
   EXPECT_EQ(asked, 10);
 }
 

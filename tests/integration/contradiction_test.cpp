@@ -1,8 +1,6 @@
 // How the archive handles and returns samples that are received again with another value.
 
 #include <fmt/format.h>
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <cstdint>
 #include <set>
@@ -13,12 +11,11 @@
 #include "services/archive/stored_separation.h"
 #include "tests/integration/archive_fixture.h"
 #include "tests/support/archive_rows.h"
+#include "tests/support/matchers.h"
 
 namespace spindrift::contradiction_test {
 
 using testing::batch_of;
-using ::testing::ElementsAre;
-using ::testing::IsEmpty;
 using testing::kRunStart;
 using testing::start_of;
 

@@ -1,19 +1,13 @@
 #include "services/ingest/from_idl.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include <cstring>
 #include <functional>
 #include <vector>
 
 #include "tests/support/bus_fixture.h"
+#include "tests/support/matchers.h"
 
 namespace spindrift::from_idl_test {
-
-using ::testing::ElementsAre;
-using ::testing::HasSubstr;
-using ::testing::StartsWith;
 
 TEST(FromIdl, KeepsEveryField) {
   const TelemetrySample<Pulse> sample = from_idl<Pulse>(idl_pulse(41, 17)).value();
@@ -52,10 +46,7 @@ void expect_refused(const Message& possible, const std::vector<Impossible<Messag
     SCOPED_TRACE(reason);
     Message message = possible;
     spoil(message);
-    const auto refused = from_idl<Value>(message);
-    ASSERT_FALSE(refused.has_value());
-    EXPECT_EQ(refused.error().code, ErrorCode::InvalidInput);
-    EXPECT_THAT(refused.error().message, HasSubstr(reason));
+    EXPECT_THAT(from_idl<Value>(message), IsRefused(ErrorCode::InvalidInput, HasSubstr(reason)));
   }
 }
 
@@ -116,7 +107,7 @@ TEST(FromIdl, TakesNanForNotReceived) {
   frame.north_out_s = frame.south_in_s = frame.south_out_s = kNan;
   const TelemetrySample<CodedFrame> sample = from_idl<CodedFrame>(frame).value();
   EXPECT_EQ(sample.value.period_s, std::nullopt);
-  EXPECT_THAT(sample.value.delay_s, ::testing::Each(std::nullopt));
+  EXPECT_THAT(sample.value.delay_s, Each(std::nullopt));
 }
 
 TEST(FromIdl, RefusesACodedFrameThatCannotBeTrueWithItsReason) {

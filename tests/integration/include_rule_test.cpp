@@ -1,9 +1,6 @@
 // Include rules of pipelines/ and services/. Link lines alone do not enforce them, since every
 // target sees the whole source tree.
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <filesystem>
 #include <map>
@@ -18,10 +15,6 @@
 #include "tests/support/text_of.h"
 
 namespace spindrift::include_rule_test {
-
-using ::testing::ElementsAre;
-using ::testing::HasSubstr;
-using ::testing::IsEmpty;
 
 struct Source {
   std::string folder;
@@ -221,6 +214,7 @@ TEST_F(IncludeRuleOf, EveryPartOfTheWorldIsRefusedToPipelines) {
         "<mutex>"}) {
     SCOPED_TRACE(include);
     add("pipelines/core/value.h", "#include " + include + "\n");
+#include "tests/support/matchers.h"
     EXPECT_THAT(world_in_pipelines(sources()),
                 ElementsAre(HasSubstr("pipelines/core/value.h includes ")));
   }

@@ -14,7 +14,6 @@
 #include "services/simulation/pass_files.h"
 #include "tests/integration/archive_fixture.h"
 #include "tests/support/archive_rows.h"
-#include "tests/support/count_rows.h"
 #include "tests/support/recorded_edges.h"
 #include "tests/support/samples.h"
 #include "tests/support/test_paths.h"

@@ -1,6 +1,4 @@
 #include <fmt/format.h>
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <chrono>
 #include <cmath>
@@ -12,14 +10,13 @@
 #include "services/publisher/telemetry_publisher.h"
 #include "services/publisher/to_idl.h"
 #include "tests/support/bus_fixture.h"
+#include "tests/support/matchers.h"
 #include "tests/support/some_health.h"
 
 namespace spindrift::publisher_test {
 
 using bus::Participant;
 using bus::Reader;
-using ::testing::ElementsAre;
-using ::testing::HasSubstr;
 
 constexpr double kRad_deg = std::numbers::pi / 180.0;
 // Allows for a few roundings of values up to 360.
@@ -72,6 +69,13 @@ Health a_health() {
 
 class ResultPublisherTest : public ::testing::Test {
  protected:
+  /// Publishes a product and returns what a late subscriber receives.
+  template <class Product>
+  auto published(const std::string& spacecraft, const Product& product) {
+    EXPECT_TRUE(publisher_.publish(spacecraft, "run-1", product));
+    return take_samples(results_reader(participant_, product_topic<Product>()), 1).at(0);
+  }
+
   Participant participant_ = Participant::create(bus_of_its_own()).value();
   ResultPublisher publisher_ = ResultPublisher::create(participant_, kService).value();
 };
@@ -79,19 +83,16 @@ class ResultPublisherTest : public ::testing::Test {
 TEST_F(ResultPublisherTest, PublishesAFixInDegrees) {
   SpinFix fix = a_fix();
   fix.alternates = {{.axis_icrf = axis_deg(130.0, 20.0)}};
-  ASSERT_TRUE(publisher_.publish("SPINNER", "run-1", fix));
-  const auto taken = take_samples(results_reader(participant_, product_topic<SpinFix>()), 1);
-  ASSERT_EQ(taken.size(), 1U);
-  EXPECT_EQ(
-      fmt::format("{} {} {} {} {} {}", taken[0].spacecraft, taken[0].t_tai_ns, taken[0].revolution,
-                  taken[0].geometry_case, taken[0].run_id, taken[0].service),
-      fmt::format("SPINNER {} 4000000000 3 run-1 {}", kTestTime_tai_ns, kService));
-  EXPECT_NEAR(taken[0].ra_deg, 310.0, kRounding);
-  EXPECT_NEAR(taken[0].dec_deg, -64.0, kRounding);
-  EXPECT_NEAR(taken[0].sigma_deg, 5.0, kRounding);  // sqrt(9 + 16).
-  EXPECT_NEAR(taken[0].alternate_ra_deg, 130.0, kRounding);
-  EXPECT_NEAR(taken[0].alternate_dec_deg, 20.0, kRounding);
-  EXPECT_EQ(taken[0].resolution, spindrift_GEOMETRY);
+  const auto taken = published("SPINNER", fix);
+  EXPECT_EQ(fmt::format("{} {} {} {} {} {}", taken.spacecraft, taken.t_tai_ns, taken.revolution,
+                        taken.geometry_case, taken.run_id, taken.service),
+            fmt::format("SPINNER {} 4000000000 3 run-1 {}", kTestTime_tai_ns, kService));
+  EXPECT_NEAR(taken.ra_deg, 310.0, kRounding);
+  EXPECT_NEAR(taken.dec_deg, -64.0, kRounding);
+  EXPECT_NEAR(taken.sigma_deg, 5.0, kRounding);  // sqrt(9 + 16).
+  EXPECT_NEAR(taken.alternate_ra_deg, 130.0, kRounding);
+  EXPECT_NEAR(taken.alternate_dec_deg, 20.0, kRounding);
+  EXPECT_EQ(taken.resolution, spindrift_GEOMETRY);
 }
 
 TEST_F(ResultPublisherTest, PublishesAnAttitudeAndNaNForARateThatIsNone) {
@@ -102,49 +103,40 @@ TEST_F(ResultPublisherTest, PublishesAnAttitudeAndNaNForARateThatIsNone) {
       .covariance_rad2 = Eigen::Vector3d{4.0, 16.0, 16.0}.asDiagonal() * (kRad_deg * kRad_deg),
       .assessment = {Quality::Doubtful,
                      {{ReasonCode::SensorGated, {{"sensor", std::string{"sun"}}}}}}};
-  const auto reader = results_reader(participant_, product_topic<AttitudeEstimate>());
-  ASSERT_TRUE(publisher_.publish("SAT", "run-1", attitude));
-  const auto taken = take_samples(reader, 1);
-  ASSERT_EQ(taken.size(), 1U);
-  EXPECT_EQ(fmt::format("{} {} {} {} {} {} {} {}", taken[0].spacecraft, taken[0].estimator,
-                        taken[0].t_tai_ns, taken[0].qx, taken[0].qy, taken[0].qz, taken[0].qw,
-                        taken[0].run_id),
+  const auto taken = published("SAT", attitude);
+  EXPECT_EQ(fmt::format("{} {} {} {} {} {} {} {}", taken.spacecraft, taken.estimator,
+                        taken.t_tai_ns, taken.qx, taken.qy, taken.qz, taken.qw, taken.run_id),
             fmt::format("SAT mekf {} -0.5 0.1 0.7 0.5 run-1", kTestTime_tai_ns));
-  EXPECT_THAT(taken[0].rate_body_rad_s, ElementsAre(0.25, -0.5, 1.0));
-  EXPECT_NEAR(taken[0].sigma_deg, 6.0, kRounding);
-  EXPECT_EQ(taken[0].quality, spindrift_QUALITY_DOUBTFUL);
-  EXPECT_STREQ(taken[0].status, "DOUBTFUL, many sun samples gated");
+  EXPECT_THAT(taken.rate_body_rad_s, ElementsAre(0.25, -0.5, 1.0));
+  EXPECT_NEAR(taken.sigma_deg, 6.0, kRounding);
+  EXPECT_EQ(taken.quality, spindrift_QUALITY_DOUBTFUL);
+  EXPECT_STREQ(taken.status, "DOUBTFUL, many sun samples gated");
 
   attitude.rate_body_rad_s.reset();
-  ASSERT_TRUE(publisher_.publish("SAT", "run-1", attitude));
-  EXPECT_TRUE(std::isnan(take_samples(reader, 1).at(0).rate_body_rad_s[2]));
+  EXPECT_TRUE(std::isnan(published("SAT", attitude).rate_body_rad_s[2]));
 }
 
 TEST_F(ResultPublisherTest, PublishesAnEstimateInDegreesAndRpm) {
-  ASSERT_TRUE(publisher_.publish("SPINNER", "run-1", an_estimate()));
-  const auto taken = take_samples(results_reader(participant_, product_topic<SpinEstimate>()), 1);
-  ASSERT_EQ(taken.size(), 1U);
-  EXPECT_EQ(fmt::format("{} {} {} {} {}", taken[0].spacecraft, taken[0].estimator,
-                        taken[0].t_tai_ns, taken[0].run_id, taken[0].service),
+  const auto taken = published("SPINNER", an_estimate());
+  EXPECT_EQ(fmt::format("{} {} {} {} {}", taken.spacecraft, taken.estimator, taken.t_tai_ns,
+                        taken.run_id, taken.service),
             fmt::format("SPINNER mean {} run-1 {}", kTestTime_tai_ns, kService));
   // The pole is two degrees away, which amplifies rounding.
-  EXPECT_NEAR(taken[0].ra_deg, 12.5, kRounding * 100.0);
-  EXPECT_NEAR(taken[0].dec_deg, 88.0, kRounding);
-  EXPECT_NEAR(taken[0].sigma_deg, 1.5, kRounding);  // sqrt(0.25 + 2).
-  EXPECT_NEAR(taken[0].covariance_deg2[0], 0.25, kRounding);
-  EXPECT_NEAR(taken[0].covariance_deg2[1], -0.125, kRounding);
-  EXPECT_NEAR(taken[0].covariance_deg2[2], 2.0, kRounding);
-  EXPECT_NEAR(taken[0].spin_rate_rpm, 100.0, kRounding);
-  EXPECT_NEAR(taken[0].sigma_rpm, 0.5, kRounding);
-  EXPECT_STREQ(taken[0].status, "DOUBTFUL, 120 revolutions");
-  EXPECT_EQ(taken[0].quality, spindrift_QUALITY_DOUBTFUL);
+  EXPECT_NEAR(taken.ra_deg, 12.5, kRounding * 100.0);
+  EXPECT_NEAR(taken.dec_deg, 88.0, kRounding);
+  EXPECT_NEAR(taken.sigma_deg, 1.5, kRounding);  // sqrt(0.25 + 2).
+  EXPECT_NEAR(taken.covariance_deg2[0], 0.25, kRounding);
+  EXPECT_NEAR(taken.covariance_deg2[1], -0.125, kRounding);
+  EXPECT_NEAR(taken.covariance_deg2[2], 2.0, kRounding);
+  EXPECT_NEAR(taken.spin_rate_rpm, 100.0, kRounding);
+  EXPECT_NEAR(taken.sigma_rpm, 0.5, kRounding);
+  EXPECT_STREQ(taken.status, "DOUBTFUL, 120 revolutions");
+  EXPECT_EQ(taken.quality, spindrift_QUALITY_DOUBTFUL);
 }
 
 TEST_F(ResultPublisherTest, PublishesHealth) {
   ASSERT_TRUE(publisher_.publish(a_health()));
-  const auto taken = take_samples(results_reader(participant_, bus::kHealthTopic), 1);
-  ASSERT_EQ(taken.size(), 1U);
-  const spindrift_Health& health = taken[0];
+  const auto health = take_samples(results_reader(participant_, bus::kHealthTopic), 1).at(0);
   EXPECT_EQ(fmt::format("{} {} {} {} {} {} {} {} {}", health.service, health.t_tai_ns,
                         health.samples_received, health.samples_committed, health.gaps,
                         health.duplicates, health.queue_depth, health.commit_p99_ms, health.status),
@@ -252,10 +244,8 @@ TEST(ToIdl, RefusesANameThatDoesNotFit) {
     return ResultOrigin{.spacecraft = spacecraft, .run_id = "run-1", .service = kService};
   };
   EXPECT_STREQ(to_idl(from(fits), a_fix()).value().spacecraft, fits.c_str());
-  const auto refused = to_idl(from(too_long), a_fix());
-  ASSERT_FALSE(refused.has_value());
-  EXPECT_EQ(refused.error().code, ErrorCode::InvalidInput);
-  EXPECT_THAT(refused.error().message, HasSubstr("33 bytes, at most 32 go on the bus"));
+  EXPECT_THAT(to_idl(from(too_long), a_fix()),
+              IsRefused(ErrorCode::InvalidInput, HasSubstr("33 bytes, at most 32 go on the bus")));
   EXPECT_FALSE(to_idl(from(too_long), an_estimate()).has_value());
   EXPECT_FALSE(to_idl(std::string(65, 'x'), a_health()).has_value());
   Health health = a_health();
@@ -279,27 +269,21 @@ TEST(ToIdl, CutsLongWordsBetweenCharacters) {
   EXPECT_EQ(to_idl(kService, health).value().sample.status, std::string(60, 'x') + "...");
 }
 
-/// Returns what a late subscriber receives of `count` pulses of source "replay".
-std::vector<spindrift_Pulse> published(const Pulse& pulse, std::size_t count) {
+constexpr Pulse kPulse{.t = tai_from_ns(kTestTime_tai_ns), .channel = PulseChannel::SouthIn};
+
+TEST(PulsePublisher, PublishesEveryFieldAndNumbersItsSamplesFromZeroInOneSession) {
   const auto participant = Participant::create(bus_of_its_own()).value();
   auto publisher = TelemetryPublisher<Pulse>::create(participant, "replay").value();
-  for (std::size_t i = 0; i < count; ++i) {
-    EXPECT_TRUE(publisher.publish("SPINNER", pulse, {}));
+  for (int i = 0; i < 100; ++i) {
+    ASSERT_TRUE(publisher.publish("SPINNER", kPulse, {}));
   }
-  return take_samples(Reader<spindrift_Pulse>::create(participant, bus::topic_of<Pulse>(),
-                                                      bus::telemetry_reader_qos())
-                          .value(),
-                      count);
-}
-
-TEST(PulsePublisher, PublishesEveryField) {
-  const auto taken =
-      published({.t = tai_from_ns(kTestTime_tai_ns), .channel = PulseChannel::SouthIn}, 1);
-  ASSERT_EQ(taken.size(), 1U);
-  EXPECT_STREQ(taken[0].spacecraft, "SPINNER");
+  const auto taken = take_samples(telemetry_reader<Pulse>(participant), 100);
+  EXPECT_EQ(seqs_of(taken), first_seqs(100));
+  EXPECT_STREQ(taken.at(0).spacecraft, "SPINNER");
   EXPECT_STREQ(taken[0].source, "replay");
   EXPECT_EQ(taken[0].t_tai_ns, kTestTime_tai_ns);
   EXPECT_EQ(taken[0].channel, spindrift_SOUTH_IN);
+  EXPECT_EQ(taken[0].session, taken.back().session);
 }
 
 TEST(CodedPublisher, PublishesEveryFieldAndNanForWhatWasNotReceived) {
@@ -310,11 +294,7 @@ TEST(CodedPublisher, PublishesEveryFieldAndNanForWhatWasNotReceived) {
                                  .period_s = 1.0,
                                  .delay_s = {std::nullopt, 0.125, 0.25, 0.375, 0.5, std::nullopt}},
                                 {}));
-  const auto taken =
-      take_samples(Reader<spindrift_CodedFrame>::create(participant, bus::topic_of<CodedFrame>(),
-                                                        bus::telemetry_reader_qos())
-                       .value(),
-                   1);
+  const auto taken = take_samples(telemetry_reader<CodedFrame>(participant), 1);
   ASSERT_EQ(taken.size(), 1U);
   const spindrift_CodedFrame& frame = taken[0];
   EXPECT_EQ(fmt::format("{} {} {} {} {}", frame.spacecraft, frame.source, frame.session, frame.seq,
@@ -326,28 +306,18 @@ TEST(CodedPublisher, PublishesEveryFieldAndNanForWhatWasNotReceived) {
   EXPECT_TRUE(std::isnan(frame.south_out_s));
 }
 
-TEST(PulsePublisher, NumbersItsSamplesFromZeroInOneSession) {
-  const auto taken =
-      published({.t = tai_from_ns(kTestTime_tai_ns), .channel = PulseChannel::Sun1}, 100);
-  EXPECT_EQ(seqs_of(taken), first_seqs(100));
-  EXPECT_EQ(taken.front().session, taken.back().session);
-}
-
 TEST(PulsePublisher, PackedSamplesAllArriveInOrder) {
   constexpr std::size_t kCount = 1000;
   const auto bus = bus_of_its_own();
   const auto sender = Participant::create(bus).value();
   const auto receiver = Participant::create(bus).value();
-  const auto reader =
-      Reader<spindrift_Pulse>::create(receiver, bus::topic_of<Pulse>(), bus::telemetry_reader_qos())
-          .value();
+  const auto reader = telemetry_reader<Pulse>(receiver);
   auto publisher =
       TelemetryPublisher<Pulse>::create(sender, "replay", random_session(), bus::Sending::Packed)
           .value();
   ASSERT_TRUE(publisher.wait_for_subscriber(std::chrono::seconds{30}));
   for (std::size_t i = 0; i < kCount; ++i) {
-    ASSERT_TRUE(publisher.publish(
-        "SPINNER", {.t = tai_from_ns(kTestTime_tai_ns), .channel = PulseChannel::Sun1}, {}));
+    ASSERT_TRUE(publisher.publish("SPINNER", kPulse, {}));
   }
   ASSERT_TRUE(publisher.wait_for_acknowledgments(std::chrono::seconds{30}));
   EXPECT_EQ(seqs_of(take_samples(reader, kCount)), first_seqs(kCount));
@@ -363,10 +333,9 @@ TEST(PulsePublisher, DrawsAnotherSessionAtEachStart) {
 TEST(PulsePublisher, UsesNoSeqForASampleThatIsRefused) {
   const auto participant = Participant::create(bus_of_its_own()).value();
   auto publisher = TelemetryPublisher<Pulse>::create(participant, "replay").value();
-  const Pulse pulse{.t = tai_from_ns(kTestTime_tai_ns), .channel = PulseChannel::Sun1};
-  EXPECT_FALSE(publisher.publish(std::string(33, 'x'), pulse, {}));
+  EXPECT_FALSE(publisher.publish(std::string(33, 'x'), kPulse, {}));
   EXPECT_EQ(publisher.next().seq, 0U);
-  EXPECT_TRUE(publisher.publish("SPINNER", pulse, {}));
+  EXPECT_TRUE(publisher.publish("SPINNER", kPulse, {}));
   EXPECT_EQ(publisher.next().seq, 1U);
 }
 

@@ -1,6 +1,3 @@
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include <new>
 #include <stdexcept>
 #include <string>
@@ -13,14 +10,12 @@
 #include "services/processor/what_is_thrown.h"
 #include "tests/integration/archive_fixture.h"
 #include "tests/support/archive_rows.h"
-#include "tests/support/count_rows.h"
+#include "tests/support/matchers.h"
 #include "tests/support/recorded_edges.h"
 #include "tests/support/samples.h"
 #include "tests/support/test_paths.h"
 
 namespace spindrift::run_fault_test {
-
-using ::testing::ElementsAre;
 
 const std::filesystem::path kPass = recorded_passes() / "nominal";
 constexpr std::size_t kEdges = 240;
@@ -112,7 +107,7 @@ TEST_F(RunFaults, AreOfOneSpacecraftAndMakeItsAnswerDoubtful) {
       rows_of(db("served"),
               "SELECT quality, estimator, why FROM pass_verdict WHERE spacecraft_id = 'FAILS'")
           .at(0);
-  EXPECT_THAT(verdict, ::testing::StartsWith("DOUBTFUL|sequential|computing failed at 20"));
+  EXPECT_THAT(verdict, StartsWith("DOUBTFUL|sequential|computing failed at 20"));
   EXPECT_NE(
       rows_of(db("served"), "SELECT quality FROM pass_verdict WHERE spacecraft_id = 'SOUND'").at(0),
       "DOUBTFUL|");

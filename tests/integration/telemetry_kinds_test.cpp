@@ -1,6 +1,3 @@
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include <limits>
 #include <string>
 #include <vector>
@@ -11,6 +8,7 @@
 #include "services/publisher/telemetry_publisher.h"
 #include "tests/integration/archive_fixture.h"
 #include "tests/support/bus_fixture.h"
+#include "tests/support/matchers.h"
 
 namespace spindrift::telemetry_kinds_test {
 
@@ -80,7 +78,7 @@ TEST(TelemetryKinds, NumbersThatAreNoneAreRejectedWithTheirReason) {
   ASSERT_TRUE(batch);
   EXPECT_EQ(count_of(batch->samples), 0U);
   ASSERT_EQ(batch->rejected.size(), 1U);
-  EXPECT_THAT(batch->rejected[0].reason, ::testing::HasSubstr("wz_rad_s = 0.1, -0.2, inf"));
+  EXPECT_THAT(batch->rejected[0].reason, HasSubstr("wz_rad_s = 0.1, -0.2, inf"));
 }
 
 class StoredKinds : public testing::ArchiveFixture {};

@@ -21,7 +21,6 @@
 #include "services/telemetry/telemetry_stream.h"
 #include "tests/integration/archive_fixture.h"
 #include "tests/support/archive_rows.h"
-#include "tests/support/count_rows.h"
 #include "tests/support/recorded_edges.h"
 #include "tests/support/three_axis_files.h"
 

@@ -2,8 +2,6 @@
 /// others, live or from files.
 
 #include <fmt/format.h>
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <algorithm>
 #include <array>
@@ -20,6 +18,7 @@
 #include "services/telemetry/telemetry_files.h"
 #include "services/telemetry/telemetry_row.h"
 #include "services/telemetry/telemetry_stream.h"
+#include "tests/support/matchers.h"
 #include "tests/support/product_text.h"
 #include "tests/support/recorded_pass.h"
 #include "tests/support/temporary_folder.h"
@@ -94,13 +93,16 @@ Stream<Sample> with_strays(const std::vector<Sample>& samples, const Strays& str
   return stream;
 }
 
+bool is_for_its_time(std::optional<Rejection> rejected_by) {
+  return rejected_by == Rejection::OutOfTime || rejected_by == Rejection::Late;
+}
+
 /// Returns the products as text without the edges rejected for their time, which are counted.
 std::vector<std::string> in_time(const SpinOutput& output, std::size_t& left_out) {
   std::vector<std::string> texts;
   for (const SpinProduct& product : output.products) {
     const auto* const use = std::get_if<PulseUse>(&product);
-    if (use != nullptr &&
-        (use->rejected_by == Rejection::OutOfTime || use->rejected_by == Rejection::Late)) {
+    if (use != nullptr && is_for_its_time(use->rejected_by)) {
       ++left_out;
     } else {
       texts.push_back(testing::text_of(product));
@@ -169,7 +171,7 @@ TEST(StrayStamps, OfPulsesMoveNothingHoweverManyThereAre) {
   const RecordedPass pass = nominal(1200);
   for (const Strays& strays : all_strays()) {
     SCOPED_TRACE(text_of(strays));
-    EXPECT_THAT(expect_unmoved(pass, pass.pulses, strays), ::testing::Each(strays.count));
+    EXPECT_THAT(expect_unmoved(pass, pass.pulses, strays), Each(strays.count));
   }
 }
 
@@ -178,8 +180,7 @@ TEST(StrayStamps, OfCodedFramesMoveNothing) {
   for (const Strays& strays : {Strays{20, false, 1800s}, Strays{9, true, 1800s}}) {
     SCOPED_TRACE(text_of(strays));
     // A frame contains several edges.
-    EXPECT_THAT(expect_unmoved(pass, pass.frames, strays),
-                ::testing::Each(::testing::Gt(strays.count)));
+    EXPECT_THAT(expect_unmoved(pass, pass.frames, strays), Each(::testing::Gt(strays.count)));
   }
 }
 
@@ -225,10 +226,9 @@ class ThreeAxisTexts {
   void keep(const ThreeAxisOutput& output) {
     for (const ThreeAxisProduct& product : output.products) {
       if (const auto* const sample = std::get_if<RejectedSample>(&product)) {
-        const bool is_stray =
-            sample->rejected_by == Rejection::OutOfTime || sample->rejected_by == Rejection::Late;
-        left_out += is_stray ? 1 : 0;
-        if (!is_stray) {
+        if (is_for_its_time(sample->rejected_by)) {
+          ++left_out;
+        } else {
           texts.push_back(fmt::format("{} {}", tai_ns(sample->t), name_of(sample->rejected_by)));
         }
       } else if (const auto* const estimate = std::get_if<AttitudeEstimate>(&product)) {

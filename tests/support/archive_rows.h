@@ -36,9 +36,26 @@ inline std::vector<std::string> rows_of(const std::filesystem::path& db, const s
   return rows;
 }
 
+/// Returns the rows of all queries.
+inline std::vector<std::string> rows_of(const std::filesystem::path& db,
+                                        const std::vector<std::string>& queries) {
+  std::vector<std::string> rows;
+  for (const std::string& query : queries) {
+    for (std::string& row : rows_of(db, query)) {
+      rows.push_back(std::move(row));
+    }
+  }
+  return rows;
+}
+
 inline std::int64_t number_of(const std::filesystem::path& db, const std::string& query) {
   SQLite::Database database{db.string(), SQLite::OPEN_READONLY, kBusy_ms};
   return database.execAndGet(query).getInt64();
+}
+
+/// @param from Table, with what joins and restricts its rows.
+inline std::int64_t count_rows(const std::filesystem::path& db, const std::string& from) {
+  return number_of(db, "SELECT count(*) FROM " + from);
 }
 
 inline double real_of(const std::filesystem::path& db, const std::string& query) {
@@ -61,26 +78,21 @@ inline std::int64_t three_axis_samples_before(const std::filesystem::path& db,
 
 /// Returns all products of all runs, without the names of the runs.
 inline std::vector<std::string> product_rows(const std::filesystem::path& db) {
-  std::vector<std::string> rows;
-  for (const std::string& query : std::vector<std::string>{
-           "SELECT spacecraft_id, t_tai_ns, channel FROM pulse ORDER BY 1, 2, 3",
-           "SELECT spacecraft_id, t_tai_ns, channel, revolution, accepted, rejected_by"
-           " FROM pulse_use ORDER BY 1, 2, 3",
-           "SELECT revolution, t_tai_ns, period_s FROM revolution ORDER BY 1",
-           "SELECT revolution, quantity, value, unit, sigma, accepted, rejected_by"
-           " FROM spin_measurement ORDER BY 1, 2",
-           "SELECT revolution, t_tai_ns, geometry_case, ra_deg, dec_deg, sigma_deg,"
-           " alternate_ra_deg, alternate_dec_deg, resolution, accepted, cov_east_east_deg2,"
-           " cov_east_north_deg2, cov_north_north_deg2, norm FROM spin_fix ORDER BY 1",
-           "SELECT revolution, candidate, ra_deg, dec_deg FROM spin_fix_candidate ORDER BY 1, 2",
-           "SELECT t_tai_ns, estimator, ra_deg, dec_deg, sigma_deg, spin_rate_rpm, sigma_rpm,"
-           " status, cov_east_east_deg2, cov_east_north_deg2, cov_north_north_deg2"
-           " FROM spin_estimate WHERE estimator <> 'batch' ORDER BY 1, 2"}) {
-    for (std::string& row : rows_of(db, query)) {
-      rows.push_back(std::move(row));
-    }
-  }
-  return rows;
+  return rows_of(
+      db, std::vector<std::string>{
+              "SELECT spacecraft_id, t_tai_ns, channel FROM pulse ORDER BY 1, 2, 3",
+              "SELECT spacecraft_id, t_tai_ns, channel, revolution, accepted, rejected_by"
+              " FROM pulse_use ORDER BY 1, 2, 3",
+              "SELECT revolution, t_tai_ns, period_s FROM revolution ORDER BY 1",
+              "SELECT revolution, quantity, value, unit, sigma, accepted, rejected_by"
+              " FROM spin_measurement ORDER BY 1, 2",
+              "SELECT revolution, t_tai_ns, geometry_case, ra_deg, dec_deg, sigma_deg,"
+              " alternate_ra_deg, alternate_dec_deg, resolution, accepted, cov_east_east_deg2,"
+              " cov_east_north_deg2, cov_north_north_deg2, norm FROM spin_fix ORDER BY 1",
+              "SELECT revolution, candidate, ra_deg, dec_deg FROM spin_fix_candidate ORDER BY 1, 2",
+              "SELECT t_tai_ns, estimator, ra_deg, dec_deg, sigma_deg, spin_rate_rpm, sigma_rpm,"
+              " status, cov_east_east_deg2, cov_east_north_deg2, cov_north_north_deg2"
+              " FROM spin_estimate WHERE estimator <> 'batch' ORDER BY 1, 2"});
 }
 
 /// Returns the rows of every table, without the columns in which two services that take the same
@@ -111,24 +123,20 @@ inline std::vector<std::string> all_rows(const std::filesystem::path& db) {
 /// Returns the last `batch` solution of a run. Earlier ones are left out because a service solves
 /// once a minute besides.
 inline std::vector<std::string> last_batch_rows(const std::filesystem::path& db) {
-  std::vector<std::string> rows;
-  for (const std::string& query : std::vector<std::string>{
-           "SELECT t_tai_ns, ra_deg, dec_deg, sigma_deg, spin_rate_rpm, sigma_rpm, status"
-           " FROM spin_estimate WHERE estimator = 'batch' ORDER BY 1 DESC LIMIT 1",
-           "SELECT t_tai_ns, bound_deg, consider_sigma_deg, rate_drift_rpm_h, "
-           "rate_drift_sigma_rpm_h, edges, outliers, noise, iterations, changed_tai_ns"
-           " FROM spin_batch ORDER BY 1 DESC LIMIT 1",
-           "SELECT t_tai_ns, position, value FROM spin_batch_singular_value"
-           " WHERE t_tai_ns = (SELECT max(t_tai_ns) FROM spin_batch) ORDER BY 2",
-           "SELECT t_tai_ns, position, direction FROM spin_batch_undetermined"
-           " WHERE t_tai_ns = (SELECT max(t_tai_ns) FROM spin_batch) ORDER BY 2",
-           "SELECT t_tai_ns, detected, detectable_deg FROM spin_nutation ORDER BY 1 DESC LIMIT 1",
-           "SELECT name, value, sigma, unit, observable, estimated FROM spin_bias ORDER BY 1"}) {
-    for (std::string& row : rows_of(db, query)) {
-      rows.push_back(std::move(row));
-    }
-  }
-  return rows;
+  return rows_of(
+      db,
+      std::vector<std::string>{
+          "SELECT t_tai_ns, ra_deg, dec_deg, sigma_deg, spin_rate_rpm, sigma_rpm, status"
+          " FROM spin_estimate WHERE estimator = 'batch' ORDER BY 1 DESC LIMIT 1",
+          "SELECT t_tai_ns, bound_deg, consider_sigma_deg, rate_drift_rpm_h, "
+          "rate_drift_sigma_rpm_h, edges, outliers, noise, iterations, changed_tai_ns"
+          " FROM spin_batch ORDER BY 1 DESC LIMIT 1",
+          "SELECT t_tai_ns, position, value FROM spin_batch_singular_value"
+          " WHERE t_tai_ns = (SELECT max(t_tai_ns) FROM spin_batch) ORDER BY 2",
+          "SELECT t_tai_ns, position, direction FROM spin_batch_undetermined"
+          " WHERE t_tai_ns = (SELECT max(t_tai_ns) FROM spin_batch) ORDER BY 2",
+          "SELECT t_tai_ns, detected, detectable_deg FROM spin_nutation ORDER BY 1 DESC LIMIT 1",
+          "SELECT name, value, sigma, unit, observable, estimated FROM spin_bias ORDER BY 1"});
 }
 
 /// Returns all pulses in order of time.

@@ -43,8 +43,6 @@ class ForeignWriter {
   }
   ForeignWriter(const ForeignWriter&) = delete;
   ForeignWriter& operator=(const ForeignWriter&) = delete;
-  ForeignWriter(ForeignWriter&&) = delete;
-  ForeignWriter& operator=(ForeignWriter&&) = delete;
 
   pid_t pid() const { return pid_; }
 

@@ -18,6 +18,7 @@
 
 #include "services/bus/participant.h"
 #include "services/bus/reader.h"
+#include "services/bus/telemetry_messages.h"
 #include "services/bus/writer.h"
 #include "tests/support/eventually.h"
 
@@ -75,6 +76,22 @@ inline bus::BusConfig bus_of_its_own() {
           .partition = "test-" + std::to_string(pid) + "-" + std::to_string(++calls)};
 }
 
+/// Returns a reader of telemetry of one kind.
+template <class Value>
+bus::Reader<bus::MessageOf<Value>> telemetry_reader(
+    const bus::Participant& participant, const bus::Qos& qos = bus::telemetry_reader_qos()) {
+  return bus::Reader<bus::MessageOf<Value>>::create(participant, bus::topic_of<Value>(), qos)
+      .value();
+}
+
+/// Returns a writer of telemetry of one kind.
+template <class Value>
+bus::Writer<bus::MessageOf<Value>> telemetry_writer(
+    const bus::Participant& participant, const bus::Qos& qos = bus::telemetry_writer_qos()) {
+  return bus::Writer<bus::MessageOf<Value>>::create(participant, bus::topic_of<Value>(), qos)
+      .value();
+}
+
 /// Takes samples until there are `count`, or the wait of eventually() is over.
 template <class Sample>
 std::vector<Sample> take_samples(const bus::Reader<Sample>& reader, std::size_t count) {
@@ -112,6 +129,16 @@ inline spindrift_Pulse idl_pulse(std::uint64_t seq, std::uint64_t session = 1) {
           .seq = seq,
           .t_tai_ns = kTestTime_tai_ns + static_cast<std::int64_t>(seq) * 1'000'000'000,
           .channel = spindrift_SUN1};
+}
+
+/// Writes idl_pulse() of the first sequence numbers.
+/// @return False if one is refused.
+inline bool write_pulses(const bus::Writer<spindrift_Pulse>& writer, std::uint64_t count) {
+  bool written = true;
+  for (std::uint64_t seq = 0; seq < count && written; ++seq) {
+    written = writer.write(idl_pulse(seq)).has_value();
+  }
+  return written;
 }
 
 inline spindrift_CodedFrame idl_frame(std::uint64_t seq) {

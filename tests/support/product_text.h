@@ -5,13 +5,13 @@
 #pragma once
 
 #include <string>
-#include <variant>
 #include <vector>
 
 #include "pipelines/spin/pass/spin_pass.h"
 #include "pipelines/spin/types/coded_frame.h"
 #include "pipelines/spin/types/products.h"
 #include "pipelines/spin/types/pulse.h"
+#include "tests/support/of_kind.h"
 #include "tests/support/recorded_pass.h"
 
 namespace spindrift::testing {
@@ -26,13 +26,7 @@ SpinOutput run(const RecordedPass& pass);
 /// Returns the products of one kind in the order of their creation.
 template <class Product>
 std::vector<Product> all_of(const SpinOutput& output) {
-  std::vector<Product> found;
-  for (const SpinProduct& product : output.products) {
-    if (const auto* value = std::get_if<Product>(&product)) {
-      found.push_back(*value);
-    }
-  }
-  return found;
+  return of_kind<Product>(output.products);
 }
 
 /// Returns the estimates of one estimator in the order of their creation.

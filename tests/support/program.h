@@ -67,8 +67,6 @@ class Program {
   }
   Program(const Program&) = delete;
   Program& operator=(const Program&) = delete;
-  Program(Program&&) = delete;
-  Program& operator=(Program&&) = delete;
 
   void signal(int number) const { kill(pid_, number); }
 

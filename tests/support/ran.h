@@ -3,14 +3,12 @@
 
 #pragma once
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include <nlohmann/json.hpp>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "tests/support/matchers.h"
 #include "tests/support/program.h"
 
 namespace spindrift {
@@ -49,13 +47,13 @@ inline Ran refused(const Words& words, const Words& says, int status = 2) {
   Ran ran = ended(words);
   EXPECT_EQ(ran.status, status);
   for (const std::string& said : says) {
-    EXPECT_THAT(ran.log, ::testing::HasSubstr(said));
+    EXPECT_THAT(ran.log, HasSubstr(said));
   }
   return ran;
 }
 
 inline void expect_said_once(const std::string& log, const std::string& words) {
-  EXPECT_THAT(log, ::testing::HasSubstr(words));
+  EXPECT_THAT(log, HasSubstr(words));
   EXPECT_EQ(log.find(words), log.rfind(words)) << words;
 }
 

@@ -19,8 +19,7 @@
 #include "tests/support/archive_rows.h"
 #include "tests/support/bus_child.h"
 #include "tests/support/bus_fixture.h"
-#include "tests/support/program.h"
-#include "tests/support/recorded_files.h"
+#include "tests/support/processed.h"
 
 namespace spindrift {
 
@@ -138,12 +137,7 @@ void serve_whole(const std::vector<std::string>& serve, const Send& send) {
 
 /// Returns the pulses of a recorded pass, read back from an archive.
 inline std::vector<Pulse> pulses_of(const std::string& pass) {
-  const TemporaryFolder folder;
-  const auto db = folder.path() / "processed.db";
-  Program process{{"process", "--mission", (kPasses / pass / "mission.toml").string(),
-                   "--telemetry", (kPasses / pass).string(), "--db", db.string()}};
-  EXPECT_EQ(process.exit_status(), 0) << process.log();
-  return pulses_in(db);
+  return pulses_in(Processed{pass}.db);
 }
 
 /// Sends the pulses of a recorded pass like a front-end.

@@ -1,6 +1,4 @@
 #include <SQLiteCpp/Database.h>
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
 #include <string>
@@ -9,9 +7,9 @@
 #include "tests/support/altered_text.h"
 #include "tests/support/archive_rows.h"
 #include "tests/support/bus_fixture.h"
-#include "tests/support/count_rows.h"
 #include "tests/support/eventually.h"
 #include "tests/support/lines.h"
+#include "tests/support/matchers.h"
 #include "tests/support/on_bus.h"
 #include "tests/support/pass_with.h"
 #include "tests/support/processed.h"
@@ -23,11 +21,7 @@
 
 namespace spindrift::alerts_test {
 
-using ::testing::AllOf;
 using ::testing::Contains;
-using ::testing::ElementsAre;
-using ::testing::HasSubstr;
-using ::testing::IsEmpty;
 
 std::string nominal() { return text_of(kPasses / "nominal" / "pulses.csv"); }
 

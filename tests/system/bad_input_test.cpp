@@ -2,8 +2,6 @@
 // files of telemetry are in process_test.cpp.
 
 #include <fmt/format.h>
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <algorithm>
 #include <array>
@@ -18,17 +16,13 @@
 #include "tests/support/altered_text.h"
 #include "tests/support/archive_rows.h"
 #include "tests/support/axis_error.h"
-#include "tests/support/count_rows.h"
 #include "tests/support/lines.h"
+#include "tests/support/matchers.h"
 #include "tests/support/processed.h"
 #include "tests/support/ran.h"
 #include "tests/support/simulated.h"
 
 namespace spindrift::bad_input_test {
-
-using ::testing::AllOf;
-using ::testing::HasSubstr;
-using ::testing::Not;
 
 const nlohmann::json kTruth{{"ra_deg", 100.0}, {"dec_deg", -55.0}};
 
@@ -41,7 +35,9 @@ Processed nominal_with(const std::string& file, const std::string& text) {
   return Processed{pass.folder.path()};
 }
 
-void expect_no_axis(const Processed& outcome) {
+/// Expects no axis, and the log to say why.
+void expect_no_axis(const Processed& outcome, const std::string& why) {
+  EXPECT_THAT(outcome.log, HasSubstr(why));
   EXPECT_EQ(outcome.run["fixes_accepted"], 0);
   EXPECT_TRUE(outcome.run["mean"].is_null());
   EXPECT_TRUE(outcome.run["sequential"].is_null());
@@ -65,10 +61,9 @@ TEST(BadGeometry, WithSunAndEarthInOneLineGivesNoAxisAndSaysWhy) {
                              {"ra_deg = 100.0", "ra_deg = 235.138"},
                              {"dec_deg = -55.0", "dec_deg = 70.417"}}};
   const Processed outcome{simulated.pass};
-  expect_no_axis(outcome);
+  expect_no_axis(outcome, "Sun and Earth stand 179.");
   EXPECT_EQ(outcome.run["fixes"], 0);
   EXPECT_GT(outcome.run["edges_accepted"], 700);
-  EXPECT_THAT(outcome.log, HasSubstr("Sun and Earth stand 179."));
 
   const auto plot = simulated.folder.path() / "plan.svg";
   succeeded({"geometry", "--mission", simulated.mission(), "--from", "2026-11-20T03:00:00Z", "--to",
@@ -82,9 +77,7 @@ TEST(BadGeometry, WithChordsWiderThanTheEarthGivesNoAxisAndSaysWhy) {
                             {{"[spin.noise]",
                               "[truth.ir.north]\nchord_excess_deg = 10.0\n"
                               "[truth.ir.south]\nchord_excess_deg = 10.0\n[spin.noise]"}}};
-  const Processed outcome{simulated.pass};
-  expect_no_axis(outcome);
-  EXPECT_THAT(outcome.log, HasSubstr("contradict each other"));
+  expect_no_axis(Processed{simulated.pass}, "contradict each other");
 }
 
 TEST(BadGeometry, WithABeamThatNeverMeetsTheEarthGivesNoAxisAndSaysWhy) {
@@ -92,10 +85,9 @@ TEST(BadGeometry, WithABeamThatNeverMeetsTheEarthGivesNoAxisAndSaysWhy) {
                             {{"mount_angle_deg = 85.0", "mount_angle_deg = 20.0"},
                              {"mount_angle_deg = 95.0", "mount_angle_deg = 160.0"}}};
   const Processed outcome{simulated.pass};
-  expect_no_axis(outcome);
+  expect_no_axis(outcome, "a sun angle without a chord");
   EXPECT_EQ(outcome.run["fixes"], 0);
   EXPECT_EQ(count_rows(outcome.db, "pulse WHERE channel LIKE '%_in'"), 0);
-  EXPECT_THAT(outcome.log, HasSubstr("a sun angle without a chord"));
 }
 
 TEST(BadGeometry, WithAMissionWhoseBeamsCannotMeetTheEarthSaysThatItContradictsTheTelemetry) {
@@ -103,8 +95,7 @@ TEST(BadGeometry, WithAMissionWhoseBeamsCannotMeetTheEarthSaysThatItContradictsT
       "mission.toml",
       replaced(nominal("mission.toml"), {{"mount_angle_deg = 85", "mount_angle_deg = 20"},
                                          {"mount_angle_deg = 95", "mount_angle_deg = 160"}}));
-  expect_no_axis(outcome);
-  EXPECT_THAT(outcome.log, HasSubstr("contradict each other"));
+  expect_no_axis(outcome, "contradict each other");
   EXPECT_THAT(outcome.log, HasSubstr("check the mission's mounting angles"));
 }
 
@@ -155,16 +146,16 @@ TEST(OneSensor, AloneGivesNoAxisAndNoBatchSolutionAndSaysWhy) {
   for (const auto& [sensor, why] : sensors) {
     const Processed outcome = process_part(
         [&, &name = sensor](const std::string& channel, int) { return channel.starts_with(name); });
-    expect_no_axis(outcome);
-    EXPECT_THAT(outcome.log, HasSubstr(why)) << sensor;
-    EXPECT_THAT(outcome.log, HasSubstr("no batch solution: ")) << sensor;
+    SCOPED_TRACE(sensor);
+    expect_no_axis(outcome, why);
+    EXPECT_THAT(outcome.log, HasSubstr("no batch solution: "));
     std::set<std::string> codes;
     for (const auto& warning : outcome.answer["warnings"]) {
       codes.insert(warning["code"]);
       EXPECT_THAT(outcome.log, HasSubstr(warning["text"].get<std::string>()));
       EXPECT_EQ(warning["values"]["spacecraft"], "SPINNER");
     }
-    EXPECT_THAT(codes, ::testing::IsSupersetOf({"no_axis", "no_batch_solution"})) << sensor;
+    EXPECT_THAT(codes, ::testing::IsSupersetOf({"no_axis", "no_batch_solution"}));
     EXPECT_EQ(count_rows(outcome.db, "spin_batch"), 0);
   }
 }
@@ -175,7 +166,7 @@ TEST(MissingChannel, StraysOfADeadSensorGiveNoAxis) {
   const Processed outcome = process_part([](const std::string& channel, int row) {
     return !channel.starts_with("sun") || (channel.starts_with("sun2") && row % 331 == 7);
   });
-  expect_no_axis(outcome);
+  expect_no_axis(outcome, "no axis");
   EXPECT_GT(count_rows(outcome.db, "pulse_use WHERE channel = 'sun2'"), 0);
   EXPECT_EQ(number_of(outcome.db, "SELECT sum(accepted) FROM pulse_use WHERE channel = 'sun2'"), 0);
 }
@@ -347,10 +338,6 @@ TEST(OrbitWithAHole, IsWarnedOfAndGivesNoAxisThere) {
   EXPECT_GT(outcome.run["fixes_accepted"], 400);
   EXPECT_LT(error_deg(outcome.run["mean"], kTruth), 0.1);
   EXPECT_LT(error_deg(outcome.run["sequential"], kTruth), 0.1);
-}
-
-TEST(NominalOrbit, IsNotWarnedOf) {
-  EXPECT_THAT(Processed{"nominal"}.log, AllOf(Not(HasSubstr("jumps")), Not(HasSubstr("no orbit"))));
 }
 
 TEST(AbsurdTimes, ThatCouldBeTrueLeaveTheOtherProductsAlone) {

@@ -2,8 +2,6 @@
 // archive.
 
 #include <fmt/format.h>
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <cmath>
 #include <fstream>
@@ -11,17 +9,13 @@
 
 #include "tests/support/archive_rows.h"
 #include "tests/support/axis_error.h"
-#include "tests/support/count_rows.h"
+#include "tests/support/matchers.h"
 #include "tests/support/processed.h"
 #include "tests/support/ran.h"
 #include "tests/support/recorded_files.h"
 #include "tests/support/simulated.h"
 
 namespace spindrift::batch_test {
-
-using ::testing::ElementsAre;
-using ::testing::HasSubstr;
-using ::testing::Not;
 
 nlohmann::json truth_of(const std::string& pass) {
   return nlohmann::json::parse(text_of(kPasses / pass / "truth.json"));

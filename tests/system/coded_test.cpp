@@ -1,6 +1,3 @@
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -8,7 +5,7 @@
 #include "tests/support/archive_rows.h"
 #include "tests/support/axis_error.h"
 #include "tests/support/bus_fixture.h"
-#include "tests/support/count_rows.h"
+#include "tests/support/matchers.h"
 #include "tests/support/on_bus.h"
 #include "tests/support/processed.h"
 #include "tests/support/ran.h"
@@ -46,7 +43,7 @@ double off_deg(const Processed& processed, const std::string& estimator,
                    nlohmann::json::parse(text_of(pass / "truth.json")));
 }
 
-TEST(Coded, GivesTheSameProductsLiveAsOfflineAndFindsTheAxis) {
+TEST(Coded, GivesTheSameProductsLiveAsOfflineFindsTheAxisAndCountsFramesAndTheirEdges) {
   const Processed offline{kPass, {"--strict"}};
   const Served served{
       kPass, {"replay", "--mission", kPass / "mission.toml", "--telemetry", kPass, "--speed", "0"}};
@@ -59,6 +56,17 @@ TEST(Coded, GivesTheSameProductsLiveAsOfflineAndFindsTheAxis) {
   for (const std::string estimator : {"mean", "sequential"}) {
     EXPECT_LT(off_deg(offline, estimator, kPass), 0.1) << estimator;
   }
+
+  const auto& run = offline.run;
+  EXPECT_EQ(run["coded_frames_received"], 299);
+  const std::int64_t edges = number_of(
+      offline.db,
+      "SELECT sum(1 + (sun2_s IS NOT NULL) + (north_in_s IS NOT NULL) + (north_out_s IS NOT NULL) "
+      "+ (south_in_s IS NOT NULL) + (south_out_s IS NOT NULL)) FROM coded_frame");
+  EXPECT_GT(edges, 5 * 299);
+  EXPECT_EQ(run["edges_received"], edges);
+  EXPECT_EQ(run["edges_stored"], edges);
+  EXPECT_EQ(run["edges_accepted"], number_of(offline.db, "SELECT sum(accepted) FROM pulse_use"));
 }
 
 TEST(Coded, SimulatedPassGivesTheSameProductsFromTheBusAsFromFiles) {
@@ -103,20 +111,6 @@ TEST(Coded, SimulatedPassOfBothKindsIsPublishedAsBoth) {
   const Served served{simulated.pass, simulated.publish()};
   EXPECT_EQ(count_rows(served.db, "pulse"), 3600);
   EXPECT_EQ(count_rows(served.db, "coded_frame"), 600);
-}
-
-TEST(Coded, SummaryCountsFramesAndTheEdgesInThem) {
-  const Processed processed{kPass};
-  const auto& run = processed.run;
-  EXPECT_EQ(run["coded_frames_received"], 299);
-  const std::int64_t edges = number_of(
-      processed.db,
-      "SELECT sum(1 + (sun2_s IS NOT NULL) + (north_in_s IS NOT NULL) + (north_out_s IS NOT NULL) "
-      "+ (south_in_s IS NOT NULL) + (south_out_s IS NOT NULL)) FROM coded_frame");
-  EXPECT_GT(edges, 5 * 299);
-  EXPECT_EQ(run["edges_received"], edges);
-  EXPECT_EQ(run["edges_stored"], edges);
-  EXPECT_EQ(run["edges_accepted"], number_of(processed.db, "SELECT sum(accepted) FROM pulse_use"));
 }
 
 }  // namespace spindrift::coded_test

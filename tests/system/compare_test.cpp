@@ -1,6 +1,3 @@
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -10,7 +7,7 @@
 #include <vector>
 
 #include "tests/support/archive_rows.h"
-#include "tests/support/count_rows.h"
+#include "tests/support/matchers.h"
 #include "tests/support/processed.h"
 #include "tests/support/ran.h"
 #include "tests/support/simulated.h"
@@ -18,10 +15,6 @@
 #include "tests/support/text_of.h"
 
 namespace spindrift::compare_test {
-
-using ::testing::AllOf;
-using ::testing::ElementsAre;
-using ::testing::HasSubstr;
 
 const std::string kNominal = (scenarios() / "gto-nominal.toml").string();
 const std::string kUpperStage = (scenarios() / "upper-stage.toml").string();

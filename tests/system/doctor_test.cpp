@@ -1,11 +1,10 @@
 #include <fmt/format.h>
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
 #include <numbers>
+#include <set>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -13,9 +12,10 @@
 
 #include "pipelines/time/utc.h"
 #include "services/base/wall_clock.h"
+#include "tests/support/archive_rows.h"
 #include "tests/support/bus_child.h"
 #include "tests/support/bus_fixture.h"
-#include "tests/support/count_rows.h"
+#include "tests/support/matchers.h"
 #include "tests/support/on_bus.h"
 #include "tests/support/processed.h"
 #include "tests/support/ran.h"
@@ -24,7 +24,6 @@
 namespace spindrift::doctor_test {
 
 using namespace std::chrono_literals;
-using ::testing::HasSubstr;
 
 const std::string kMission = (recorded_passes() / "nominal" / "mission.toml").string();
 
@@ -90,13 +89,20 @@ std::string current_mission(const TemporaryFolder& folder) {
   return folder.write("mission.toml", text_of(kMission)).string();
 }
 
+std::set<std::filesystem::path> files_beside(const std::filesystem::path& db) {
+  const std::filesystem::directory_iterator entries{db.parent_path()};
+  return {begin(entries), end(entries)};
+}
+
 bool is_running(pid_t pid) { return waitpid(pid, nullptr, WNOHANG) == 0; }
 
-TEST(Doctor, FindsNoFailureWhereAllIsWell) {
+TEST(Doctor, FindsNoFailureWhereAllIsWellAndLeavesNothingBesideTheArchive) {
   const TemporaryFolder folder;
   const bus::BusConfig bus = bus_of_its_own();
   const ForeignWriter front_end{bus, "telemetry", 1};
   const Processed processed{"nominal"};
+  const auto before = files_beside(processed.db);
+  const std::string bytes = text_of(processed.db);
   const Diagnosis diagnosis =
       diagnosed(bus, {"--mission", current_mission(folder), "--db", processed.db},
                 [](const auto& so_far) { return so_far.verdict("telemetry") == "ok"; });
@@ -114,24 +120,8 @@ TEST(Doctor, FindsNoFailureWhereAllIsWell) {
   EXPECT_THAT(diagnosis.found("participants"), HasSubstr(" of 100 programs"));
   // The front-end waits for a subscriber and must not take the doctor for one.
   EXPECT_TRUE(is_running(front_end.pid()));
-}
-
-TEST(Doctor, LeavesNothingBesideTheArchive) {
-  const Processed processed{"nominal"};
-  const auto& db = processed.db;
-  const auto files = [&] {
-    std::vector<std::string> names;
-    for (const auto& entry : std::filesystem::directory_iterator{processed.folder.path()}) {
-      names.push_back(entry.path().filename());
-    }
-    std::sort(names.begin(), names.end());
-    return names;
-  };
-  const auto before = files();
-  const std::string bytes = text_of(db);
-  EXPECT_EQ(diagnose(bus_of_its_own(), {"--db", db}).status, 0);
-  EXPECT_EQ(files(), before);
-  EXPECT_EQ(text_of(db), bytes);
+  EXPECT_EQ(files_beside(processed.db), before);
+  EXPECT_EQ(text_of(processed.db), bytes);
 }
 
 TEST(Doctor, PrintsAListForPeople) {
@@ -157,8 +147,6 @@ TEST(Doctor, JudgesForTheComingPass) {
   EXPECT_EQ(covered.verdict("orbit of SPINNER"), "ok");
   EXPECT_THAT(covered.found("orbit of SPINNER"), HasSubstr("another 2 min behind the pass"));
   EXPECT_EQ(judged("2026-11-20T03:13:00Z").verdict("orbit of SPINNER"), "warning");
-  refused({"doctor", "--from", "2026-11-20T03:00:00Z"}, {});
-  refused({"doctor", "--from", "2026-11-20T03:00:00Z", "--to", "2026-11-20"}, {});
 }
 
 TEST(Doctor, EndsWithTwoForABadMissionOrCommandLine) {
@@ -166,6 +154,8 @@ TEST(Doctor, EndsWithTwoForABadMissionOrCommandLine) {
   const auto bad = folder.write("mission.toml", "[spacecraft]\nid = \"X\"\nkind = \"kite\"\n");
   refused({"doctor", "--mission", bad}, {"mission.toml:3"});
   refused({"doctor", "--domain", "231"}, {});
+  refused({"doctor", "--from", "2026-11-20T03:00:00Z"}, {});
+  refused({"doctor", "--from", "2026-11-20T03:00:00Z", "--to", "2026-11-20"}, {});
 }
 
 TEST(Doctor, FailsOnADamagedArchive) {
@@ -202,34 +192,26 @@ TEST(Doctor, FailsOnTwoMissionsOfOneSpacecraftAndWhereNoArchiveIs) {
 }
 
 TEST(Doctor, LooksAtAnArchiveThatAServiceWrites) {
-  const TemporaryFolder folder;
-  const auto db = folder.path() / "live.db";
-  const bus::BusConfig bus = bus_of_its_own();
-  Serving service{on(bus, {"serve", "--mission", kMission, "--db", db})};
-
-  const auto diagnosis = diagnose(bus, {"--db", db});
+  ReadyService service{"nominal"};
+  const auto diagnosis = diagnose(service.bus(), {"--db", service.db()});
   EXPECT_EQ(diagnosis.status, 0) << diagnosis.report;
   EXPECT_EQ(diagnosis.verdict("integrity"), "ok");
   EXPECT_THAT(diagnosis.found("writer"), HasSubstr("serve"));
   EXPECT_THAT(diagnosis.found("runs"), HasSubstr("1 not finished"));
   EXPECT_EQ(diagnosis.verdict("runs"), "ok");
 
-  stop_in_order(service);
+  ASSERT_EQ(service.stop(), 0) << service.log();
   // The service must not report the doctor as an incompatible client.
-  EXPECT_EQ(service.log().find("incompatible"), std::string::npos);
-  EXPECT_EQ(count_rows(db, "source_count"), 0);
+  EXPECT_THAT(service.log(), Not(HasSubstr("incompatible")));
+  EXPECT_EQ(count_rows(service.db(), "source_count"), 0);
 }
 
 TEST(Doctor, WarnsOfARunThatWasKilled) {
-  const TemporaryFolder folder;
-  const auto db = folder.path() / "live.db";
-  const bus::BusConfig bus = bus_of_its_own();
-  Serving service{on(bus, {"serve", "--mission", kMission, "--db", db})};
-  ASSERT_TRUE(eventually([&] { return count_rows(db, "run") == 1; }));
-  service.signal(SIGKILL);
-  service.exit_status();
+  ReadyService service{"nominal"};
+  ASSERT_TRUE(eventually([&] { return count_rows(service.db(), "run") == 1; }));
+  service.kill();
 
-  const auto diagnosis = diagnose(bus, {"--db", db});
+  const auto diagnosis = diagnose(service.bus(), {"--db", service.db()});
   EXPECT_EQ(diagnosis.status, 0) << diagnosis.report;
   EXPECT_EQ(diagnosis.verdict("runs"), "warning") << diagnosis.report;
 }

@@ -1,14 +1,12 @@
 // Passes in which no single revolution separates the true axis from the false one.
 
 #include <SQLiteCpp/Database.h>
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <string>
 
 #include "tests/support/archive_rows.h"
 #include "tests/support/axis_error.h"
-#include "tests/support/count_rows.h"
+#include "tests/support/matchers.h"
 #include "tests/support/processed.h"
 #include "tests/support/ran.h"
 #include "tests/support/simulated.h"

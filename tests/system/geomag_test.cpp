@@ -1,45 +1,26 @@
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include <cmath>
 #include <cstdio>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <utility>
 
 #include "pipelines/frames/angle.h"
 #include "pipelines/frames/wgs84.h"
-#include "tests/support/program.h"
+#include "tests/support/matchers.h"
 #include "tests/support/ran.h"
 
 namespace spindrift::geomag_test {
 
-using ::testing::HasSubstr;
-using ::testing::IsEmpty;
-
 const std::string kHeader = "lat_deg,lon_deg,height_km\n";
 
-/// Runs the command on a file of points with this text.
-struct FieldAt {
-  explicit FieldAt(const std::string& text, const std::string& year = "2025.0", bool json = false)
-      : points{(folder.path() / "points.csv").string()} {
-    std::ofstream{points} << text;
-    std::vector<std::string> arguments = {"geomag", "field", "--date=" + year, "--points", points};
-    if (json) {
-      arguments.emplace_back("--json");
-    }
-    Program program{std::move(arguments)};
-    status = program.exit_status();
-    out = program.out();
-    log = program.log();
+class GeomagField : public ::testing::Test {
+ protected:
+  /// Returns the command on a file of points with this text.
+  Words field_at(const std::string& text, const std::string& year = "2025.0") const {
+    return {"geomag", "field", "--date=" + year, "--points", folder_.write("points.csv", text)};
   }
 
-  TemporaryFolder folder;
-  std::string points;
-  int status;
-  std::string out;
-  std::string log;
+  TemporaryFolder folder_;
 };
 
 /// Returns geodetic latitude and height of a geocentric position by iteration.
@@ -60,14 +41,13 @@ std::pair<double, double> geodetic_of(double geocentric_rad, double radius_km) {
   return {latitude_rad, height_km};
 }
 
-TEST(GeomagField, PrintsThePublishedFieldOfAGeodeticPoint) {
+TEST_F(GeomagField, PrintsThePublishedFieldOfAGeodeticPoint) {
   // Source: British Geological Survey, IGRF-14, 2025, colatitude 56, longitude -3, 6375 km
   // geocentric: north 28927.56, east 261.98, down 30910.08 nT.
   const auto [latitude_rad, height_km] = geodetic_of(34.0 * kRadPerDeg, 6375.0);
   char point[100];
   std::snprintf(point, sizeof point, "%.9f,-3,%.6f\n", degrees(latitude_rad), height_km);
-  const FieldAt run{kHeader + point};
-  ASSERT_EQ(run.status, 0) << run.log;
+  const Ran run = succeeded(field_at(kHeader + point));
   EXPECT_EQ(run.log, "");
   double lat_deg = 0.0;
   double north_nt = 0.0;
@@ -88,23 +68,22 @@ TEST(GeomagField, PrintsThePublishedFieldOfAGeodeticPoint) {
               0.02);
 }
 
-TEST(GeomagField, KnowsThePolesTheDateLineAndSpace) {
-  const FieldAt run{kHeader + "90,0,400\r\n-90,10,0\n10.25,-180,525.5\n10.25,180,525.5\n0,0,1e6\n",
-                    "2010.0", true};
-  ASSERT_EQ(run.status, 0) << run.log;
-  const auto json = nlohmann::json::parse(run.out);
+TEST_F(GeomagField, KnowsThePolesTheDateLineAndSpace) {
+  const std::string points =
+      kHeader + "90,0,400\r\n-90,10,0\n10.25,-180,525.5\n10.25,180,525.5\n0,0,1e6\n";
+  const auto json = succeeded(with(field_at(points, "2010.0"), {"--json"})).json();
   EXPECT_EQ(json["date"], 2010.0);
   EXPECT_EQ(json["model"], "IGRF-14");
-  const auto& points = json["points"];
-  ASSERT_EQ(points.size(), 5U);
-  EXPECT_GT(points[0]["down_nt"], 40'000.0);
-  EXPECT_LT(points[1]["down_nt"], -40'000.0);
-  EXPECT_NEAR(points[2]["north_nt"], points[3]["north_nt"], 1e-7);
-  EXPECT_NEAR(points[2]["east_nt"], points[3]["east_nt"], 1e-7);
-  EXPECT_NEAR(points[4]["north_nt"], 0.0, 0.1);
+  const auto& fields = json["points"];
+  ASSERT_EQ(fields.size(), 5U);
+  EXPECT_GT(fields[0]["down_nt"], 40'000.0);
+  EXPECT_LT(fields[1]["down_nt"], -40'000.0);
+  EXPECT_NEAR(fields[2]["north_nt"], fields[3]["north_nt"], 1e-7);
+  EXPECT_NEAR(fields[2]["east_nt"], fields[3]["east_nt"], 1e-7);
+  EXPECT_NEAR(fields[4]["north_nt"], 0.0, 0.1);
 }
 
-TEST(GeomagField, RefusesPointsWithFileLineAndColumn) {
+TEST_F(GeomagField, RefusesPointsWithFileLineAndColumn) {
   for (const auto& [text, says] : {
            std::pair{kHeader + "10,20,30\n91,0,0\n", ":3: lat_deg = 91: must lie in [-90, 90]"},
            {kHeader + "0,361,0\n", ":2: lon_deg = 361: must lie in [-360, 360]"},
@@ -116,23 +95,22 @@ TEST(GeomagField, RefusesPointsWithFileLineAndColumn) {
            {"lat_deg,lon_deg\n", ": must begin with the header lat_deg,lon_deg,height_km"},
            {"", ": must begin with the header lat_deg,lon_deg,height_km"},
        }) {
-    const FieldAt run{text};
-    EXPECT_EQ(run.status, 2) << text;
-    EXPECT_THAT(run.log, HasSubstr(run.points + says));
-    EXPECT_THAT(run.out, IsEmpty());
+    SCOPED_TRACE(text);
+    const std::string file = (folder_.path() / "points.csv").string();
+    EXPECT_EQ(refused(field_at(text), {file + says}).out, "");
   }
 }
 
-TEST(GeomagField, RefusesYearsOutsideTheModel) {
+TEST_F(GeomagField, RefusesYearsOutsideTheModel) {
   for (const std::string year : {"1899.9", "2030.1", "-1", "nan"}) {
-    const FieldAt run{kHeader + "0,0,0\n", year, true};
-    EXPECT_EQ(run.status, 2) << year;
-    EXPECT_THAT(run.log, HasSubstr("known from 1900 to 2030"));
-    EXPECT_THAT(nlohmann::json::parse(run.out)["error"].get<std::string>(), HasSubstr("--date"));
+    SCOPED_TRACE(year);
+    const Ran run =
+        refused(with(field_at(kHeader + "0,0,0\n", year), {"--json"}), {"known from 1900 to 2030"});
+    EXPECT_THAT(run.json()["error"].get<std::string>(), HasSubstr("--date"));
   }
 }
 
-TEST(GeomagField, RefusesWhatIsNoFile) {
+TEST_F(GeomagField, RefusesWhatIsNoFile) {
   refused({"geomag", "field", "--date", "2020", "--points", "/nowhere.csv"},
           {"/nowhere.csv: cannot be read"});
 }

@@ -1,23 +1,16 @@
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "tests/support/lines.h"
+#include "tests/support/matchers.h"
+#include "tests/support/processed.h"
 #include "tests/support/ran.h"
-#include "tests/support/recorded_files.h"
+#include "tests/support/simulated.h"
 #include "tests/support/test_paths.h"
 #include "tests/support/well_formed.h"
 
 namespace spindrift::geometry_test {
 
-using ::testing::AllOf;
-using ::testing::HasSubstr;
-using ::testing::IsEmpty;
-using ::testing::StartsWith;
-
-const std::filesystem::path kScenarios = scenarios();
 const std::filesystem::path kMissions = test_data() / "mission";
 const std::string kNominal = (recorded_passes() / "nominal" / "mission.toml").string();
 
@@ -111,10 +104,8 @@ TEST(Geometry, NoiseInAngleGoesWithTheRate) {
 
 TEST(Geometry, DrawsAPlot) {
   const TemporaryFolder folder;
-  PassCopy copy{"nominal"};
-  std::string mission = text_of(copy.mission());
-  mission.replace(mission.find("SPINNER"), 7, "<A & B>");
-  std::ofstream{copy.mission()} << mission;
+  const PassCopy copy{"nominal"};
+  copy.replace("SPINNER", "<A & B>");
   const auto plot = folder.path() / "pass.svg";
   const Ran program = succeeded(arguments_with({{"--plot", plot}}, copy.mission().string()));
   const std::string svg = text_of(plot);
@@ -173,30 +164,21 @@ TEST(Geometry, NamesAllThatIsWrongAtOnce) {
   EXPECT_THAT(program.out, IsEmpty());
 }
 
-double published_sigma_deg(const std::filesystem::path& mission,
-                           const std::filesystem::path& telemetry) {
-  const TemporaryFolder folder;
-  const Ran process = succeeded(arguments(mission, telemetry, folder.path() / "pass.db"));
-  return process.json()["runs"][0]["sequential"]["sigma_deg"];
-}
-
-/// @param folder Folder of the ten-minute pass that starts at 03:00.
-double planned_sigma_deg(const std::filesystem::path& folder) {
+/// Expects the planned sigma of a ten-minute pass that starts at 03:00 to be the published one.
+void expect_sigma_foretold(const std::filesystem::path& folder) {
   const auto truth = nlohmann::json::parse(text_of(folder / "truth.json"));
   const auto text = [&](const char* key) { return std::to_string(truth[key].get<double>()); };
   const auto plan = planned(arguments_with({{"--attitude", text("ra_deg") + "," + text("dec_deg")},
                                             {"--rpm", text("rpm")},
                                             {"--json", ""}},
                                            (folder / "mission.toml").string()));
-  return plan["steps"].back()["sigma_deg"];
+  const double planned_deg = plan["steps"].back()["sigma_deg"];
+  const double published_deg = Processed{folder}.run["sequential"]["sigma_deg"];
+  EXPECT_NEAR(published_deg / planned_deg, 1.0, 0.2);
 }
 
 TEST(Geometry, ForetellsTheSigmaThatASimulatedPassGives) {
-  const TemporaryFolder folder;
-  succeeded({"simulate", kScenarios / "gto-nominal.toml", "--out", folder.path()});
-  const auto mission = folder.path() / "mission.toml";
-  EXPECT_NEAR(published_sigma_deg(mission, folder.path()) / planned_sigma_deg(folder.path()), 1.0,
-              0.2);
+  expect_sigma_foretold(Simulated{"gto-nominal.toml"}.pass);
 }
 
 TEST(Geometry, ForetellsTheSigmaOfOneBeamWhereTheMissionHasOne) {
@@ -206,9 +188,7 @@ TEST(Geometry, ForetellsTheSigmaOfOneBeamWhereTheMissionHasOne) {
   mission.erase(south, mission.find("[spin.noise]") - south);
   std::ofstream{copy.mission()} << mission;
   std::filesystem::copy(kPasses / "north-only" / "truth.json", copy.folder.path());
-  EXPECT_NEAR(published_sigma_deg(copy.mission(), copy.folder.path()) /
-                  planned_sigma_deg(copy.folder.path()),
-              1.0, 0.2);
+  expect_sigma_foretold(copy.folder.path());
 }
 
 }  // namespace spindrift::geometry_test

@@ -3,22 +3,17 @@
 
 #include <SQLiteCpp/Database.h>
 #include <SQLiteCpp/Statement.h>
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <filesystem>
 #include <string>
 #include <vector>
 
 #include "tests/support/axis_error.h"
+#include "tests/support/matchers.h"
 #include "tests/support/processed.h"
 #include "tests/support/simulated.h"
 
 namespace spindrift::mean_rows_test {
-
-using ::testing::HasSubstr;
-using ::testing::IsEmpty;
-using ::testing::Not;
 
 struct MeanRow {
   double off_deg;
@@ -76,7 +71,7 @@ TEST(MeanRows, FewFixesWithShortChordsAreAveragedAndDoubtful) {
     for (const MeanRow& mean : means) {
       EXPECT_LT(mean.off_deg, 2.0 * mean.sigma_deg) << mean.status;
       EXPECT_LT(mean.sigma_deg, 0.5) << mean.status;
-      EXPECT_THAT(mean.status, ::testing::StartsWith("DOUBTFUL"));
+      EXPECT_THAT(mean.status, StartsWith("DOUBTFUL"));
     }
     EXPECT_EQ(means.front().status, "DOUBTFUL, 1 fix, fewer than 3");
     EXPECT_EQ(means.back().status, "DOUBTFUL, " + std::to_string(means.size()) +

@@ -1,6 +1,4 @@
 #include <SQLiteCpp/Database.h>
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
 #include <filesystem>
@@ -12,16 +10,13 @@
 #include "pipelines/frames/rotation_vector.h"
 #include "tests/support/altered_text.h"
 #include "tests/support/archive_rows.h"
-#include "tests/support/count_rows.h"
+#include "tests/support/matchers.h"
 #include "tests/support/processed.h"
 #include "tests/support/ran.h"
 #include "tests/support/test_paths.h"
 #include "tests/support/text_of.h"
 
 namespace spindrift::reconstruct_test {
-
-using ::testing::ElementsAre;
-using ::testing::HasSubstr;
 
 std::filesystem::path pass_of(const std::string& name) { return test_data() / "three-axis" / name; }
 
@@ -50,7 +45,7 @@ double off_deg(const nlohmann::json& solution, const std::filesystem::path& pass
          kRadPerDeg;
 }
 
-TEST(Reconstruct, OfARecordedSeparationIsRightAndStored) {
+TEST(Reconstruct, OfARecordedSeparationIsRightAndStoredAndTheSameFromTheArchive) {
   const TemporaryFolder folder;
   const auto pass = pass_of("separation");
   const auto db = folder.path() / "out.db";
@@ -76,16 +71,11 @@ TEST(Reconstruct, OfARecordedSeparationIsRightAndStored) {
   EXPECT_EQ(count_rows(db, "attitude WHERE source = 'batch'"),
             batch["attitudes"].get<std::int64_t>());
   EXPECT_EQ(count_rows(db, "gyro_sample"), 961);
-}
 
-TEST(Reconstruct, FromTheArchiveGivesWhatTheFilesGive) {
-  const TemporaryFolder folder;
-  const auto pass = pass_of("separation");
-  const auto files = from_files(pass, folder.path() / "files.db");
   const Processed processed{pass};
   const auto archive = solved({"--mission", pass / "mission.toml", "--db", processed.db});
-  EXPECT_EQ(archive["batch"], files["batch"]);
-  EXPECT_EQ(archive["sequential"], files["sequential"]);
+  EXPECT_EQ(archive["batch"], batch);
+  EXPECT_EQ(archive["sequential"], answer["sequential"]);
   EXPECT_EQ(count_rows(processed.db, "run"), 2);
 }
 
@@ -162,19 +152,13 @@ TEST(Reconstruct, SaysWhatTheLauncherIsOffByAndWhichEventsWereFound) {
             1);
 }
 
-TEST(Reconstruct, WithoutAStarFixIsRefusedBeforeAnythingIsWritten) {
-  const TemporaryFolder folder;
-  const auto pass = pass_of("separation");
-  const auto db = folder.path() / "out.db";
-  EXPECT_THAT(
-      error_of({"--mission", pass / "mission.toml", "--telemetry", pass / "gyro.csv", "--db", db}),
-      HasSubstr("samples up to the first one are needed"));
-  EXPECT_FALSE(std::filesystem::exists(db));
-}
-
-TEST(Reconstruct, WithEventsOutOfOrderAndOfASpinnerIsRefused) {
+TEST(Reconstruct, IsRefusedBeforeAnythingIsWrittenWhereItCannotBe) {
   const TemporaryFolder folder;
   const auto db = folder.path() / "out.db";
+  const auto without_fix = pass_of("separation");
+  EXPECT_THAT(error_of({"--mission", without_fix / "mission.toml", "--telemetry",
+                        without_fix / "gyro.csv", "--db", db}),
+              HasSubstr("samples up to the first one are needed"));
   const auto pass = pass_of("juno");
   const auto mission = folder.write(
       "mission.toml",
@@ -184,6 +168,7 @@ TEST(Reconstruct, WithEventsOutOfOrderAndOfASpinnerIsRefused) {
               HasSubstr("t4_tai_ns = 1472285880053380864: must not be below"));
   EXPECT_THAT(error_of({"--mission", kPasses / "gms5" / "mission.toml", "--db", db}),
               HasSubstr("must be \"three_axis\" for this command"));
+  EXPECT_FALSE(std::filesystem::exists(db));
 }
 
 }  // namespace spindrift::reconstruct_test

@@ -1,6 +1,3 @@
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -9,7 +6,7 @@
 #include <string>
 
 #include "tests/support/archive_rows.h"
-#include "tests/support/count_rows.h"
+#include "tests/support/matchers.h"
 #include "tests/support/ran.h"
 #include "tests/support/recorded_files.h"
 #include "tests/support/temporary_folder.h"
@@ -17,13 +14,6 @@
 #include "tests/support/three_axis_files.h"
 
 namespace spindrift::residuals_test {
-
-using ::testing::ElementsAre;
-using ::testing::IsEmpty;
-
-double real_of(const std::filesystem::path& db, const std::string& query) {
-  return std::stod(rows_of(db, query).at(0));
-}
 
 class Residuals : public ::testing::Test {
  protected:
@@ -36,7 +26,7 @@ class Residuals : public ::testing::Test {
   std::filesystem::path db_;
 };
 
-TEST_F(Residuals, OfTheNominalPassAreNormalForBothEstimators) {
+TEST_F(Residuals, OfTheNominalPassAreNormalAndThoseThatAnIndependentProgramFinds) {
   process("nominal");
   for (const std::string estimator : {"sequential", "batch"}) {
     SCOPED_TRACE(estimator);
@@ -50,10 +40,7 @@ TEST_F(Residuals, OfTheNominalPassAreNormalForBothEstimators) {
   }
   EXPECT_EQ(number_of(db_, "SELECT sum(used) FROM edge_residual WHERE estimator = 'batch'"),
             number_of(db_, "SELECT edges FROM spin_batch"));
-}
 
-TEST_F(Residuals, AreThoseThatAnIndependentProgramFinds) {
-  process("nominal");
   const std::string command =
       "/usr/bin/python3 " + (test_data().parent_path() / "system" / "batch_residuals.py").string() +
       " " + db_.string() + " " + (kPasses / "nominal" / "mission.toml").string();
@@ -97,22 +84,19 @@ TEST_F(Residuals, AreNotStoredWhereTheMissionFileSaysSo) {
   EXPECT_GT(count_rows(pass.db, "spin_measurement WHERE expected IS NOT NULL"), 0);
 }
 
-TEST_F(Residuals, EveryFixHasItsCandidatesAndTheRunItsChoice) {
-  process("nominal");
-  EXPECT_EQ(count_rows(db_,
-                       "spin_fix WHERE NOT EXISTS (SELECT 1 FROM spin_fix_candidate AS c WHERE "
-                       "c.revolution = spin_fix.revolution AND c.candidate = 0 AND c.misfit >= 0)"),
-            0);
-  EXPECT_THAT(rows_of(db_, "SELECT DISTINCT resolution FROM spin_fix WHERE accepted = 1"),
-              ElementsAre("GEOMETRY|"))
-      << "what the pass chose was settled by that, too";
-}
-
 /// In these passes most fixes determine the axis by themselves.
 TEST_F(Residuals, TheChoiceOfARunIsItsAnswerWithWhatSettledItAndHowMuchWorseTheOtherAxisFits) {
   for (const std::string pass : {"nominal", "dirty", "north-only"}) {
     SCOPED_TRACE(pass);
     process(pass);
+    EXPECT_EQ(
+        count_rows(db_,
+                   "spin_fix WHERE NOT EXISTS (SELECT 1 FROM spin_fix_candidate AS c WHERE "
+                   "c.revolution = spin_fix.revolution AND c.candidate = 0 AND c.misfit >= 0)"),
+        0);
+    EXPECT_THAT(rows_of(db_, "SELECT DISTINCT resolution FROM spin_fix WHERE accepted = 1"),
+                ElementsAre("GEOMETRY|"))
+        << "what the pass chose was settled by that, too";
     EXPECT_THAT(
         rows_of(
             db_,
@@ -124,33 +108,8 @@ TEST_F(Residuals, TheChoiceOfARunIsItsAnswerWithWhatSettledItAndHowMuchWorseTheO
   }
 }
 
-TEST_F(Residuals, OfAThreeAxisPassAreThoseOfItsSensorsWithValueAndLimit) {
-  testing::write_three_axis_pass(
-      folder_.path(),
-      {.duration_s = 300.0, .gyro_s = 1.0, .star_s = 5.0, .sun_s = 5.0, .separation = true});
-  db_ = folder_.path() / "out.db";
-  succeeded({"process", "--mission", folder_.path() / "mission.toml", "--telemetry", folder_.path(),
-             "--db", db_});
-  EXPECT_THAT(rows_of(db_, "SELECT DISTINCT estimator FROM sample_residual ORDER BY 1"),
-              ElementsAre("batch|", "mekf|", "sequential|"));
-  EXPECT_THAT(
-      rows_of(db_,
-              "SELECT * FROM sample_residual WHERE nis IS NOT NULL AND (nis <= \"limit\") <> used"),
-      IsEmpty());
-  EXPECT_THAT(rows_of(db_,
-                      "SELECT DISTINCT kind, dof, unit FROM sample_residual WHERE estimator = "
-                      "'mekf' AND kind <> 'gyro' ORDER BY 1"),
-              ElementsAre("magnetometer|3|nT|", "star|3|deg|", "sun|2|deg|"));
-  EXPECT_THAT(
-      rows_of(db_,
-              "SELECT * FROM rejected_sample WHERE rejected_by IN ('innovation', 'saturated', "
-              "'frozen', 'outlier') AND (value IS NULL OR value <= \"limit\")"),
-      IsEmpty());
-}
-
-/// The result is the same whether the filter processes the samples too or only the reconstruction
-/// does.
-TEST_F(Residuals, OfAReconstructionAreThoseOfGatedFixesAndGyroSamplesToo) {
+/// Those of the reconstruction are the same whether the filter processes the samples too or not.
+TEST_F(Residuals, OfAThreeAxisPassAreThoseOfItsSensorsAndOfItsReconstructionWithValueAndLimit) {
   testing::write_three_axis_pass(
       folder_.path(),
       {.duration_s = 300.0, .gyro_s = 1.0, .star_s = 5.0, .sun_s = 5.0, .separation = true});
@@ -173,6 +132,23 @@ TEST_F(Residuals, OfAReconstructionAreThoseOfGatedFixesAndGyroSamplesToo) {
                         "\"limit\" OR nis IS NOT NULL OR sigma_1 IS NOT NULL)"),
                 IsEmpty());
   }
+
+  db_ = folder_.path() / "process.db";
+  EXPECT_THAT(rows_of(db_, "SELECT DISTINCT estimator FROM sample_residual ORDER BY 1"),
+              ElementsAre("batch|", "mekf|", "sequential|"));
+  EXPECT_THAT(
+      rows_of(db_,
+              "SELECT * FROM sample_residual WHERE nis IS NOT NULL AND (nis <= \"limit\") <> used"),
+      IsEmpty());
+  EXPECT_THAT(rows_of(db_,
+                      "SELECT DISTINCT kind, dof, unit FROM sample_residual WHERE estimator = "
+                      "'mekf' AND kind <> 'gyro' ORDER BY 1"),
+              ElementsAre("magnetometer|3|nT|", "star|3|deg|", "sun|2|deg|"));
+  EXPECT_THAT(
+      rows_of(db_,
+              "SELECT * FROM rejected_sample WHERE rejected_by IN ('innovation', 'saturated', "
+              "'frozen', 'outlier') AND (value IS NULL OR value <= \"limit\")"),
+      IsEmpty());
 }
 
 }  // namespace spindrift::residuals_test

@@ -17,7 +17,6 @@
 #include "pipelines/frames/angle.h"
 #include "pipelines/frames/rotation_vector.h"
 #include "tests/support/archive_rows.h"
-#include "tests/support/count_rows.h"
 #include "tests/support/processed.h"
 #include "tests/support/test_paths.h"
 #include "tests/support/text_of.h"

@@ -1,8 +1,5 @@
 #include <fmt/format.h>
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
-#include <csignal>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <ostream>
@@ -12,8 +9,8 @@
 #include "services/publisher/product_messages.h"
 #include "tests/support/archive_rows.h"
 #include "tests/support/bus_fixture.h"
-#include "tests/support/count_rows.h"
 #include "tests/support/lines.h"
+#include "tests/support/matchers.h"
 #include "tests/support/on_bus.h"
 #include "tests/support/processed.h"
 #include "tests/support/ran.h"
@@ -26,12 +23,7 @@
 
 namespace spindrift::three_axis_test {
 
-using ::testing::ElementsAre;
-using ::testing::HasSubstr;
-using ::testing::Not;
-
 const std::filesystem::path kSeparation = test_data() / "three-axis" / "separation";
-const std::string kMission = (kSeparation / "mission.toml").string();
 
 constexpr const char* kAllSamples =
     "SELECT (SELECT count(*) FROM gyro_sample), (SELECT count(*) FROM sun_sample), (SELECT "
@@ -63,6 +55,11 @@ TEST(ThreeAxis, ProcessStoresEverySampleAsItWasReceivedAndTheAttitudeOfItsStarFi
   EXPECT_THAT(
       rows_of(outcome.db, "SELECT estimator, quality, ra_deg IS NULL, qw, why FROM pass_verdict"),
       ElementsAre(fmt::format("mekf|CONVERGING|1|{:a}|CONVERGING|", attitude["qw"].get<double>())));
+
+  // The samples of a second run are stored once.
+  process_files(kSeparation, outcome.db);
+  EXPECT_EQ(rows_of(outcome.db, kAllSamples), kWholePass);
+  EXPECT_EQ(count_rows(outcome.db, "run"), 2);
 }
 
 TEST(ThreeAxis, SunAndMagnetometerGiveTheAttitudeBeforeTheFirstStarFix) {
@@ -89,18 +86,15 @@ TEST(ThreeAxis, SunAndMagnetometerGiveTheAttitudeBeforeTheFirstStarFix) {
 
 /// Returns what an archive holds of a pass, without its runs.
 std::vector<std::string> pass_rows(const std::filesystem::path& db) {
-  std::vector<std::string> rows;
-  for (const char* query :
-       {"SELECT t_tai_ns, source, qx, qy, qz, qw, rate_x_rad_s, rate_y_rad_s, rate_z_rad_s, "
-        "sigma_deg, quality, reasons, status FROM attitude ORDER BY 1",
-        "SELECT t_tai_ns, kind, rejected_by, squared_innovation FROM rejected_sample ORDER BY 1, 2",
-        "SELECT spacecraft_id, finished, estimator, quality, qx, sigma_deg, why FROM pass_verdict",
-        kAllSamples}) {
-    for (std::string& row : rows_of(db, query)) {
-      rows.push_back(std::move(row));
-    }
-  }
-  return rows;
+  return rows_of(
+      db, std::vector<std::string>{
+              "SELECT t_tai_ns, source, qx, qy, qz, qw, rate_x_rad_s, rate_y_rad_s, rate_z_rad_s, "
+              "sigma_deg, quality, reasons, status FROM attitude ORDER BY 1",
+              "SELECT t_tai_ns, kind, rejected_by, squared_innovation FROM rejected_sample ORDER "
+              "BY 1, 2",
+              "SELECT spacecraft_id, finished, estimator, quality, qx, sigma_deg, why FROM "
+              "pass_verdict",
+              kAllSamples});
 }
 
 /// Returns the time of the last attitude that a late subscriber receives.
@@ -144,15 +138,6 @@ TEST(ThreeAxis, ServeGivesWhatProcessGivesAlsoWhenItIsKilledInThePass) {
   const auto summary = service.summary()["runs"][0];
   EXPECT_EQ(summary["attitude"], outcome.run["attitude"]);
   EXPECT_EQ(summary["sensors"], outcome.run["sensors"]);
-}
-
-TEST(ThreeAxis, SamplesOfASecondRunAreStoredOnce) {
-  const TemporaryFolder folder;
-  for (int run = 1; run <= 2; ++run) {
-    process_files(kSeparation, folder.path() / "out.db");
-    EXPECT_EQ(rows_of(folder.path() / "out.db", kAllSamples), kWholePass);
-  }
-  EXPECT_EQ(count_rows(folder.path() / "out.db", "run"), 2);
 }
 
 TEST(ThreeAxis, BadRowsAreStoredWithTheirReasonAndTheOthersTakenInAnyOrder) {
@@ -265,29 +250,17 @@ TEST(ThreeAxis, NormsWithinATenthOfAPercentAreStoredAsReceivedAndChangeNoAttitud
 }
 
 TEST(ThreeAxis, ServeGoesOnWithTheRunAfterAKillAndStoresWhatComesAgainOnce) {
-  const TemporaryFolder folder;
-  const auto db = folder.path() / "served.db";
-  const bus::BusConfig bus = bus_of_its_own();
-  const auto on_bus = [&](const Words& words) {
-    return on(bus, with(words, {"--mission", kMission}));
-  };
-  const auto replay = [&] {
-    succeeded(on_bus({"replay", "--telemetry", kSeparation, "--speed", "0"}));
-  };
-  {
-    Serving service{on_bus({"serve", "--db", db})};
-    replay();
-    ASSERT_TRUE(eventually([&] {
-      return rows_of(db, kAllSamples) == kWholePass &&
-             number_of(db, "SELECT sum(received) FROM source_count") == 1185;
-    }));
-    service.signal(SIGKILL);
-    service.exit_status();
-  }
-  Serving service{on_bus({"serve", "--db", db})};
+  ReadyService service{kSeparation};
+  const auto db = service.db();
+  ASSERT_EQ(service.replay("0"), 0);
+  ASSERT_TRUE(eventually([&] {
+    return rows_of(db, kAllSamples) == kWholePass &&
+           number_of(db, "SELECT sum(received) FROM source_count") == 1185;
+  }));
+  service.kill_and_go_on();
   EXPECT_THAT(service.log(), HasSubstr("1185 samples read back"));
-  replay();
-  stop_in_order(service);
+  ASSERT_EQ(service.replay("0"), 0);
+  ASSERT_EQ(service.stop(), 0) << service.log();
   EXPECT_THAT(service.log(), Not(HasSubstr("samples are missing")));
   EXPECT_EQ(rows_of(db, kAllSamples), kWholePass);
   EXPECT_EQ(count_rows(db, "run"), 1);

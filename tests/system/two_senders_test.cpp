@@ -1,6 +1,4 @@
 #include <fmt/format.h>
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <filesystem>
 #include <fstream>
@@ -9,19 +7,13 @@
 #include <vector>
 
 #include "tests/support/archive_rows.h"
-#include "tests/support/count_rows.h"
 #include "tests/support/lines.h"
+#include "tests/support/matchers.h"
 #include "tests/support/ran.h"
 #include "tests/support/test_paths.h"
 #include "tests/support/text_of.h"
 
 namespace spindrift::two_senders_test {
-
-using ::testing::ElementsAre;
-using ::testing::HasSubstr;
-using ::testing::IsEmpty;
-using ::testing::Not;
-using ::testing::SizeIs;
 
 const std::filesystem::path kPass = test_data() / "faults" / "two-senders";
 
@@ -44,9 +36,8 @@ class TwoSenders : public ::testing::Test {
 
   Processed process(const std::string& name, const Words& telemetry) {
     db_ = folder_.path() / (name + ".db");
-    Words words{"process", "--mission", mission_, "--db", db_, "--json", "--telemetry"};
-    words.insert(words.end(), telemetry.begin(), telemetry.end());
-    const Ran program = succeeded(words);
+    const Ran program = succeeded(
+        with({"process", "--mission", mission_, "--db", db_, "--json", "--telemetry"}, telemetry));
     return {
         .run = program.json()["runs"][0],
         .attitudes = rows_of(

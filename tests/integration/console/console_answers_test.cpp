@@ -1,17 +1,12 @@
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include <string>
 
 #include "tests/integration/console/console_fixture.h"
+#include "tests/support/matchers.h"
 #include "tests/support/some_health.h"
 
 namespace spindrift::console_answers_test {
 namespace {
 
-using ::testing::ElementsAre;
-using ::testing::HasSubstr;
-using ::testing::Not;
 using ConsoleAnswers = ConsoleFixture;
 
 const std::string kAck = "/api/v1/alerts/00ff00ff00ff00ff/ack";

@@ -41,16 +41,13 @@ class ConsoleFixture : public testing::ArchiveFixture {
           .sigma = 0.1,
           .rejected_by = i == 50 ? std::optional{Rejection::SunAngle} : std::nullopt});
     }
-    EXPECT_TRUE(archive_->submit(run));
-    EXPECT_TRUE(archive_->flush());
+    commit(*archive_, run);
     desk_.take_up("SPINNER", kRun, alert());
-    auto server = ConsoleServer::start(
+    server_ = value_or_throw(ConsoleServer::start(
         {.address = "127.0.0.1:0", .names = {"Ship"}, .db = path()},
         {.feed = feed_, .desk = desk_, .archive = *archive_, .act = [this](const auto& action) {
            return act(action);
-         }});
-    EXPECT_TRUE(server) << server.error().message;
-    server_ = *std::move(server);
+         }}));
     client_.emplace(server_->url());
   }
 

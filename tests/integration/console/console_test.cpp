@@ -1,19 +1,23 @@
 #include <fmt/format.h>
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <list>
 #include <string>
 
 #include "tests/integration/console/console_fixture.h"
 #include "tests/support/eventually.h"
+#include "tests/support/matchers.h"
 #include "tests/support/some_health.h"
 
 namespace spindrift::console_test {
 namespace {
 
-using ::testing::HasSubstr;
-using Console = ConsoleFixture;
+struct Console : ConsoleFixture {
+  /// Starts another console on the same archive.
+  auto started_at(const std::string& address) {
+    return ConsoleServer::start({.address = address, .names = {}, .db = path()},
+                                {.feed = feed_, .desk = desk_, .archive = *archive_});
+  }
+};
 
 std::uint64_t last_id(const std::string& events) {
   return std::stoull(events.substr(events.rfind("\nid: ") + 5));
@@ -93,20 +97,14 @@ TEST_F(Console, RefusesConnectionsBeyondItsLimit) {
 }
 
 TEST_F(Console, SaysThatItsPortIsTaken) {
-  const auto second = ConsoleServer::start(
-      {.address = server_->url().substr(7, server_->url().size() - 8), .names = {}, .db = path()},
-      {.feed = feed_, .desk = desk_, .archive = *archive_});
-  ASSERT_FALSE(second);
-  EXPECT_EQ(second.error().code, ErrorCode::Unavailable);
-  EXPECT_THAT(second.error().message, HasSubstr("in use"));
+  const std::string url = server_->url();
+  EXPECT_THAT(started_at(url.substr(7, url.size() - 8)),
+              IsRefused(ErrorCode::Unavailable, HasSubstr("in use")));
 }
 
 TEST_F(Console, RefusesAnAddressThatIsNone) {
   for (const char* const address : {"", "ship:80", "127.0.0.1:x", "127.0.0.1:99999"}) {
-    const auto console = ConsoleServer::start({.address = address, .names = {}, .db = path()},
-                                              {.feed = feed_, .desk = desk_, .archive = *archive_});
-    ASSERT_FALSE(console) << address;
-    EXPECT_EQ(console.error().code, ErrorCode::InvalidConfiguration);
+    EXPECT_THAT(started_at(address), IsRefused(ErrorCode::InvalidConfiguration, _)) << address;
   }
 }
 

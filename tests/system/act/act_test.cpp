@@ -1,22 +1,15 @@
 // `spindrift act`: through a running service, across a kill of the service, and without one.
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include <string>
 #include <vector>
 
 #include "tests/support/archive_rows.h"
-#include "tests/support/count_rows.h"
+#include "tests/support/matchers.h"
 #include "tests/support/on_bus.h"
 #include "tests/support/ran.h"
 #include "tests/support/service.h"
 
 namespace spindrift::act_test {
-
-using ::testing::AllOf;
-using ::testing::ElementsAre;
-using ::testing::HasSubstr;
 
 std::vector<std::string> act(const std::filesystem::path& db, std::vector<std::string> more) {
   more.insert(more.begin(), {"act", "--db", db, "--spacecraft", "SPINNER", "--by", "shift"});

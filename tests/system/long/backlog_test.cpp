@@ -14,7 +14,6 @@
 
 #include "tests/support/archive_rows.h"
 #include "tests/support/bus_fixture.h"
-#include "tests/support/count_rows.h"
 #include "tests/support/on_bus.h"
 #include "tests/support/program.h"
 #include "tests/support/ran.h"

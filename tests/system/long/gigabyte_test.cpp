@@ -1,15 +1,12 @@
 #include <fmt/format.h>
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <fstream>
 
+#include "tests/support/matchers.h"
 #include "tests/support/program.h"
 #include "tests/support/test_paths.h"
 
 namespace spindrift::gigabyte_test {
-
-using ::testing::HasSubstr;
 
 /// Writes pulses at 100 rpm of another spacecraft, every block of a thousand in reverse order. They
 /// are read and sorted like others but only counted, which saves minutes against storing them.

@@ -5,8 +5,8 @@
 #include <list>
 #include <string>
 
+#include "tests/support/archive_rows.h"
 #include "tests/support/bus_child.h"
-#include "tests/support/count_rows.h"
 #include "tests/support/on_bus.h"
 #include "tests/support/ran.h"
 #include "tests/support/service.h"

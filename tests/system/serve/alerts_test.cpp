@@ -1,5 +1,3 @@
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <spindrift.h>
 
 #include <algorithm>
@@ -11,7 +9,7 @@
 #include "services/bus/qos.h"
 #include "services/publisher/product_messages.h"
 #include "tests/support/archive_rows.h"
-#include "tests/support/count_rows.h"
+#include "tests/support/matchers.h"
 #include "tests/support/on_bus.h"
 #include "tests/support/pass_with.h"
 #include "tests/support/processed.h"
@@ -21,9 +19,6 @@
 #include "tests/support/temporary_folder.h"
 
 namespace spindrift::serve_alerts_test {
-
-using ::testing::Each;
-using ::testing::ElementsAre;
 
 TEST(ServeAlerts, ArePublishedOnceOverARestartAndAcknowledgedThroughTheService) {
   const PassWith pass{kOffTarget};
@@ -161,10 +156,7 @@ TEST(ServeAlerts, SayThatTheFieldOfAMagnetometerEndsWithinADay) {
 TEST(ServeAlerts, SayThatAnotherServicePublishesTheSameSpacecraft) {
   Watched twice{"service.twice"};
   const TemporaryFolder folder;
-  Program other{{"serve", "--mission", twice.service.mission(), "--db", folder.path() / "other.db",
-                 "--domain", std::to_string(twice.service.bus().domain), "--partition",
-                 twice.service.bus().partition}};
-  ASSERT_TRUE(other.says("ready")) << other.log();
+  Serving other{twice.service.words({"serve", "--db", folder.path() / "other.db"})};
   ASSERT_TRUE(twice.front_end.send_until(0.1));
   EXPECT_TRUE(twice.is_published("active 1")) << twice.service.log();
   stop_in_order(other);

@@ -1,9 +1,6 @@
 #include <fmt/format.h>
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <algorithm>
-#include <csignal>
 #include <cstdint>
 #include <filesystem>
 #include <optional>
@@ -12,9 +9,9 @@
 
 #include "tests/support/archive_rows.h"
 #include "tests/support/bus_fixture.h"
-#include "tests/support/count_rows.h"
 #include "tests/support/eventually.h"
 #include "tests/support/http_client.h"
+#include "tests/support/matchers.h"
 #include "tests/support/on_bus.h"
 #include "tests/support/pass_with.h"
 #include "tests/support/ran.h"
@@ -22,8 +19,6 @@
 
 namespace spindrift::serve_console_test {
 namespace {
-
-using ::testing::HasSubstr;
 
 /// Runs a service with a console on a pass whose target attitude is far from the actual one.
 class ServedConsole : public ::testing::Test {
@@ -41,10 +36,7 @@ class ServedConsole : public ::testing::Test {
     succeeded(on(bus_, {"replay", "--mission", copy_.mission(), "--telemetry", copy_.folder.path(),
                         "--speed", "0"}));
   }
-  int stop() {
-    service_->signal(SIGTERM);
-    return service_->exit_status();
-  }
+  void stop() { stop_in_order(*service_); }
   const std::filesystem::path& db() const { return copy_.db; }
   nlohmann::json shown() { return client_->get_json("/api/v1/state")["spacecraft"]["SPINNER"]; }
 
@@ -77,7 +69,7 @@ TEST_F(ServedConsole, ShowsWhatTheArchiveHolds) {
               HasSubstr("spindrift_samples_committed_total 3600\n"));
   EventViewer missed = client_->watch("Last-Event-ID: 1\r\n");
   EXPECT_THAT(missed.until("event: pulse\n"), HasSubstr("id: "));
-  EXPECT_EQ(stop(), 0) << service_->log();
+  stop();
 }
 
 TEST_F(ServedConsole, TakesAnAcknowledgementAndKnowsItAfterARestart) {
@@ -102,17 +94,17 @@ TEST_F(ServedConsole, TakesAnAcknowledgementAndKnowsItAfterARestart) {
   ASSERT_EQ(reply.result_int(), 200U) << reply.body();
   viewer->until("event: alert\n");
   EXPECT_EQ(count_rows(db(), "alert_transition WHERE by = 'night shift'"), 1);
-  EXPECT_EQ(stop(), 0) << service_->log();
+  stop();
   viewer.reset();  // The viewer must be destroyed before its client.
   start();
   EXPECT_EQ(off_target()["state"], "acknowledged");
-  EXPECT_EQ(stop(), 0) << service_->log();
+  stop();
 }
 
 TEST_F(ServedConsole, ShowsTheRunOfBeforeUntilTheNextOneHasTelemetry) {
   replay();
   ASSERT_TRUE(eventually([&] { return count_rows(db(), "spin_estimate") > 590; }));
-  ASSERT_EQ(stop(), 0) << service_->log();
+  stop();
   const std::int64_t first_arrival = number_of(db(), "SELECT first_arrival FROM run");
   copy_.add("# better known now\n");
   start();
@@ -127,7 +119,7 @@ TEST_F(ServedConsole, ShowsTheRunOfBeforeUntilTheNextOneHasTelemetry) {
                    ->get_json("/api/v1/series?spacecraft=SPINNER&quantity=sun_angle&from=0"
                               "&to=9000000000000000000&points=100")["points"]
                    .empty());
-  EXPECT_EQ(stop(), 0) << service_->log();  // A run without samples is not stored.
+  stop();  // A run without samples is not stored.
   EXPECT_EQ(count_rows(db(), "run"), 1);
   start();
   replay();
@@ -137,11 +129,11 @@ TEST_F(ServedConsole, ShowsTheRunOfBeforeUntilTheNextOneHasTelemetry) {
                                         "code = 'new_run' AND first_arrival > {}",
                                         first_arrival)),
             1);
-  EXPECT_EQ(stop(), 0) << service_->log();
+  stop();
 }
 
 TEST_F(ServedConsole, ShowsResidualsThatTheArchiveDoesNotKeep) {
-  ASSERT_EQ(stop(), 0) << service_->log();
+  stop();
   std::filesystem::remove(db());
   copy_.add("[archive]\nresiduals = false\n");
   start();
@@ -151,7 +143,7 @@ TEST_F(ServedConsole, ShowsResidualsThatTheArchiveDoesNotKeep) {
   EXPECT_THAT(viewer.until("\"off_unit\":\"sigma\""), HasSubstr("event: pulse\n"));
   EXPECT_GT(count_rows(db(), "pulse_use"), 0);
   EXPECT_EQ(count_rows(db(), "edge_residual"), 0);
-  EXPECT_EQ(stop(), 0) << service_->log();
+  stop();
 }
 
 TEST_F(ServedConsole, EndsWithViewersConnected) {
@@ -160,7 +152,7 @@ TEST_F(ServedConsole, EndsWithViewersConnected) {
     viewers.push_back(client_->watch());
     viewers.back().until("event: state\n");
   }
-  EXPECT_EQ(stop(), 0) << service_->log();
+  stop();
 }
 
 TEST(ServeConsole, RefusesWhatIsNoAddress) {

@@ -1,8 +1,6 @@
 // `spindrift serve` when two front-ends give different values of the same samples.
 
 #include <fmt/format.h>
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <chrono>
 #include <csignal>
@@ -14,16 +12,14 @@
 #include "services/telemetry/telemetry_stream.h"
 #include "tests/support/archive_rows.h"
 #include "tests/support/bus_fixture.h"
-#include "tests/support/count_rows.h"
 #include "tests/support/eventually.h"
+#include "tests/support/matchers.h"
 #include "tests/support/on_bus.h"
 #include "tests/support/ran.h"
 #include "tests/support/service.h"
 #include "tests/support/test_paths.h"
 
 namespace spindrift::serve_contradiction_test {
-
-using ::testing::ElementsAre;
 
 const std::filesystem::path kPass = test_data() / "faults" / "two-senders";
 

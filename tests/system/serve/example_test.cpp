@@ -1,13 +1,9 @@
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include <string>
 
+#include "tests/support/matchers.h"
 #include "tests/support/on_bus.h"
 
 namespace spindrift::example_test {
-
-using ::testing::HasSubstr;
 
 TEST(Example, FollowsTheAnswersAndTheHealthOfAPass) {
   ReadyService service{"nominal"};

@@ -1,20 +1,15 @@
 // Senders that publish wrong samples without end fill neither the disk nor the log.
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include <algorithm>
 
 #include "services/publisher/telemetry_publisher.h"
 #include "tests/support/archive_rows.h"
-#include "tests/support/count_rows.h"
+#include "tests/support/matchers.h"
 #include "tests/support/on_bus.h"
 
 namespace spindrift::hostile_sender_test {
 
 using namespace std::chrono_literals;
-using ::testing::ElementsAre;
-using ::testing::HasSubstr;
 
 TEST(HostileSender, OfImpossibleSamplesFillsNoDiskAndIsCountedTruly) {
   ReadyService service{"nominal"};

@@ -1,6 +1,4 @@
 #include <fcntl.h>
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -9,16 +7,15 @@
 #include <string>
 #include <utility>
 
+#include "tests/support/archive_rows.h"
 #include "tests/support/bus_fixture.h"
-#include "tests/support/count_rows.h"
+#include "tests/support/matchers.h"
 #include "tests/support/on_bus.h"
 #include "tests/support/program.h"
 #include "tests/support/recorded_files.h"
 #include "tests/support/temporary_folder.h"
 
 namespace spindrift::serve_log_test {
-
-using ::testing::HasSubstr;
 
 /// Holds a named pipe and its reader.
 class Pipe {
@@ -30,8 +27,6 @@ class Pipe {
   ~Pipe() { close(reader_); }
   Pipe(const Pipe&) = delete;
   Pipe& operator=(const Pipe&) = delete;
-  Pipe(Pipe&&) = delete;
-  Pipe& operator=(Pipe&&) = delete;
 
   const std::string& path() const { return path_; }
 

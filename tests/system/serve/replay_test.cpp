@@ -1,13 +1,12 @@
 #include <fmt/format.h>
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
+#include "tests/support/archive_rows.h"
 #include "tests/support/bus_fixture.h"
-#include "tests/support/count_rows.h"
+#include "tests/support/matchers.h"
 #include "tests/support/on_bus.h"
 #include "tests/support/program.h"
 #include "tests/support/ran.h"
@@ -15,13 +14,9 @@
 
 namespace spindrift::replay_test {
 
-using ::testing::HasSubstr;
-
-const std::filesystem::path kData = test_data();
-const std::string kPass = (kData / "spin" / "nominal").string();
+const std::string kPass = (recorded_passes() / "nominal").string();
 const std::string kMission = kPass + "/mission.toml";
-const std::string kScenario =
-    (kData / ".." / ".." / "deploy" / "scenarios" / "gto-nominal.toml").string();
+const std::string kScenario = (scenarios() / "gto-nominal.toml").string();
 
 /// Commands that publish ten minutes of telemetry in ten minutes.
 const std::vector<std::vector<std::string>> kSenders = {
@@ -32,18 +27,15 @@ TEST(Sending, ToldToStopSaysHowFarItCameAndEndsWithOne) {
   for (const auto& sender : kSenders) {
     for (const int signal : {SIGINT, SIGTERM}) {
       SCOPED_TRACE(sender.front());
-      const TemporaryFolder folder;
-      const auto db = folder.path() / "served.db";
-      const bus::BusConfig bus = bus_of_its_own();
-      Serving service{on(bus, {"serve", "--mission", kMission, "--db", db})};
-      Program sending{on(bus, sender)};
+      ReadyService service{"nominal"};
+      Program sending{on(service.bus(), sender)};
       ASSERT_TRUE(sending.says("publishing")) << sending.log();
-      ASSERT_TRUE(eventually([&] { return count_rows(db, "pulse") > 0; }));
+      ASSERT_TRUE(eventually([&] { return count_rows(service.db(), "pulse") > 0; }));
       sending.signal(signal);
       EXPECT_EQ(sending.exit_status(), 1);
-      stop_in_order(service);
+      ASSERT_EQ(service.stop(), 0) << service.log();
 
-      const auto stored = count_rows(db, "pulse");
+      const auto stored = count_rows(service.db(), "pulse");
       const std::string error = nlohmann::json::parse(sending.out()).at("error");
       EXPECT_THAT(error, HasSubstr("stopped by a signal: " + std::to_string(stored) +
                                    " edges published, up to telemetry of "
@@ -74,8 +66,7 @@ void expect_plain(const std::string& text) {
 TEST(Sending, DrawsNothingInAPipe) {
   const TemporaryFolder folder;
   const bus::BusConfig bus = bus_of_its_own();
-  const auto db = folder.path() / "served.db";
-  Serving service{on(bus, {"serve", "--mission", kMission, "--db", db})};
+  Serving service{on(bus, {"serve", "--mission", kMission, "--db", folder.path() / "served.db"})};
   for (std::vector<std::string> sender : kSenders) {
     sender.insert(sender.end(), {"--speed", "0"});
     const Ran sending = succeeded(on(bus, sender));

@@ -1,5 +1,3 @@
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <spindrift.h>
 
 #include <algorithm>
@@ -14,12 +12,11 @@
 #include <vector>
 
 #include "services/bus/qos.h"
-#include "services/bus/telemetry_messages.h"
 #include "services/publisher/product_messages.h"
 #include "services/publisher/telemetry_publisher.h"
 #include "tests/support/archive_rows.h"
 #include "tests/support/bus_fixture.h"
-#include "tests/support/count_rows.h"
+#include "tests/support/matchers.h"
 #include "tests/support/on_bus.h"
 #include "tests/support/program.h"
 #include "tests/support/recorded_files.h"
@@ -29,10 +26,6 @@
 namespace spindrift::serve_restart_test {
 
 using namespace std::chrono_literals;
-using ::testing::ElementsAre;
-using ::testing::HasSubstr;
-using ::testing::IsEmpty;
-using ::testing::Not;
 
 TEST(Serve, LeavesAWholeArchiveWhenKilled) {
   ReadyService service{"gms5"};
@@ -55,27 +48,32 @@ TEST(Serve, LeavesAWholeArchiveWhenKilled) {
             0);
 }
 
-TEST(Serve, TellsAfterARestartHowFarTelemetryHadCome) {
-  for (const int signal : {SIGKILL, SIGTERM}) {
-    ReadyService service{"nominal"};
-    ASSERT_TRUE((FrontEnd{service.bus(), "SPINNER", pulses_of("nominal")}.send_until(0.1)));
-    ASSERT_TRUE(eventually([&] { return count_rows(service.db(), "pulse") == 360; }));
-    service.program().signal(signal);
-    static_cast<void>(service.program().exit_status());
+/// The parameter is the signal that ends the service.
+class ServeRestart : public ::testing::TestWithParam<int> {
+ protected:
+  static void restart(ReadyService& service) {
+    service.program().signal(GetParam());
+    ASSERT_EQ(service.program().exit_status(), GetParam() == SIGKILL ? -1 : 0);
     service.go_on();
-
-    const Subscriber health{service.bus(), bus::kHealthTopic};
-    std::vector<spindrift_SpacecraftHealth> links;
-    ASSERT_TRUE(eventually([&] {
-      health.take(
-          [&](const spindrift_Health& beat) { links.push_back(beat.spacecraft._buffer[0]); });
-      return !links.empty();
-    }));
-    EXPECT_EQ(links.back().link, spindrift_LINK_STALE);
-    EXPECT_EQ(links.back().last_sample_tai_ns,
-              number_of(service.db(), "SELECT max(t_tai_ns) FROM pulse"));
-    EXPECT_TRUE(std::isnan(links.back().data_age_s));
   }
+};
+
+TEST_P(ServeRestart, TellsHowFarTelemetryHadCome) {
+  ReadyService service{"nominal"};
+  ASSERT_TRUE((FrontEnd{service.bus(), "SPINNER", pulses_of("nominal")}.send_until(0.1)));
+  ASSERT_TRUE(eventually([&] { return count_rows(service.db(), "pulse") == 360; }));
+  restart(service);
+
+  const Subscriber health{service.bus(), bus::kHealthTopic};
+  std::vector<spindrift_SpacecraftHealth> links;
+  ASSERT_TRUE(eventually([&] {
+    health.take([&](const spindrift_Health& beat) { links.push_back(beat.spacecraft._buffer[0]); });
+    return !links.empty();
+  }));
+  EXPECT_EQ(links.back().link, spindrift_LINK_STALE);
+  EXPECT_EQ(links.back().last_sample_tai_ns,
+            number_of(service.db(), "SELECT max(t_tai_ns) FROM pulse"));
+  EXPECT_TRUE(std::isnan(links.back().data_age_s));
 }
 
 /// Returns the pulses with every 97th sent 50 later, either late by seconds or within the reorder
@@ -89,8 +87,6 @@ std::vector<Pulse> disordered_pulses(const std::string& pass) {
   return pulses;
 }
 
-class ServeRestart : public ::testing::TestWithParam<int> {};
-
 TEST_P(ServeRestart, IntoARunningPassGivesWhatNoRestartWouldHave) {
   const std::vector<Pulse> pulses = disordered_pulses("gms5");
   ReadyService whole{"gms5"};
@@ -102,9 +98,7 @@ TEST_P(ServeRestart, IntoARunningPassGivesWhatNoRestartWouldHave) {
   FrontEnd front_end{service.bus(), "GMS-5", pulses};
   for (const double share : {0.02, 0.5}) {
     ASSERT_TRUE(front_end.send_until(share));
-    service.program().signal(GetParam());
-    ASSERT_EQ(service.program().exit_status(), GetParam() == SIGKILL ? -1 : 0);
-    service.go_on();
+    restart(service);
   }
   ASSERT_TRUE(front_end.send_until(1.0));
   EXPECT_TRUE(
@@ -163,9 +157,7 @@ TEST_P(ServeRestart, AnnouncesNothingTwiceButWhatIsInForce) {
     ASSERT_TRUE(front_end.send_until(share));
     ASSERT_TRUE(eventually(
         [db = service.db(), least = fixes] { return count_rows(db, "spin_fix") > least; }));
-    service.program().signal(GetParam());
-    ASSERT_EQ(service.program().exit_status(), GetParam() == SIGKILL ? -1 : 0);
-    service.go_on();
+    restart(service);
   }
   ASSERT_TRUE(front_end.send_until(1.0));
   ASSERT_EQ(service.stop_when_computed(), 0) << service.log();
@@ -208,9 +200,7 @@ TEST(Serve, PublishesWhatIsInForceAgainAfterARestart) {
 TEST(Serve, CountsMissingSamplesOnceHoweverOftenTheyAreSentAgain) {
   ReadyService service{"nominal"};
   const auto participant = bus::Participant::create(service.bus()).value();
-  const auto front_end = bus::Writer<spindrift_Pulse>::create(participant, bus::topic_of<Pulse>(),
-                                                              bus::telemetry_writer_qos())
-                             .value();
+  const auto front_end = telemetry_writer<Pulse>(participant);
   const std::set<std::uint64_t> withheld = {100, 101, 102, 103, 250, 251, 400};
   const auto send = [&](std::uint64_t from, std::uint64_t end) {
     for (std::uint64_t seq = from; seq < end; ++seq) {
@@ -256,16 +246,12 @@ TEST(Serve, SaysWhenAChangedMissionFileBeginsANewRun) {
 
 /// Returns two passes with one revolution a second, just over an hour apart.
 std::vector<Pulse> two_passes() {
-  const auto pulse_at = [](std::int64_t t_s) {
-    return Pulse{.t = tai_from_ns(kTestTime_tai_ns + t_s * 1'000'000'000),
-                 .channel = PulseChannel::Sun1};
-  };
   std::vector<Pulse> pulses;
-  for (std::int64_t t_s = 0; t_s < 100; ++t_s) {
-    pulses.push_back(pulse_at(t_s));
-  }
-  for (std::int64_t t_s = 99 + 3601; t_s < 3800; ++t_s) {
-    pulses.push_back(pulse_at(t_s));
+  for (const std::int64_t first_s : {0, 3700}) {
+    for (std::int64_t t_s = first_s; t_s < first_s + 100; ++t_s) {
+      pulses.push_back({.t = tai_from_ns(kTestTime_tai_ns + t_s * 1'000'000'000),
+                        .channel = PulseChannel::Sun1});
+    }
   }
   return pulses;
 }

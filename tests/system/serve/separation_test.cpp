@@ -1,5 +1,3 @@
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <spindrift.h>
 
 #include <Eigen/Geometry>
@@ -16,7 +14,7 @@
 #include "services/publisher/product_messages.h"
 #include "tests/support/archive_rows.h"
 #include "tests/support/bus_fixture.h"
-#include "tests/support/count_rows.h"
+#include "tests/support/matchers.h"
 #include "tests/support/on_bus.h"
 #include "tests/support/processed.h"
 #include "tests/support/ran.h"
@@ -27,29 +25,23 @@
 
 namespace spindrift::serve_separation_test {
 
-using ::testing::ElementsAre;
 using ::testing::Eq;
-using ::testing::HasSubstr;
 using ::testing::Pointwise;
 
 const std::filesystem::path kSeparation = test_data() / "three-axis" / "separation";
 
 /// Returns the reconstructed rows without the names of runs.
 std::vector<std::string> reconstructed_rows(const std::filesystem::path& db) {
-  std::vector<std::string> rows;
-  for (const char* query :
-       {"SELECT method, event, t_tai_ns, found, qx, qy, qz, qw, rate_x_rad_s, rate_y_rad_s, "
-        "rate_z_rad_s, euler312_orbit_deg_1, euler312_orbit_deg_2, euler312_orbit_deg_3, "
-        "sigma_deg, bound_deg FROM reconstruction_event ORDER BY 1, 2",
-        "SELECT method, t_tai_ns, quality, reasons, status, samples, gyro_samples, sun_vectors, "
-        "star_fixes, bias_x_rad_s, bias_sigma_z_rad_s FROM reconstruction ORDER BY 1",
-        "SELECT t_tai_ns, source, qx, qy, qz, qw, rate_x_rad_s, sigma_deg, quality, status FROM "
-        "attitude ORDER BY 2, 1"}) {
-    for (std::string& row : rows_of(db, query)) {
-      rows.push_back(std::move(row));
-    }
-  }
-  return rows;
+  return rows_of(
+      db,
+      std::vector<std::string>{
+          "SELECT method, event, t_tai_ns, found, qx, qy, qz, qw, rate_x_rad_s, rate_y_rad_s, "
+          "rate_z_rad_s, euler312_orbit_deg_1, euler312_orbit_deg_2, euler312_orbit_deg_3, "
+          "sigma_deg, bound_deg FROM reconstruction_event ORDER BY 1, 2",
+          "SELECT method, t_tai_ns, quality, reasons, status, samples, gyro_samples, sun_vectors, "
+          "star_fixes, bias_x_rad_s, bias_sigma_z_rad_s FROM reconstruction ORDER BY 1",
+          "SELECT t_tai_ns, source, qx, qy, qz, qw, rate_x_rad_s, sigma_deg, quality, status FROM "
+          "attitude ORDER BY 2, 1"});
 }
 
 /// Collects all published attitudes.

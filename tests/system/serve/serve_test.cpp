@@ -1,7 +1,5 @@
 // `spindrift serve` fed by `spindrift replay`: real processes, DDS and archive.
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <spindrift.h>
 
 #include <map>
@@ -13,7 +11,7 @@
 #include "tests/support/archive_rows.h"
 #include "tests/support/bus_child.h"
 #include "tests/support/bus_fixture.h"
-#include "tests/support/count_rows.h"
+#include "tests/support/matchers.h"
 #include "tests/support/on_bus.h"
 #include "tests/support/processed.h"
 #include "tests/support/program.h"
@@ -24,9 +22,6 @@
 namespace spindrift::serve_test {
 
 using namespace std::chrono_literals;
-using ::testing::ElementsAre;
-using ::testing::HasSubstr;
-using ::testing::StartsWith;
 
 TEST(Serve, GivesTheRowsOfProcessBitForBitAndCountsWhatItsSourceSent) {
   ReadyService service{"gms5"};
@@ -135,21 +130,15 @@ TEST(Serve, StoresAnEdgeOnceHoweverOftenItArrives) {
 
 TEST(Serve, StoresWhatCannotBeTrueWithItsReason) {
   ReadyService service{"nominal"};
-  const auto participant = bus::Participant::create(service.bus()).value();
-  auto front_end = TelemetryPublisher<Pulse>::create(participant, "front-end").value();
-  ASSERT_TRUE(front_end.wait_for_subscriber(30s));
-  const std::stop_token never;
-  const Pulse pulse{.t = tai_from_ns(1795143637568806257), .channel = PulseChannel::Sun1};
-  ASSERT_TRUE(
-      front_end.publish("SPINNER", {.t = tai_from_ns(-1), .channel = pulse.channel}, never));
-  ASSERT_TRUE(front_end.publish("SPINNER", pulse, never));
-  ASSERT_TRUE(front_end.wait_for_acknowledgments(30s));
+  FrontEnd front_end{service.bus(),
+                     "SPINNER",
+                     {{.t = tai_from_ns(-1), .channel = PulseChannel::Sun1},
+                      {.t = tai_from_ns(kTestTime_tai_ns), .channel = PulseChannel::Sun1}}};
+  ASSERT_TRUE(front_end.send_until(1.0));
   ASSERT_EQ(service.stop(), 0) << service.log();
 
-  const auto rows =
-      rows_of(service.db(), "SELECT source, line, reason FROM rejected_input ORDER BY 2");
-  ASSERT_EQ(rows.size(), 1U);
-  EXPECT_THAT(rows[0], HasSubstr("front-end|0|"));
+  EXPECT_THAT(rows_of(service.db(), "SELECT source, line, reason FROM rejected_input"),
+              ElementsAre(HasSubstr("front-end|0|")));
   EXPECT_EQ(count_rows(service.db(), "pulse"), 1);
 }
 
@@ -177,12 +166,15 @@ TEST(Serve, LeavesTheSpacecraftOfOthersAlone) {
   expect_said_once(service.program().log(), "'OTHER'");
 }
 
-TEST(Serve, SaysAtTheEndOfARunWhichEstimatorsDisagree) {
+TEST(Serve, SaysThatTheHostsClockDiffersAndAtTheEndWhichEstimatorsDisagree) {
   const PassCopy pass{"nominal"};
   pass.replace("mount_angle_deg = 85", "mount_angle_deg = 86");
   ReadyService service{pass.folder.path().string()};
   ASSERT_TRUE(service.serves_its_pass()) << service.log();
-  EXPECT_THAT(service.log(), HasSubstr("SPINNER: sequential and batch disagree"));
+  const std::string log = service.log();
+  const std::string of_first_start = log.substr(0, log.find("stopping"));
+  expect_said_once(of_first_start, "and the clock of this host");
+  EXPECT_THAT(log, HasSubstr("SPINNER: sequential and batch disagree"));
   EXPECT_EQ(service.summary()["runs"][0]["disagreements"][0]["other"], "batch");
 }
 
@@ -193,14 +185,6 @@ TEST(Serve, CallsItsRunAReplayInThatPartition) {
       rows_of(service.db(), "SELECT mode, telemetry FROM run JOIN run_telemetry USING (run_id)"),
       ElementsAre("replay|DDS domain " + std::to_string(service.bus().domain) +
                   ", partition replay|"));
-}
-
-TEST(Serve, RefusesASecondWriterAndNamesTheHolder) {
-  ReadyService service{"nominal"};
-  refused({"process", "--mission", service.mission(), "--telemetry", kPasses / "nominal", "--db",
-           service.db()},
-          {"pid"}, 1);
-  ASSERT_EQ(service.stop(), 0) << service.log();
 }
 
 TEST(Serve, StopsAcceptingLoudlyWhenTheDiskIsFullAndEndsWithOne) {
@@ -237,20 +221,15 @@ TEST(Serve, NamesAWriterWhoseQosDoesNotDo) {
   ASSERT_EQ(service.stop(), 0) << service.log();
 }
 
-TEST(Serve, RefusesTwoMissionsOfOneSpacecraft) {
-  const TemporaryFolder folder;
-  const std::string mission = (kPasses / "nominal" / "mission.toml").string();
-  refused({"serve", "--mission", mission, mission, "--db", folder.path() / "out.db"}, {"SPINNER"});
-}
-
-TEST(Serve, TellsOfAllBadMissionFilesAtOnce) {
+TEST(Serve, RefusesTwoMissionsOfOneSpacecraftAndTellsOfAllBadFilesAtOnce) {
   const TemporaryFolder folder;
   const std::string good = (kPasses / "nominal" / "mission.toml").string();
   const auto bad = folder.write("bad.toml", "[spacecraft]\nid = \"BAD\"\n");
   const auto worse = folder.write("worse.toml", "not a mission file");
-  refused({"serve", "--mission", good, bad, worse, "--db", folder.path() / "out.db"},
-          {"bad.toml", "worse.toml"});
-  EXPECT_FALSE(std::filesystem::exists(folder.path() / "out.db"));
+  const auto db = folder.path() / "out.db";
+  refused({"serve", "--mission", good, good, "--db", db}, {"SPINNER"});
+  refused({"serve", "--mission", good, bad, worse, "--db", db}, {"bad.toml", "worse.toml"});
+  EXPECT_FALSE(std::filesystem::exists(db));
 }
 
 TEST(Serve, GivesEachOfSeveralMissionsTheRowsOfItsOwnService) {
@@ -284,14 +263,11 @@ TEST(Serve, GivesEachOfSeveralMissionsTheRowsOfItsOwnService) {
 }
 
 TEST(Serve, CountsASourceOnceForAllItsMissions) {
-  const TemporaryFolder folder;
-  std::string other = text_of(kPasses / "nominal" / "mission.toml");
-  other.replace(other.find("SPINNER"), 7, "SECOND");
-  folder.write("mission.toml", other);
-  std::filesystem::copy(kPasses / "nominal" / "orbit.oem", folder.path() / "orbit.oem");
+  const PassCopy other{"nominal"};
+  other.replace("SPINNER", "SECOND");
   const std::string first = (kPasses / "nominal" / "mission.toml").string();
-  const std::string second = (folder.path() / "mission.toml").string();
-  const std::filesystem::path db = folder.path() / "out.db";
+  const std::string second = other.mission();
+  const auto& db = other.db;
   const bus::BusConfig bus = bus_of_its_own();
   Serving service{on(bus, {"serve", "--mission", first, second, "--db", db})};
   for (const std::string& mission : {first, second}) {

@@ -24,8 +24,6 @@ class Manager {
   ~Manager() { ::close(socket_); }
   Manager(const Manager&) = delete;
   Manager& operator=(const Manager&) = delete;
-  Manager(Manager&&) = delete;
-  Manager& operator=(Manager&&) = delete;
 
   /// Waits for a notification that contains `word`.
   bool hears(const std::string& word) {
@@ -49,12 +47,10 @@ TEST(ServiceManager, HearsThatTheServiceIsReadyLivesAndStops) {
   const TemporaryFolder folder;
   const auto path = folder.path() / "notify";
   Manager manager{path};
-  const bus::BusConfig bus = bus_of_its_own();
   Program service{"/usr/bin/env",
-                  {"NOTIFY_SOCKET=" + path.string(), spindrift_program(), "serve", "--mission",
-                   (kPasses / "nominal" / "mission.toml").string(), "--db",
-                   (folder.path() / "served.db").string(), "--domain", std::to_string(bus.domain),
-                   "--partition", bus.partition}};
+                  on(bus_of_its_own(),
+                     {"NOTIFY_SOCKET=" + path.string(), spindrift_program(), "serve", "--mission",
+                      kPasses / "nominal" / "mission.toml", "--db", folder.path() / "served.db"})};
   EXPECT_TRUE(manager.hears("READY=1")) << service.log();
   EXPECT_TRUE(manager.hears("WATCHDOG=1")) << service.log();
   service.signal(SIGTERM);

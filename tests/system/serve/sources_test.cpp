@@ -1,6 +1,3 @@
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <chrono>
 #include <iterator>
@@ -9,17 +6,14 @@
 
 #include "tests/support/archive_rows.h"
 #include "tests/support/eventually.h"
+#include "tests/support/matchers.h"
 #include "tests/support/on_bus.h"
 #include "tests/support/service.h"
 
 namespace spindrift::serve_sources_test {
 
 using namespace std::chrono_literals;
-using ::testing::AllOf;
 using ::testing::ContainsRegex;
-using ::testing::HasSubstr;
-using ::testing::IsEmpty;
-using ::testing::Not;
 
 std::vector<Pulse> alien_pulses(TaiTime first, int count) {
   std::vector<Pulse> pulses;
@@ -203,16 +197,6 @@ TEST_F(ServeSources, OneThatBeginsWithItsLastMinutesCatchesUp) {
   EXPECT_EQ(number("SELECT count(*) FROM run"), 1) << log;
   EXPECT_EQ(number("SELECT count(*) FROM pulse WHERE arrival < 0"), 0) << log;
   EXPECT_EQ(last_batch_rows(service_.db()), whole().batch) << log;
-}
-
-TEST(ServeLive, TheClockOfTheHostIsComparedOnce) {
-  ReadyService service{"nominal"};
-  ASSERT_TRUE((FrontEnd{service.bus(), "SPINNER", pulses_of("nominal")}.send_until(1.0)));
-  ASSERT_EQ(service.stop_when_computed(), 0) << service.log();
-  const std::string whole_log = service.log();
-  // Log of the first start.
-  const std::string log = whole_log.substr(0, whole_log.find("stopping"));
-  expect_said_once(log, "and the clock of this host");
 }
 
 }  // namespace spindrift::serve_sources_test

@@ -1,6 +1,4 @@
 #include <fcntl.h>
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
 #include <pty.h>
 #include <sys/ioctl.h>
 #include <unistd.h>
@@ -14,6 +12,7 @@
 #include "tests/support/bus_fixture.h"
 #include "tests/support/eventually.h"
 #include "tests/support/lines.h"
+#include "tests/support/matchers.h"
 #include "tests/support/on_bus.h"
 #include "tests/support/pass_with.h"
 #include "tests/support/program.h"
@@ -22,9 +21,6 @@
 namespace spindrift::serve_terminal_test {
 
 using ::testing::AnyOf;
-using ::testing::HasSubstr;
-using ::testing::Not;
-using ::testing::StartsWith;
 
 /// Holds a pseudo-terminal with 80 columns.
 class Terminal {
@@ -42,8 +38,6 @@ class Terminal {
   }
   Terminal(const Terminal&) = delete;
   Terminal& operator=(const Terminal&) = delete;
-  Terminal(Terminal&&) = delete;
-  Terminal& operator=(Terminal&&) = delete;
 
   const std::string& name() const { return name_; }
   /// Returns all text written so far.

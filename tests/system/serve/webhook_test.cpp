@@ -1,7 +1,3 @@
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <algorithm>
 #include <atomic>
 #include <boost/asio.hpp>
 #include <boost/beast.hpp>
@@ -14,7 +10,7 @@
 #include <vector>
 
 #include "tests/support/archive_rows.h"
-#include "tests/support/count_rows.h"
+#include "tests/support/matchers.h"
 #include "tests/support/on_bus.h"
 #include "tests/support/pass_with.h"
 #include "tests/support/service.h"
@@ -22,7 +18,6 @@
 namespace spindrift::webhook_test {
 
 namespace http = boost::beast::http;
-using ::testing::HasSubstr;
 
 /// Receives HTTP POST requests.
 class Receiver {
@@ -38,8 +33,6 @@ class Receiver {
   }
   Receiver(const Receiver&) = delete;
   Receiver& operator=(const Receiver&) = delete;
-  Receiver(Receiver&&) = delete;
-  Receiver& operator=(Receiver&&) = delete;
 
   std::string url() const {
     return "http://127.0.0.1:" + std::to_string(acceptor_.local_endpoint().port()) +
@@ -106,13 +99,19 @@ struct Told {
   }
 };
 
-bool tells_off_target(const Receiver& receiver) {
-  const auto alerts = receiver.alerts();
-  return std::any_of(alerts.begin(), alerts.end(), [](const nlohmann::json& alert) {
-    return alert["labels"]["alertname"] == "spin.off_target" &&
-           alert["labels"]["spacecraft"] == "SPINNER";
-  });
+/// Returns the different labels of the alert that the target is off.
+std::set<nlohmann::json> labels_of_off_target(const Receiver& receiver) {
+  std::set<nlohmann::json> labels;
+  for (const nlohmann::json& alert : receiver.alerts()) {
+    if (alert["labels"]["alertname"] == "spin.off_target" &&
+        alert["labels"]["spacecraft"] == "SPINNER") {
+      labels.insert(alert["labels"]);
+    }
+  }
+  return labels;
 }
+
+bool tells_off_target(const Receiver& receiver) { return !labels_of_off_target(receiver).empty(); }
 
 TEST(Webhook, IsToldOfTheAlertsOfALiveService) {
   const Receiver receiver;
@@ -120,16 +119,6 @@ TEST(Webhook, IsToldOfTheAlertsOfALiveService) {
   told.send_pass();
   EXPECT_TRUE(eventually([&] { return tells_off_target(receiver); })) << told.service.log();
   stop_in_order(told.service);
-}
-
-std::set<nlohmann::json> labels_of_off_target(const Receiver& receiver) {
-  std::set<nlohmann::json> labels;
-  for (const nlohmann::json& alert : receiver.alerts()) {
-    if (alert["labels"]["alertname"] == "spin.off_target") {
-      labels.insert(alert["labels"]);
-    }
-  }
-  return labels;
 }
 
 TEST(Webhook, IsToldTheSameLabelsAfterARestart) {
