@@ -5,9 +5,11 @@
 
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "pipelines/ground_model/comparison/departure_watch.h"
+#include "tests/support/matchers.h"
 
 namespace spindrift::testing {
 
@@ -30,6 +32,14 @@ inline std::map<std::string, double> departures_s(const ByChannel& all, TaiTime 
     }
   }
   return departed;
+}
+
+/// Expects that this channel alone departed, between these times.
+inline void expect_only(const std::map<std::string, double>& departed_s, const std::string& channel,
+                        const std::pair<double, double>& between_s) {
+  EXPECT_THAT(departed_s,
+              ElementsAre(::testing::Pair(channel, AllOf(::testing::Ge(between_s.first),
+                                                         ::testing::Le(between_s.second)))));
 }
 
 }  // namespace spindrift::testing

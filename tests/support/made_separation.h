@@ -94,4 +94,14 @@ inline SeparationReport made_report() {
                       made_product(ReconstructionMethod::Sequential)}};
 }
 
+/// Returns a report with `batch` alone after a change.
+template <class Change>
+SeparationReport report_after(const Change& change) {
+  ReconstructedSeparation separation = made_separation(ReconstructionMethod::Batch);
+  change(separation);
+  return {.spacecraft_id = "LEOSAT",
+          .run_id = "run-1",
+          .methods = {std::make_shared<const ReconstructedSeparation>(separation)}};
+}
+
 }  // namespace spindrift::testing

@@ -90,6 +90,11 @@ struct Scene : Surroundings {
   }
 };
 
+/// Runs each test on a scene of its own.
+struct SequentialOnAScene : ::testing::Test {
+  Scene scene;
+};
+
 /// Returns the revolutions without the sun edges, which leaves a cone of axes about the Earth.
 inline std::vector<ObservedRevolution> without_sun(std::vector<ObservedRevolution> seen) {
   for (ObservedRevolution& observed : seen) {

@@ -17,12 +17,22 @@ namespace spindrift::alert_desk_test {
 
 TaiTime at(double t_s) { return shifted(tai_from_ns(1'795'143'637'000'000'000), t_s); }
 
-ArchiveBatch batch_of_run() { return {.run_id = "run", .spacecraft_id = "SPINNER"}; }
+ArchiveBatch batch_of_run(const std::string& spacecraft = "SPINNER") {
+  return {.run_id = "run", .spacecraft_id = spacecraft};
+}
 
-ArchiveBatch beginning() {
-  ArchiveBatch batch = batch_of_run();
+ArchiveBatch beginning(const std::string& spacecraft = "SPINNER") {
+  ArchiveBatch batch = batch_of_run(spacecraft);
   batch.start.emplace().mode = RunMode::Live;
   return batch;
+}
+
+Mission spinner() { return load_mission(recorded_passes() / "nominal" / "mission.toml").value(); }
+
+Mission three_axis() {
+  Mission mission = load_mission(test_data() / "mission" / "separation.toml").value();
+  mission.spacecraft_id = "LEOSAT";
+  return mission;
 }
 
 std::vector<std::string> changes_in(const ArchiveBatch& batch) {
@@ -36,11 +46,10 @@ std::vector<std::string> changes_in(const ArchiveBatch& batch) {
 
 /// Holds the alert desk of a running service.
 struct Served {
-  AlertDesk desk{{load_mission(recorded_passes() / "nominal" / "mission.toml").value()},
-                 RunMode::Live};
+  AlertDesk desk;
 
-  Served() {
-    ArchiveBatch start = beginning();
+  explicit Served(const Mission& mission = spinner()) : desk{{mission}, RunMode::Live} {
+    ArchiveBatch start = beginning(mission.spacecraft_id);
     desk.evaluate(start);
     desk.note_stored({&start, 1});
   }
@@ -65,8 +74,7 @@ TEST(AlertDesk, GivesWhatTheServiceRaisesAndClears) {
 }
 
 TEST(AlertDesk, GivesNothingOfARunThatIsNotStored) {
-  AlertDesk desk{{load_mission(recorded_passes() / "nominal" / "mission.toml").value()},
-                 RunMode::Live};
+  AlertDesk desk{{spinner()}, RunMode::Live};
   ArchiveBatch start = beginning();
   desk.evaluate(start);
   const std::map<std::string, ServiceState> silent{
@@ -110,7 +118,7 @@ TEST(AlertDesk, GoesOnWithOpenAlertsOfBefore) {
 
 /// Returns gyro samples once a second and star fixes up to 10 s, of a three-axis spacecraft.
 ArchiveBatch samples_until(int end_s) {
-  ArchiveBatch batch{.run_id = "run", .spacecraft_id = "LEOSAT"};
+  ArchiveBatch batch = batch_of_run("LEOSAT");
   std::int64_t arrival = 0;
   for (int t_s = 0; t_s < end_s; ++t_s) {
     batch.samples.of<GyroSample>().push_back(
@@ -123,46 +131,29 @@ ArchiveBatch samples_until(int end_s) {
   return batch;
 }
 
-struct ServedThreeAxis {
-  AlertDesk desk;
-
-  explicit ServedThreeAxis(const Mission& mission = three_axis_mission())
-      : desk{{mission}, RunMode::Live} {
-    ArchiveBatch start{.run_id = "run", .spacecraft_id = "LEOSAT"};
-    start.start.emplace().mode = RunMode::Live;
-    desk.evaluate(start);
-    desk.note_stored({&start, 1});
-  }
-  static Mission three_axis_mission() {
-    Mission mission = load_mission(test_data() / "mission" / "separation.toml").value();
-    mission.spacecraft_id = "LEOSAT";
-    return mission;
-  }
-};
-
 /// Returns the changes with the batch of products behind 20 s of samples.
 std::vector<std::string> changes_behind_samples(const Mission& mission) {
-  ServedThreeAxis served{mission};
+  Served served{mission};
   ArchiveBatch samples = samples_until(20);
   served.desk.evaluate(samples);
   EXPECT_TRUE(samples.products.empty());
-  ArchiveBatch products{.run_id = "run", .spacecraft_id = "LEOSAT"};
+  ArchiveBatch products = batch_of_run("LEOSAT");
   served.desk.evaluate(products);
   return changes_in(products);
 }
 
 TEST(AlertDesk, KeepsWhatSamplesRaiseForABatchWithoutSamplesIfTheMissionHasTheSensor) {
-  Mission mission = ServedThreeAxis::three_axis_mission();
+  Mission mission = three_axis();
   EXPECT_EQ(changes_behind_samples(mission), Changes{"channel.silent:star active"});
   ASSERT_EQ(mission.tables.erase("three_axis.star_tracker"), 1U);
   EXPECT_THAT(changes_behind_samples(mission), IsEmpty());
 }
 
 TEST(AlertDesk, RaisesWhatWasNotStoredBeforeARestartAgainUnderTheSameId) {
-  ServedThreeAxis before;
+  Served before{three_axis()};
   ArchiveBatch samples = samples_until(20);
   before.desk.evaluate(samples);
-  ServedThreeAxis restarted;
+  Served restarted{three_axis()};
   PlacedValues again;
   samples.samples.for_each([&]<class Value>(const ArrivedSamplesOfKind<Value>& of_kind) {
     for (const auto& sample : of_kind) {

@@ -1,6 +1,6 @@
 #include "services/alerts/firing_alerts.h"
 
-#include <gtest/gtest.h>
+#include "tests/support/matchers.h"
 
 namespace spindrift::firing_alerts_test {
 

@@ -56,6 +56,10 @@ std::vector<std::string> names_of(const std::vector<ArchiveBatch>& batches) {
   return names;
 }
 
+struct LongBatchQueue : ::testing::Test {
+  BatchQueue queue{100'000};
+};
+
 TEST(BatchQueue, GivesSamplesFirstAndAllWhenThereAreFew) {
   BatchQueue queue{1000};
   push(queue, results(10), samples(10), results(10));
@@ -71,8 +75,7 @@ TEST(BatchQueue, BeginsARunBeforeItsSamplesWhateverIsToldWithIt) {
   EXPECT_THAT(names_of(queue.take()), ElementsAre("first", "samples"));
 }
 
-TEST(BatchQueue, LetsProductsWaitInABurstOfSamplesButNotForEver) {
-  BatchQueue queue{100'000};
+TEST_F(LongBatchQueue, LetsProductsWaitInABurstOfSamplesButNotForEver) {
   push(queue, results(500), results(500), samples(3200));
   EXPECT_THAT(names_of(queue.take()), ElementsAre("samples", "results"));
   push(queue, samples(800));
@@ -81,30 +84,26 @@ TEST(BatchQueue, LetsProductsWaitInABurstOfSamplesButNotForEver) {
   EXPECT_THAT(names_of(queue.take()), ElementsAre("samples", "results"));
 }
 
-TEST(BatchQueue, ForgetsWhatABurstOwesOnceItIsOver) {
-  BatchQueue queue{100'000};
+TEST_F(LongBatchQueue, ForgetsWhatABurstOwesOnceItIsOver) {
   push(queue, results(50'000), results(10), samples(200));
   EXPECT_THAT(names_of(queue.take()), ElementsAre("samples", "results"));
   EXPECT_THAT(names_of(queue.take()), ElementsAre("results"));
 }
 
-TEST(BatchQueue, LetsDetailsWaitForACommitWithoutResults) {
-  BatchQueue queue{100'000};
+TEST_F(LongBatchQueue, LetsDetailsWaitForACommitWithoutResults) {
   push(queue, details(100), results(1), samples(1));
   EXPECT_THAT(names_of(queue.take()), ElementsAre("samples", "results"));
   EXPECT_EQ(queue.size(), 1U);
   EXPECT_THAT(names_of(queue.take()), ElementsAre("details"));
 }
 
-TEST(BatchQueue, TakesManyDetailsAlongWithResults) {
-  BatchQueue queue{100'000};
+TEST_F(LongBatchQueue, TakesManyDetailsAlongWithResults) {
   push(queue, details(9000), results(1));
   EXPECT_THAT(names_of(queue.take()), ElementsAre("results", "details"));
 }
 
-TEST(BatchQueue, GivesAFewDetailsLate) {
+TEST_F(LongBatchQueue, GivesAFewDetailsLate) {
   using std::chrono::steady_clock;
-  BatchQueue queue{100'000};
   const auto start = steady_clock::now();
   push(queue, details(1), details(1));
   EXPECT_THAT(names_of(queue.take()), ElementsAre("details", "details"));
@@ -134,8 +133,7 @@ TEST(BatchQueue, GivesAFewSamplesAtOnceThoughDetailsWait) {
   GTEST_SKIP() << "the machine is too busy to be in time";
 }
 
-TEST(BatchQueue, EndsARunAfterItsDetails) {
-  BatchQueue queue{100'000};
+TEST_F(LongBatchQueue, EndsARunAfterItsDetails) {
   ArchiveBatch end = batch_of("A");
   end.finished_utc = "2026-11-20T04:00:00Z";
   push(queue, details(3, "B"), details(3, "A"), std::move(end));
@@ -144,8 +142,7 @@ TEST(BatchQueue, EndsARunAfterItsDetails) {
   EXPECT_TRUE(taken.back().finished_utc);
 }
 
-TEST(BatchQueue, WithdrawsDetailsFromBeforeAndNotThoseMadeAgain) {
-  BatchQueue queue{100'000};
+TEST_F(LongBatchQueue, WithdrawsDetailsFromBeforeAndNotThoseMadeAgain) {
   ArchiveBatch again = results(1, "A");
   again.continuation = Continuation{.t = TaiTime::min()};
   push(queue, details(3, "A"), std::move(again), details(100, "A"));

@@ -1,10 +1,10 @@
 #include "services/archive/detail_lane.h"
 
-#include <gtest/gtest.h>
-
 #include <chrono>
 #include <string>
 #include <vector>
+
+#include "tests/support/matchers.h"
 
 namespace spindrift::detail_lane_test {
 

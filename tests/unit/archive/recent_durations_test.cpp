@@ -1,6 +1,6 @@
 #include "services/archive/recent_durations.h"
 
-#include <gtest/gtest.h>
+#include "tests/support/matchers.h"
 
 namespace spindrift::recent_durations_test {
 

@@ -2,7 +2,7 @@
 
 #include "services/base/bias_words.h"
 
-#include <gtest/gtest.h>
+#include "tests/support/matchers.h"
 
 namespace spindrift::bias_words_test {
 

@@ -1,6 +1,6 @@
 #include "services/base/counted.h"
 
-#include <gtest/gtest.h>
+#include "tests/support/matchers.h"
 
 namespace spindrift::counted_test {
 

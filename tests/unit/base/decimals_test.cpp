@@ -1,8 +1,8 @@
 #include "services/base/decimals.h"
 
-#include <gtest/gtest.h>
-
 #include <limits>
+
+#include "tests/support/matchers.h"
 
 namespace spindrift::decimals_test {
 

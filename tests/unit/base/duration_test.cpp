@@ -1,6 +1,6 @@
 #include "services/base/duration.h"
 
-#include <gtest/gtest.h>
+#include "tests/support/matchers.h"
 
 namespace spindrift::duration_test {
 

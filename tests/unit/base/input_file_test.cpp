@@ -21,8 +21,11 @@ std::string refusal_of(const std::filesystem::path& path) {
   return text.error().message;
 }
 
-TEST(InputFile, IsReadWholeThroughALinkToo) {
+struct InputFileTest : ::testing::Test {
   const TemporaryFolder folder;
+};
+
+TEST_F(InputFileTest, IsReadWholeThroughALinkToo) {
   const std::string text(300'000, 'x');
   const auto path = folder.write("a.txt", text);
   EXPECT_EQ(read_text_file(path).value(), text);
@@ -31,8 +34,7 @@ TEST(InputFile, IsReadWholeThroughALinkToo) {
   EXPECT_EQ(read_text_file(folder.write("empty.txt", "")).value(), "");
 }
 
-TEST(InputFile, DigestOfSeveralIsThatOfAllTheirBytes) {
-  const TemporaryFolder folder;
+TEST_F(InputFileTest, DigestOfSeveralIsThatOfAllTheirBytes) {
   const std::string text(300'000, 'x');
   const std::array paths{folder.write("a.txt", text), folder.write("empty.txt", ""),
                          folder.write("b.txt", "b")};
@@ -41,8 +43,7 @@ TEST(InputFile, DigestOfSeveralIsThatOfAllTheirBytes) {
   EXPECT_FALSE(sha256_hex(std::array{paths[2], folder.path() / "none"}));
 }
 
-TEST(InputFile, ThatIsNoRegularFileIsRefusedAtOnce) {
-  const TemporaryFolder folder;
+TEST_F(InputFileTest, ThatIsNoRegularFileIsRefusedAtOnce) {
   const auto pipe = folder.path() / "pipe";
   ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
   std::filesystem::create_symlink(pipe, folder.path() / "link");
@@ -56,8 +57,7 @@ TEST(InputFile, ThatIsNoRegularFileIsRefusedAtOnce) {
               EndsWith("cannot be read: No such file or directory"));
 }
 
-TEST(InputFile, ThatIsTooLargeIsRefusedBeforeItIsRead) {
-  const TemporaryFolder folder;
+TEST_F(InputFileTest, ThatIsTooLargeIsRefusedBeforeItIsRead) {
   const auto path = folder.write("large.toml", "");
   std::filesystem::resize_file(path, kMostTextBytes);
   EXPECT_TRUE(InputFile::open(path, kMostTextBytes));
@@ -65,8 +65,7 @@ TEST(InputFile, ThatIsTooLargeIsRefusedBeforeItIsRead) {
   EXPECT_THAT(refusal_of(path), EndsWith("67108865 bytes, must be 67108864 at most"));
 }
 
-TEST(InputFile, ThatFailsWhileReadingIsAnError) {
-  const TemporaryFolder folder;
+TEST_F(InputFileTest, ThatFailsWhileReadingIsAnError) {
   const auto path = folder.write("a.txt", "text");
   // The file gets the lowest free descriptor, which is then closed.
   const int descriptor = dup(STDIN_FILENO);
@@ -79,13 +78,11 @@ TEST(InputFile, ThatFailsWhileReadingIsAnError) {
       IsRefused(ErrorCode::Unavailable, path.string() + ": reading failed: Bad file descriptor"));
 }
 
-TEST(InputFile, HasItsNameEscaped) {
-  const TemporaryFolder folder;
+TEST_F(InputFileTest, HasItsNameEscaped) {
   EXPECT_THAT(refusal_of(folder.path() / "a\x1b[2J\xff"), HasSubstr("/a\\x1b[2J\\xff: cannot"));
 }
 
-TEST(FileLines, GivesOnlyTheBeginningOfALineThatIsTooLong) {
-  const TemporaryFolder folder;
+TEST_F(InputFileTest, GivesByLinesOnlyTheBeginningOfOneThatIsTooLong) {
   FileLines lines{
       InputFile::open(folder.write("a", std::string(1'000'000, 'x').append("\n\nb\r\nc"))).value()};
   FileLine line{};

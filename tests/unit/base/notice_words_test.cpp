@@ -1,12 +1,11 @@
 #include "services/base/notice_words.h"
 
-#include <gtest/gtest.h>
-
 #include <set>
 #include <string>
 #include <string_view>
 
 #include "pipelines/three_axis/products.h"
+#include "tests/support/matchers.h"
 
 namespace spindrift::notice_words_test {
 

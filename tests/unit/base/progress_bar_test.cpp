@@ -64,7 +64,7 @@ TEST(ProgressBar, DrawsSeldom) {
     }
     took = std::chrono::steady_clock::now() - start;
   });
-  const auto drawn = std::count(text.begin(), text.end(), '%');
+  const auto drawn = std::ranges::count(text, '%');
   EXPECT_GE(drawn, 1);
   EXPECT_LE(static_cast<double>(drawn), 1.0 + 10.0 * took.count());
 }

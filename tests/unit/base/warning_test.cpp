@@ -1,6 +1,6 @@
 #include "services/base/warning.h"
 
-#include <gtest/gtest.h>
+#include "tests/support/matchers.h"
 
 namespace spindrift::warning_test {
 

@@ -18,12 +18,12 @@ TEST(AlertRequest, HasAPathOfItsOwn) {
 
 TEST(AlertRequest, TakesAnOperatorAtHisWord) {
   const auto word = operator_word({.alert_id = "00ff", .shelves = true},
-                                  R"({"by":"night shift","note":"known","minutes":15})");
-  ASSERT_TRUE(word);
-  EXPECT_EQ(word->alert_id, "00ff");
-  EXPECT_EQ(word->by, "night shift");
-  EXPECT_EQ(word->note, "known");
-  EXPECT_EQ(word->minutes, 15);
+                                  R"({"by":"night shift","note":"known","minutes":15})")
+                        .value();
+  EXPECT_EQ(word.alert_id, "00ff");
+  EXPECT_EQ(word.by, "night shift");
+  EXPECT_EQ(word.note, "known");
+  EXPECT_EQ(word.minutes, 15);
   EXPECT_EQ(operator_word({.alert_id = "00ff", .shelves = false}, R"({"by":"a","minutes":15})")
                 .value()
                 .minutes,

@@ -10,7 +10,7 @@
 #include "tests/support/recorded_files.h"
 #include "tests/support/some_health.h"
 
-namespace spindrift::console_feed_test {
+namespace spindrift::testing::console_feed_test {
 
 using namespace std::chrono_literals;
 
@@ -34,14 +34,15 @@ class Feed : public ::testing::Test {
     feed_ = std::make_unique<ConsoleFeed>(missions_, nlohmann::json{{"name", "test"}});
   }
   nlohmann::json shown() { return feed_->state()["spacecraft"]["SPINNER"]; }
-  void put(const Product& product, const std::string& run_id = "run") {
-    feed_->put("SPINNER", run_id, product);
+  template <class Told>
+  void put(const Told& told, const std::string& run_id = "run") {
+    feed_->put("SPINNER", run_id, told);
   }
   void put_details(std::vector<Product> products) {
     feed_->put_details({.run_id = "run", .spacecraft_id = "SPINNER", .products = products});
   }
   void put_link(LinkState link) {
-    Health health = testing::some_health();
+    Health health = some_health();
     health.spacecraft = {
         {.spacecraft = "SPINNER", .link = link, .last_sample = kT, .data_age_s = 0.5}};
     feed_->put(health);
@@ -74,11 +75,9 @@ TEST_F(Feed, ShowsLinkSunAndEarthOfTheLastSample) {
 
 TEST_F(Feed, ShowsTheVerdictOfTheRunInForceAndHowFarTheTargetIs) {
   put(estimate_at(kT, SpinEstimator::Mean));
-  feed_->put("SPINNER", "run of before", PassVerdict{.quality = Quality::Lost});
+  put(PassVerdict{.quality = Quality::Lost}, "run of before");
   EXPECT_FALSE(shown().contains("quality"));
-  feed_->put(
-      "SPINNER", "run",
-      PassVerdict{.quality = Quality::Ok, .ra_deg = 100.0, .dec_deg = -55.0, .against = "edges"});
+  put(PassVerdict{.quality = Quality::Ok, .ra_deg = 100.0, .dec_deg = -55.0, .against = "edges"});
   EXPECT_EQ(shown()["quality"], "OK");
   EXPECT_EQ(shown()["against"], "edges");
   EXPECT_FALSE(shown().contains("sigma_deg"));
@@ -173,8 +172,7 @@ TEST_F(Feed, IsGoWhenNothingStandsAgainstIt) {
   put_link(LinkState::Live);
   put(estimate_at(kT, SpinEstimator::Mean));
   EXPECT_EQ(shown()["go"]["is_go"], false);
-  feed_->put("SPINNER", "run",
-             PassVerdict{.quality = Quality::Ok, .sigma_deg = 0.1, .against = ""});
+  put(PassVerdict{.quality = Quality::Ok, .sigma_deg = 0.1, .against = ""});
   EXPECT_EQ(shown()["go"], (nlohmann::json{{"is_go", true}, {"against", nlohmann::json::array()}}));
   put(Alert{.alert_id = "00ff",
             .key = "spin.nutation",
@@ -183,7 +181,7 @@ TEST_F(Feed, IsGoWhenNothingStandsAgainstIt) {
             .message = "large",
             .evidence = "{}"});
   EXPECT_EQ(shown()["go"]["against"][0]["text"], "warning spin.nutation, active");
-  feed_->put(testing::failing_health());
+  feed_->put(failing_health());
   EXPECT_EQ(shown()["go"]["against"][0]["code"], "service");
 }
 
@@ -233,8 +231,8 @@ TEST(FeedOfThreeAxes, ShowsAttitudeAndRate) {
 
 TEST_F(Feed, HasTroubleWhenTheServiceDoesNotWork) {
   EXPECT_EQ(feed_->trouble(), "");
-  feed_->put(testing::failing_health());
+  feed_->put(failing_health());
   EXPECT_EQ(feed_->trouble(), "not storing: disk full");
 }
 
-}  // namespace spindrift::console_feed_test
+}  // namespace spindrift::testing::console_feed_test

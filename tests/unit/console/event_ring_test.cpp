@@ -1,8 +1,8 @@
 #include "services/console/event_ring.h"
 
-#include <gtest/gtest.h>
-
 #include <string>
+
+#include "tests/support/matchers.h"
 
 namespace spindrift::event_ring_test {
 

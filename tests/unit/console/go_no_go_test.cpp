@@ -1,10 +1,10 @@
 #include "services/console/go_no_go.h"
 
-#include <gtest/gtest.h>
-
 #include <functional>
 #include <string>
 #include <vector>
+
+#include "tests/support/matchers.h"
 
 namespace spindrift::go_no_go_test {
 

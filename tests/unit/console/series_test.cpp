@@ -8,8 +8,6 @@
 
 namespace spindrift::series_test {
 
-using ::testing::Contains;
-
 std::vector<SeriesPoint> flat(std::int64_t count) {
   std::vector<SeriesPoint> points;
   for (std::int64_t t = 0; t < count; ++t) {
@@ -35,9 +33,8 @@ TEST(Decimate, KeepsTheNewestAndTheExtremesInOrderOfTime) {
     EXPECT_THAT(kept, Contains(points[333])) << most;
     EXPECT_THAT(kept, Contains(points[334])) << most;
     EXPECT_EQ(kept.back() == points.back(), most > 2) << most;
-    EXPECT_TRUE(std::is_sorted(kept.begin(), kept.end(), [](const auto& a, const auto& b) {
-      return a.t_tai_ns < b.t_tai_ns;
-    }));
+    EXPECT_TRUE(std::ranges::is_sorted(
+        kept, [](const auto& a, const auto& b) { return a.t_tai_ns < b.t_tai_ns; }));
   }
   EXPECT_THAT(decimate(points, 1), ElementsAre(points[333]));
 }
@@ -63,8 +60,7 @@ TEST(Decimate, LeavesHalfToWhatWasAcceptedHoweverMuchWasRejected) {
   }
   const auto kept = decimate(points, 200);
   EXPECT_LE(kept.size(), 200U);
-  EXPECT_EQ(std::count_if(kept.begin(), kept.end(),
-                          [](const SeriesPoint& point) { return *point.accepted; }),
+  EXPECT_EQ(std::ranges::count_if(kept, [](const SeriesPoint& point) { return *point.accepted; }),
             100);
 }
 

@@ -1,10 +1,11 @@
 #include "pipelines/core/rounding.h"
 
 #include <fmt/format.h>
-#include <gtest/gtest.h>
 
 #include <random>
 #include <string>
+
+#include "tests/support/matchers.h"
 
 namespace spindrift::rounding_test {
 

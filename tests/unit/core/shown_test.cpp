@@ -1,6 +1,6 @@
 #include "pipelines/core/shown.h"
 
-#include <gtest/gtest.h>
+#include "tests/support/matchers.h"
 
 namespace spindrift::shown_test {
 

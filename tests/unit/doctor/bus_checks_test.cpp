@@ -1,12 +1,10 @@
-
 #include "services/doctor/network.h"
 #include "services/doctor/presence.h"
 #include "services/doctor/report.h"
 #include "tests/support/doctor_checks.h"
 #include "tests/support/matchers.h"
 
-namespace spindrift::doctor {
-namespace {
+namespace spindrift::doctor::bus_checks_test {
 
 using enum Verdict;
 
@@ -158,5 +156,4 @@ TEST(Presence, IsShownWithTheNamesOfOthersEscaped) {
   EXPECT_THAT(found, HasSubstr("partition 'live\\x1b[2J'"));
 }
 
-}  // namespace
-}  // namespace spindrift::doctor
+}  // namespace spindrift::doctor::bus_checks_test

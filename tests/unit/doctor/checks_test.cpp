@@ -8,8 +8,7 @@
 #include "tests/support/doctor_checks.h"
 #include "tests/support/matchers.h"
 
-namespace spindrift::doctor {
-namespace {
+namespace spindrift::doctor::checks_test {
 
 using namespace std::chrono_literals;
 using enum Verdict;
@@ -316,5 +315,4 @@ TEST(DoctorReport, GivesTheWorstVerdict) {
             "\n");
 }
 
-}  // namespace
-}  // namespace spindrift::doctor
+}  // namespace spindrift::doctor::checks_test

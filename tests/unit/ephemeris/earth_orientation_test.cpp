@@ -1,12 +1,11 @@
 #include "pipelines/ephemeris/earth_orientation.h"
 
-#include <gtest/gtest.h>
-
 #include <Eigen/Dense>
 
 #include "pipelines/frames/angle.h"
 #include "pipelines/frames/rotation_vector.h"
 #include "pipelines/time/utc.h"
+#include "tests/support/matchers.h"
 
 namespace spindrift::earth_orientation_test {
 

@@ -1,9 +1,8 @@
-#include <gtest/gtest.h>
-
 #include <numbers>
 
 #include "pipelines/ephemeris/earth_orientation.h"
 #include "pipelines/time/utc.h"
+#include "tests/support/matchers.h"
 
 namespace spindrift::earth_pole_test {
 

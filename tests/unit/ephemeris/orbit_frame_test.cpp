@@ -1,8 +1,3 @@
-
-#include <gtest/gtest.h>
-
-#include <Eigen/Geometry>
-
 #include "pipelines/ephemeris/flight_frames.h"
 #include "tests/support/matchers.h"
 
@@ -14,9 +9,9 @@ TEST(OrbitFrame, LooksDownAheadAndAgainstTheNormal) {
   // The spacecraft is over the equator at longitude 90 deg and moves north and slightly up, as
   // after perigee.
   const auto q =
-      orbit_frame({.position_icrf_km = {0.0, 7000.0, 0.0}, .velocity_icrf_km_s = {0.0, 0.5, 7.5}});
-  ASSERT_TRUE(q);
-  const Eigen::Matrix3d R = q->toRotationMatrix();
+      orbit_frame({.position_icrf_km = {0.0, 7000.0, 0.0}, .velocity_icrf_km_s = {0.0, 0.5, 7.5}})
+          .value();
+  const Eigen::Matrix3d R = q.toRotationMatrix();
   EXPECT_NEAR((R.col(2) - Eigen::Vector3d{0.0, -1.0, 0.0}).norm(), 0.0, kRounding);
   EXPECT_NEAR((R.col(0) - Eigen::Vector3d{0.0, 0.0, 1.0}).norm(), 0.0, kRounding);
   // The normal, position x velocity, is +x.

@@ -1,7 +1,6 @@
-#include <gtest/gtest.h>
-
 #include "pipelines/ephemeris/sun.h"
 #include "pipelines/frames/wgs84.h"
+#include "tests/support/matchers.h"
 
 namespace spindrift::shadow_test {
 

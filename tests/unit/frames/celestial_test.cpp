@@ -1,13 +1,12 @@
 #include "pipelines/frames/celestial.h"
 
-#include <gtest/gtest.h>
-
 #include <Eigen/Geometry>
 #include <cmath>
 #include <numbers>
 #include <random>
 
 #include "pipelines/frames/angle.h"
+#include "tests/support/matchers.h"
 
 namespace spindrift::celestial_test {
 

@@ -1,12 +1,11 @@
 #include "pipelines/frames/euler312.h"
 
-#include <gtest/gtest.h>
-
 #include <cmath>
 #include <random>
 
 #include "pipelines/frames/angle.h"
 #include "pipelines/frames/rotation_vector.h"
+#include "tests/support/matchers.h"
 
 namespace spindrift::euler312_test {
 

@@ -1,9 +1,9 @@
 #include "pipelines/frames/rotation_vector.h"
 
-#include <gtest/gtest.h>
-
 #include <numbers>
 #include <random>
+
+#include "tests/support/matchers.h"
 
 namespace spindrift::rotation_vector_test {
 

@@ -1,11 +1,10 @@
 #include "pipelines/frames/shortest_turn.h"
 
-#include <gtest/gtest.h>
-
 #include <numbers>
 
-namespace spindrift {
-namespace {
+#include "tests/support/matchers.h"
+
+namespace spindrift::shortest_turn_test {
 
 using Eigen::Vector3d;
 
@@ -24,5 +23,4 @@ TEST(ShortestTurn, OfOppositeDirectionsIsHalfATurnAboutAnAxisAcrossThem) {
   EXPECT_NEAR(turn.axis().dot(from), 0.0, 1e-12);
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::shortest_turn_test

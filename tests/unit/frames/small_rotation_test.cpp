@@ -1,10 +1,9 @@
-#include <gtest/gtest.h>
-
 #include <cmath>
 #include <numbers>
 
 #include "pipelines/frames/angle.h"
 #include "pipelines/frames/rotation_vector.h"
+#include "tests/support/matchers.h"
 
 namespace spindrift::small_rotation_test {
 

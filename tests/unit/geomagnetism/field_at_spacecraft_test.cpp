@@ -1,7 +1,3 @@
-
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include "pipelines/frames/celestial.h"
 #include "pipelines/geomagnetism/main_field.h"
 #include "pipelines/time/utc.h"

@@ -1,11 +1,8 @@
 /// Measurements of Swarm's magnetometer compared with the model (tests/data/geomagnetism).
 
-#include <gtest/gtest.h>
-
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <fstream>
 #include <sstream>
 #include <string>
@@ -14,6 +11,7 @@
 #include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
 #include "services/mission/igrf.h"
+#include "tests/support/matchers.h"
 #include "tests/support/test_paths.h"
 
 namespace spindrift::swarm_test {
@@ -26,8 +24,7 @@ struct Table {
   std::vector<std::vector<std::string>> rows;
 
   const std::string& at(std::size_t row, const std::string& name) const {
-    return rows[row][static_cast<std::size_t>(std::find(names.begin(), names.end(), name) -
-                                              names.begin())];
+    return rows[row][static_cast<std::size_t>(std::ranges::find(names, name) - names.begin())];
   }
   double number(std::size_t row, const std::string& name) const { return std::stod(at(row, name)); }
   Vector3d vector(std::size_t row, const std::string& name) const {

@@ -1,8 +1,5 @@
 #include "pipelines/ground_model/control/actuators.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include "tests/support/matchers.h"
 
 namespace spindrift::actuators_test {

@@ -1,7 +1,5 @@
 // A step of the model allocates no heap memory, which a replaced operator new counts.
 
-#include <gtest/gtest.h>
-
 #include <cstddef>
 #include <cstdlib>
 #include <new>
@@ -9,6 +7,7 @@
 #include "pipelines/frames/angle.h"
 #include "pipelines/ground_model/control/attitude_control.h"
 #include "pipelines/ground_model/control/closed_loop.h"
+#include "tests/support/matchers.h"
 #include "tests/support/stepped_body.h"
 
 namespace spindrift::allocation_test {

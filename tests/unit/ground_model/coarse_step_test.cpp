@@ -1,7 +1,3 @@
-
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include "pipelines/ground_model/dynamics/rigid_body.h"
 #include "tests/support/matchers.h"
 

@@ -1,10 +1,9 @@
 #include "pipelines/ground_model/link/coded_telemetry.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include <utility>
 #include <vector>
+
+#include "tests/support/matchers.h"
 
 namespace spindrift::coded_telemetry_test {
 

@@ -1,9 +1,8 @@
 #include "pipelines/ground_model/control/control_laws.h"
 
-#include <gtest/gtest.h>
-
 #include "pipelines/frames/rotation_vector.h"
 #include "pipelines/ground_model/control/saturation.h"
+#include "tests/support/matchers.h"
 
 namespace spindrift::control_laws_test {
 

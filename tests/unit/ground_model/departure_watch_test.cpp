@@ -64,13 +64,12 @@ TEST_F(DepartureWatchTest, FindsTheFirstInstantOfADepartureOnceMostOfTheWindowIs
   for (int t_s = 50; t_s < 59; ++t_s) {
     ASSERT_FALSE(see(t_s, -6.0 - 0.1 * (t_s - 50))) << t_s;
   }
-  const auto change = see(59.0, -7.0);
-  ASSERT_TRUE(change);
-  EXPECT_EQ(change->change, Change::Raised);
-  EXPECT_EQ(change->code, AlertCode::ModelDeparture);
-  EXPECT_EQ(change->about, "gyro_x");
+  const auto change = see(59.0, -7.0).value();
+  EXPECT_EQ(change.change, Change::Raised);
+  EXPECT_EQ(change.code, AlertCode::ModelDeparture);
+  EXPECT_EQ(change.about, "gyro_x");
   ASSERT_TRUE(rate().departure);
-  for (const Evidence& evidence : {change->evidence, *rate().departure}) {
+  for (const Evidence& evidence : {change.evidence, *rate().departure}) {
     EXPECT_EQ(evidence.since, shifted(kStart, 50.0));
     EXPECT_EQ(evidence.last, shifted(kStart, 59.0));
     EXPECT_NEAR(evidence.value, 6.0 * kSigma, 1e-12);

@@ -1,10 +1,9 @@
 #include "pipelines/ground_model/dynamics/disturbances.h"
 
-#include <gtest/gtest.h>
-
 #include "pipelines/ephemeris/kepler_orbit.h"
 #include "pipelines/frames/rotation_vector.h"
 #include "pipelines/frames/wgs84.h"
+#include "tests/support/matchers.h"
 #include "tests/support/stepped_body.h"
 
 namespace spindrift::disturbances_test {

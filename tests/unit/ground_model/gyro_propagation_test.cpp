@@ -1,7 +1,6 @@
-#include <gtest/gtest.h>
-
 #include "pipelines/frames/rotation_vector.h"
 #include "pipelines/ground_model/flights/orientation_motion.h"
+#include "tests/support/matchers.h"
 
 namespace spindrift::gyro_propagation_test {
 

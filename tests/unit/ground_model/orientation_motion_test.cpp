@@ -53,36 +53,60 @@ Orientation flown(const OrientationTruth& truth, const TrueGyro& gyro) {
   return orientation_motion(truth, gyro, kOrbit, chance).value();
 }
 
+/// Holds how the computer knows its attitude and the largest error of pointing with it.
+struct Knowledge {
+  std::optional<GyroPropagation> by_gyro;  ///< Empty: it knows the true one.
+  double limit_deg;
+};
+constexpr Knowledge kKnowledge[] = {{std::nullopt, 1e-3},
+                                    {GyroPropagation::Composition, 0.01},
+                                    {GyroPropagation::RungeKutta, 0.01}};
+
 std::string refusal_of(const OrientationTruth& truth) {
   Chance chance{3};
   return orientation_motion(truth, gyro_with(Vector3d::Zero()), kOrbit, chance).error().message;
 }
 
-TEST(OrientationMotion, PointsTheSatelliteOfSeed004ByItsGyroAlone) {
-  const OrientationTruth undisturbed = truth();
-  const Orientation flight = flown(undisturbed, gyro_with(Vector3d::Zero()));
-  const OrientationOutcome outcome = outcome_of(flight, undisturbed);
-  EXPECT_EQ(flight.record.size(), 8001U);
-  EXPECT_DOUBLE_EQ(flight.motion.end_s(), 800.0);
-  EXPECT_GT(*outcome.pointing_s, 20.0);
-  EXPECT_LT(*outcome.pointing_s, 60.0);
-  EXPECT_LT(outcome.settled_s.value_or(800.0), 240.0);
-  EXPECT_LT(degrees(outcome.last_off_rad), 0.01);
-  EXPECT_LT(outcome.most_nms, 0.11);
-  EXPECT_LT(outcome.most_rad_s, kMostSpeed_rad_s);
+TEST(OrientationMotion, PointsTheSatelliteOfSeed004ByEitherLawAndEitherAttitude) {
+  for (const bool variable_limit : {false, true}) {
+    for (const auto& [by_gyro, limit_deg] : kKnowledge) {
+      SCOPED_TRACE(::testing::Message() << variable_limit << ", limit " << limit_deg);
+      OrientationTruth undisturbed = truth();
+      undisturbed.control.variable_limit = variable_limit;
+      undisturbed.control.by_gyro = by_gyro;
+      const Orientation flight = flown(undisturbed, gyro_with(Vector3d::Zero()));
+      const OrientationOutcome outcome = outcome_of(flight, undisturbed);
+      EXPECT_EQ(flight.record.size(), 8001U);
+      EXPECT_DOUBLE_EQ(flight.motion.end_s(), 800.0);
+      EXPECT_GT(*outcome.pointing_s, 20.0);
+      EXPECT_LT(*outcome.pointing_s, 60.0);
+      EXPECT_LT(outcome.settled_s.value_or(800.0), 240.0);
+      EXPECT_LT(degrees(outcome.last_off_rad), limit_deg);
+      EXPECT_LT(outcome.most_nms, 0.11);
+      EXPECT_LT(outcome.most_rad_s, kMostSpeed_rad_s);
+    }
+  }
 }
 
 TEST(OrientationMotion, HoldsItAgainstAConstantTorque) {
   constexpr double kTorque_nm = 5e-5;
-  OrientationTruth disturbed = truth();
-  disturbed.body.disturbances.constant_body_nm = Vector3d::Constant(kTorque_nm);
-  const OrientationOutcome outcome =
-      outcome_of(flown(disturbed, gyro_with(Vector3d::Zero())), disturbed);
-  EXPECT_LT(outcome.settled_s.value_or(800.0), 240.0);
-  EXPECT_LT(outcome.most_nms, 0.17);
   // Without an integral term the error balances the torque.
-  const double expected_rad = (kTorque_nm / (0.1 * 0.1) * kMoments_kg_m2.cwiseInverse()).norm();
-  EXPECT_NEAR(degrees(outcome.last_off_rad), degrees(expected_rad), 0.02);
+  const Vector3d expected_rad = kTorque_nm / (0.1 * 0.1) * kMoments_kg_m2.cwiseInverse();
+  for (const Knowledge& knowledge : kKnowledge) {
+    OrientationTruth disturbed = truth();
+    disturbed.body.disturbances.constant_body_nm = Vector3d::Constant(kTorque_nm);
+    disturbed.control.by_gyro = knowledge.by_gyro;
+    const Orientation flight = flown(disturbed, gyro_with(Vector3d::Zero()));
+    const OrientationOutcome outcome = outcome_of(flight, disturbed);
+    EXPECT_LT(outcome.settled_s.value_or(800.0), 240.0);
+    EXPECT_LT(outcome.most_nms, 0.17);
+    EXPECT_LT(outcome.most_rad_s, kMostSpeed_rad_s);
+    const Eigen::Quaterniond target =
+        disturbed.body.at_start.q_icrf_body * disturbed.control.q_start_target;
+    const Vector3d off_rad =
+        rotation_vector_of(target.conjugate() * flight.motion.last().q_icrf_body);
+    EXPECT_LT(degrees((off_rad - expected_rad).norm()), 0.01);
+  }
 }
 
 TEST(OrientationMotion, DriftsByTheBiasThatItsComputerTakesForARate) {
@@ -101,17 +125,24 @@ TEST(OrientationMotion, DriftsByTheBiasThatItsComputerTakesForARate) {
 }
 
 TEST(OrientationMotion, SettlesWithInertiaAFifthOffLateTorqueAndEitherLaw) {
-  for (const double factor : {0.8, 1.2}) {
-    for (const bool variable_limit : {false, true}) {
-      OrientationTruth other = truth();
-      other.body.inertia_kg_m2 *= factor;
-      other.control.periods_late = 1;
-      other.control.variable_limit = variable_limit;
-      other.control.by_gyro = GyroPropagation::Composition;
-      const OrientationOutcome outcome =
-          outcome_of(flown(other, gyro_with(Vector3d::Zero(), 0.001)), other);
-      EXPECT_LT(outcome.settled_s.value_or(800.0), 240.0) << factor << variable_limit;
-      EXPECT_LT(degrees(outcome.last_off_rad), 0.1) << factor << variable_limit;
+  for (const auto& [by_gyro, limit_deg] :
+       {Knowledge{std::nullopt, 0.01}, {GyroPropagation::Composition, 0.1}}) {
+    for (const double factor : {0.8, 1.0, 1.2}) {
+      for (const int periods_late : {0, 1}) {
+        for (const bool variable_limit : {false, true}) {
+          SCOPED_TRACE(::testing::Message() << "inertia times " << factor << ", " << periods_late
+                                            << " late, variable limit " << variable_limit);
+          OrientationTruth other = truth();
+          other.body.inertia_kg_m2 *= factor;
+          other.control.periods_late = periods_late;
+          other.control.variable_limit = variable_limit;
+          other.control.by_gyro = by_gyro;
+          const OrientationOutcome outcome =
+              outcome_of(flown(other, gyro_with(Vector3d::Zero(), 0.001)), other);
+          EXPECT_LT(outcome.settled_s.value_or(800.0), 240.0);
+          EXPECT_LT(degrees(outcome.last_off_rad), limit_deg);
+        }
+      }
     }
   }
 }

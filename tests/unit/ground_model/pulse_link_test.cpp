@@ -1,9 +1,9 @@
 #include "pipelines/ground_model/link/pulse_link.h"
 
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <cmath>
+
+#include "tests/support/matchers.h"
 
 namespace spindrift::pulse_link_test {
 
@@ -33,8 +33,8 @@ ReceivedPass received(const PulseLink& link) {
 }
 
 std::int64_t count(const ReceivedPass& pass, std::optional<Damage> damage) {
-  return std::count_if(pass.pulses.begin(), pass.pulses.end(),
-                       [&](const ReceivedPulse& pulse) { return pulse.damage == damage; });
+  return std::ranges::count_if(pass.pulses,
+                               [&](const ReceivedPulse& pulse) { return pulse.damage == damage; });
 }
 
 /// Expects a binomial count within five standard deviations, which fails by chance once in two
@@ -89,8 +89,8 @@ TEST(PulseLink, LosesSpoilsDoublesAndAddsAsOftenAsAsked) {
   expect_binomial(count(pass, Damage::Doubled), edges, 0.95 * 0.03);
   expect_binomial(count(pass, Damage::Spurious), edges, 0.02);
   EXPECT_EQ(count(pass, std::nullopt) + count(pass, Damage::Spoilt) + pass.missing, 6 * kTurns);
-  EXPECT_TRUE(std::is_sorted(pass.pulses.begin(), pass.pulses.end(),
-                             [](const auto& a, const auto& b) { return a.pulse < b.pulse; }));
+  EXPECT_TRUE(std::ranges::is_sorted(
+      pass.pulses, [](const auto& a, const auto& b) { return a.pulse < b.pulse; }));
   for (const auto& [pulse, damage] : pass.pulses) {
     if (damage == Damage::Spoilt) {
       ASSERT_GE(std::abs(late_s(pulse)), 0.002 - 1e-9);

@@ -1,6 +1,3 @@
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include "pipelines/ephemeris/sun.h"
 #include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
@@ -65,18 +62,19 @@ TEST(SeparationMotion, RelaysDampTheFlightsRatesIn18Seconds) {
       separation_motion(truth_at({.control_on_s = 0.0, .acquisition_s = 40.0, .end_s = 40.0}),
                         kOrbit)
           .value();
-  EXPECT_GT(fastest_deg_s(motion.at(17.0)), 0.03);
+  EXPECT_GT(fastest_deg_s(motion.at(17.5)), 0.03);
   EXPECT_LT(fastest_deg_s(motion.at(18.5)), 0.03);
   EXPECT_LT(fastest_deg_s(motion.at(40.0)), 0.03);
 }
 
 TEST(SeparationMotion, TurnsToTheSunFromAnywhereAndStays) {
   for (int i = 0; i < 12; ++i) {
-    SeparationTruth truth = truth_at({.control_on_s = 0.0, .acquisition_s = 18.0, .end_s = 700.0});
+    SeparationTruth truth = truth_at({.control_on_s = 0.0, .acquisition_s = 18.0, .end_s = 1200.0});
     truth.body.at_start.q_icrf_body = quaternion_by(0.5 * i * Vector3d{0.8, -0.3, 0.52});
     const BodyMotion motion = separation_motion(truth, kOrbit).value();
-    EXPECT_LT(sun_off_deg(motion, 600.0), 0.2) << i;
-    EXPECT_LT(sun_off_deg(motion, 700.0), 0.2) << i;
+    for (double t_s = 600.0; t_s <= 1200.0; ++t_s) {
+      EXPECT_LT(sun_off_deg(motion, t_s), 0.2) << i << " at " << t_s;
+    }
     EXPECT_LT(fastest_deg_s(motion.at(700.0)), 0.01) << i;
   }
 }

@@ -13,10 +13,10 @@
 #include "pipelines/ground_model/link/coded_telemetry.h"
 #include "tests/support/departures.h"
 #include "tests/support/matchers.h"
+#include "tests/support/spin_truth.h"
 
-namespace spindrift::spin_comparison_test {
+namespace spindrift::testing::spin_comparison_test {
 
-using testing::ByChannel;
 using enum PulseChannel;
 
 constexpr TaiTime kStart = tai_from_ns(1'795'143'637'000'000'000);
@@ -26,29 +26,9 @@ constexpr double kRate_rad_s = kTurn_rad;  // One turn a second.
 constexpr double kResolution_s = 1e-4;
 
 /// The scenarios' transfer orbit.
-const Orbit kOrbit{KeplerOrbit::make({.epoch = kStart,
-                                      .semi_major_axis_km = 24'400.0,
-                                      .eccentricity = 0.73,
-                                      .inclination_rad = 28.5 * kRadPerDeg,
-                                      .raan_rad = 300.0 * kRadPerDeg,
-                                      .argument_of_perigee_rad = 178.0 * kRadPerDeg,
-                                      .mean_anomaly_rad = 30.0 * kRadPerDeg})
-                       .value()};
+const Orbit kOrbit = orbit_across_the_earth();
 
-SpinTruth truth() {
-  return {
-      .start = kStart,
-      .motion = {.axis_icrf =
-                     direction_icrf({.ra_rad = 100.0 * kRadPerDeg, .dec_rad = -55.0 * kRadPerDeg}),
-                 .rate_rad_s = kRate_rad_s,
-                 .rate_drift_rad_s2 = 0.0,
-                 .first_azimuth_rad = 0.0},
-      .sun_sensor = {.slit_cant_rad = 45.0 * kRadPerDeg, .slit_separation_rad = 35.0 * kRadPerDeg},
-      .north = TrueInfrared{.mount_angle_rad = 85.0 * kRadPerDeg, .azimuth_rad = 90.0 * kRadPerDeg},
-      .south = TrueInfrared{.mount_angle_rad = 95.0 * kRadPerDeg, .azimuth_rad = 92.0 * kRadPerDeg},
-      .horizon = infrared_horizon({.model = HorizonModel::Sphere, .co2_altitude_km = 40.0},
-                                  earth_pole_icrf(kStart))};
-}
+SpinTruth truth() { return truth_of(body_across_the_earth()); }
 
 PulseLink link(std::uint64_t seed) {
   return {
@@ -80,19 +60,15 @@ ByChannel compared(const std::vector<Sample>& flight) {
     comparison.compare(sample);
   }
   comparison.finish();
-  return testing::by_channel(comparison.channels());
+  return by_channel(comparison.channels());
 }
 
 std::map<std::string, double> departures_s(const ByChannel& all) {
   return testing::departures_s(all, kStart);
 }
 
-void expect_only(const ByChannel& all, const std::string& channel, double within_s = 2.0) {
-  const auto departed = departures_s(all);
-  ASSERT_EQ(departed.size(), 1U) << ::testing::PrintToString(departed);
-  EXPECT_EQ(departed.begin()->first, channel);
-  EXPECT_GE(departed.begin()->second, kChange_s);
-  EXPECT_LE(departed.begin()->second, kChange_s + within_s);
+void expect_only(const ByChannel& all, const std::string& channel) {
+  testing::expect_only(departures_s(all), channel, {kChange_s, kChange_s + 2.0});
 }
 
 /// Each of 20 passes with 600 revolutions has 12 periods and phases that share edges of sun1, which
@@ -220,4 +196,4 @@ TEST(SpinComparison, RefusesAModelWithoutNoiseOrRevolutions) {
               HasSubstr("sun1"));
 }
 
-}  // namespace spindrift::spin_comparison_test
+}  // namespace spindrift::testing::spin_comparison_test

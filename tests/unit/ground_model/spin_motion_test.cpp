@@ -2,11 +2,10 @@
 
 #include "pipelines/ground_model/dynamics/spin_motion.h"
 
-#include <gtest/gtest.h>
-
 #include <numbers>
 
 #include "pipelines/frames/angle.h"
+#include "tests/support/matchers.h"
 
 namespace spindrift::spin_motion_test {
 

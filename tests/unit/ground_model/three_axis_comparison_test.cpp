@@ -13,10 +13,9 @@
 #include "tests/support/low_orbit.h"
 #include "tests/support/matchers.h"
 
-namespace spindrift::three_axis_comparison_test {
+namespace spindrift::testing::three_axis_comparison_test {
 
 using Eigen::Vector3d;
-using testing::ByChannel;
 
 constexpr TaiTime kStart = tai_from_ns(1'772'337'637'000'000'000);
 constexpr double kEnd_s = 400.0;
@@ -24,7 +23,7 @@ constexpr double kChange_s = 200.0;
 constexpr double kGyro_deg_s = 0.002;
 
 /// Stays in sunlight during the motion.
-const Orbit kOrbit = testing::low_orbit(kStart);
+const Orbit kOrbit = low_orbit(kStart);
 
 TumblingScenario scenario(std::uint64_t seed) {
   const ThreeAxisSensors sensors{
@@ -72,12 +71,12 @@ ByChannel compared(const ThreeAxisTelemetry& flight) {
   const auto time_of = [](const Sample& sample) {
     return std::visit([](const auto& is) { return is.t; }, sample);
   };
-  std::stable_sort(all.begin(), all.end(),
-                   [&](const Sample& a, const Sample& b) { return time_of(a) < time_of(b); });
+  std::ranges::stable_sort(
+      all, [&](const Sample& a, const Sample& b) { return time_of(a) < time_of(b); });
   for (const Sample& sample : all) {
     std::visit([&](const auto& is) { comparison.compare(is); }, sample);
   }
-  return testing::by_channel(comparison.channels());
+  return by_channel(comparison.channels());
 }
 
 std::map<std::string, double> departures_s(const ByChannel& all) {
@@ -85,11 +84,7 @@ std::map<std::string, double> departures_s(const ByChannel& all) {
 }
 
 void expect_only(const ThreeAxisTelemetry& flight, const std::string& channel, double within_s) {
-  const auto departed = departures_s(compared(flight));
-  ASSERT_EQ(departed.size(), 1U) << ::testing::PrintToString(departed);
-  EXPECT_EQ(departed.begin()->first, channel);
-  EXPECT_GE(departed.begin()->second, kChange_s);
-  EXPECT_LE(departed.begin()->second, kChange_s + within_s);
+  testing::expect_only(departures_s(compared(flight)), channel, {kChange_s, kChange_s + within_s});
 }
 
 bool is_after_change(TaiTime t) { return seconds_between(kStart, t) >= kChange_s; }
@@ -207,4 +202,4 @@ TEST(ThreeAxisComparison, RefusesASensorWithoutNoise) {
   EXPECT_THAT(three_axis_model(plan, kOrbit), IsRefused(ErrorCode::InvalidConfiguration, _));
 }
 
-}  // namespace spindrift::three_axis_comparison_test
+}  // namespace spindrift::testing::three_axis_comparison_test

@@ -141,11 +141,10 @@ TEST(ThreeAxisTelemetry, OfAGyroStopsAtItsRange) {
   ThreeAxisSensors narrow = sensors();
   narrow.gyro->range_rad_s = 0.012;
   const ThreeAxisTelemetry telemetry = sent(narrow, {});
-  const auto stopped =
-      std::count_if(telemetry.gyro.begin(), telemetry.gyro.end(), [](const GyroSample& sample) {
-        EXPECT_LE(sample.rate_body_rad_s.cwiseAbs().maxCoeff(), 0.012);
-        return sample.rate_body_rad_s.x() == 0.012;
-      });
+  const auto stopped = std::ranges::count_if(telemetry.gyro, [](const GyroSample& sample) {
+    EXPECT_LE(sample.rate_body_rad_s.cwiseAbs().maxCoeff(), 0.012);
+    return sample.rate_body_rad_s.x() == 0.012;
+  });
   // The bias alone reaches the range limit.
   EXPECT_GT(stopped, 2000);
 }

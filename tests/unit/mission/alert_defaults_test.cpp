@@ -1,7 +1,5 @@
 // The default limits of alerts, as the mission file's schema has them and as schemas/alerts.md
 // says.
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <map>
 #include <regex>
@@ -11,6 +9,7 @@
 #include <vector>
 
 #include "services/mission/mission_schema.h"
+#include "tests/support/matchers.h"
 #include "tests/support/test_paths.h"
 #include "tests/support/text_of.h"
 
@@ -38,9 +37,8 @@ std::map<std::string, std::vector<double>> documented_defaults() {
 
 TEST(AlertDefaults, AreDocumented) {
   const auto documented = documented_defaults();
-  const auto schema = mission_schema();
-  ASSERT_TRUE(schema);
-  const auto& alerts = schema->tables.at("alerts").tables;
+  const auto schema = mission_schema().value();
+  const auto& alerts = schema.tables.at("alerts").tables;
   EXPECT_FALSE(alerts.empty());
   for (const auto& [key, table] : alerts) {
     std::vector<double> defaults;

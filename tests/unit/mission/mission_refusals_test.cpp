@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "pipelines/frames/angle.h"
@@ -291,9 +290,8 @@ TEST(MissionRefusals, IsRefusedWithItsTextEscapedAndCut) {
         "[spacecraft]\nid = [" + quotes + "]\n"}) {
     for (const std::string& problem : problems_of(toml)) {
       EXPECT_LT(problem.size(), 1000U) << problem;
-      EXPECT_TRUE(std::all_of(problem.begin(), problem.end(), [](char c) {
-        return c >= ' ' && c <= '~';
-      })) << problem;
+      EXPECT_TRUE(std::ranges::all_of(problem, [](char c) { return c >= ' ' && c <= '~'; }))
+          << problem;
     }
     EXPECT_FALSE(problems_of(toml).empty());
   }

@@ -3,7 +3,6 @@
 
 #pragma once
 
-#include <gtest/gtest.h>
 #include <toml++/toml.h>
 
 #include <filesystem>
@@ -14,6 +13,7 @@
 #include <vector>
 
 #include "services/mission/mission.h"
+#include "tests/support/matchers.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/test_paths.h"
 #include "tests/support/text_of.h"

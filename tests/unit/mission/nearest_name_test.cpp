@@ -1,6 +1,6 @@
 #include "services/mission/nearest_name.h"
 
-#include <gtest/gtest.h>
+#include "tests/support/matchers.h"
 
 namespace spindrift::nearest_name_test {
 

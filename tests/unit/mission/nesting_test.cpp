@@ -1,10 +1,10 @@
 #include "services/mission/nesting.h"
 
-#include <gtest/gtest.h>
 #include <toml++/toml.h>
 
 #include <string>
 
+#include "tests/support/matchers.h"
 #include "tests/unit/mission/mission_texts.h"
 
 namespace spindrift::nesting_test {

@@ -1,10 +1,10 @@
 #include "pipelines/observation/ledger.h"
 
-#include <gtest/gtest.h>
-
 #include <random>
 #include <set>
 #include <vector>
+
+#include "tests/support/matchers.h"
 
 namespace spindrift::ledger_test {
 

@@ -1,13 +1,12 @@
 #include "pipelines/observation/observation_record.h"
 
-#include <gtest/gtest.h>
-
 #include <cmath>
 #include <numbers>
 #include <random>
 #include <vector>
 
 #include "pipelines/observation/innovation_gate.h"
+#include "tests/support/matchers.h"
 
 namespace spindrift::observation_record_test {
 

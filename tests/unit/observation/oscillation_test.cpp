@@ -1,11 +1,11 @@
 #include "pipelines/observation/oscillation.h"
 
-#include <gtest/gtest.h>
-
 #include <cmath>
 #include <functional>
 #include <numbers>
 #include <random>
+
+#include "tests/support/matchers.h"
 
 namespace spindrift::oscillation_test {
 

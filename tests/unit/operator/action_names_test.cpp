@@ -1,13 +1,11 @@
 // The names of actions: as parsed, as the archive allows them, and as the page offers them.
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 #include <regex>
 #include <set>
 #include <string>
-#include <variant>
 
 #include "services/operator/parse_action.h"
+#include "tests/support/matchers.h"
 #include "tests/support/test_paths.h"
 #include "tests/support/text_of.h"
 

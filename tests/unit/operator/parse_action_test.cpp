@@ -1,10 +1,6 @@
 #include "services/operator/parse_action.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "pipelines/frames/angle.h"

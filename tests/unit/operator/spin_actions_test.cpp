@@ -1,5 +1,3 @@
-#include <gtest/gtest.h>
-
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <random>
@@ -12,15 +10,14 @@
 #include "pipelines/spin/batch/multi_start.h"
 #include "pipelines/spin/batch/pass_edges.h"
 #include "pipelines/spin/pass/spin_pass.h"
+#include "tests/support/matchers.h"
 #include "tests/support/observed_spin.h"
 #include "tests/support/product_text.h"
 #include "tests/support/spinning_body.h"
 
-namespace spindrift::spin_actions_test {
+namespace spindrift::testing::spin_actions_test {
 
-using testing::all_of;
-
-TaiTime at(double t_s) { return shifted(testing::kTransferStart, t_s); }
+TaiTime at(double t_s) { return shifted(kTransferStart, t_s); }
 
 /// Holds an action that is taken before the edges of `said_s` arrive.
 struct Said {
@@ -58,16 +55,13 @@ Passed run(const SpinConfig& config, const Orbit& orbit, const std::vector<Pulse
   return passed;
 }
 
-struct Scene {
-  Orbit orbit = testing::transfer_orbit();
-  testing::SunEarthEphemeris around =
-      testing::seen_from(orbit, testing::spherical_horizon_km(40.0));
+struct Scene : Surroundings {
   std::mt19937_64 rng{27};
-  testing::SpinningBody body = testing::random_body(around, 3.0 * kRadPerDeg, rng);
+  SpinningBody body = random_body(around, 3.0 * kRadPerDeg, rng);
 
-  std::vector<Pulse> seen(const testing::SpinningBody& of, double from_s, double to_s) {
-    return testing::pulses_from(testing::edges_between(of, around, from_s, to_s),
-                                testing::kTransferStart, of.config.noise, rng);
+  std::vector<Pulse> seen(double from_s, double to_s) { return pulses(body, from_s, to_s, rng); }
+  Passed run(const std::vector<Pulse>& pulses, const std::vector<Said>& words) const {
+    return spin_actions_test::run(body.config, orbit, pulses, words);
   }
 };
 
@@ -75,12 +69,11 @@ bool is_left_out(const PulseUse& use) { return use.rejected_by == Rejection::Ope
 
 TEST(SpinActions, LeaveOutAChannelFromThenOnUntilItIsTakenInAgain) {
   Scene scene;
-  const auto pulses = scene.seen(scene.body, 0.0, 120.0);
+  const auto pulses = scene.seen(0.0, 120.0);
   const auto channel = PulseChannel::NorthIn;
-  const Passed passed =
-      run(scene.body.config, scene.orbit, pulses,
-          {{.said_s = 0.0, .from_s = 40.0, .action = ExcludeChannel<PulseChannel>{channel}},
-           {.said_s = 60.0, .from_s = 80.0, .action = IncludeChannel<PulseChannel>{channel}}});
+  const Passed passed = scene.run(
+      pulses, {{.said_s = 0.0, .from_s = 40.0, .action = ExcludeChannel<PulseChannel>{channel}},
+               {.said_s = 60.0, .from_s = 80.0, .action = IncludeChannel<PulseChannel>{channel}}});
   std::size_t left_out = 0;
   for (const PulseUse& use : all_of<PulseUse>(passed.output)) {
     const bool is_meant =
@@ -89,15 +82,15 @@ TEST(SpinActions, LeaveOutAChannelFromThenOnUntilItIsTakenInAgain) {
     left_out += is_meant ? 1 : 0;
   }
   EXPECT_GE(left_out, 37U);
-  const SpinEstimate last = testing::last_estimate(passed.output, SpinEstimator::Sequential);
+  const SpinEstimate last = last_estimate(passed.output, SpinEstimator::Sequential);
   EXPECT_TRUE(is_unopposed(last.assessment.quality));
 }
 
 TEST(SpinActions, LeaveOutASegmentOfAllChannelsAndForgetItsEdges) {
   Scene scene;
-  const auto pulses = scene.seen(scene.body, 0.0, 120.0);
-  const Passed passed = run(
-      scene.body.config, scene.orbit, pulses,
+  const auto pulses = scene.seen(0.0, 120.0);
+  const Passed passed = scene.run(
+      pulses,
       {{.said_s = 60.0,
         .from_s = 0.0,
         .action = ExcludeSegment<PulseChannel>{.from = at(30.0), .to = at(90.0), .channel = {}}}});
@@ -111,9 +104,9 @@ TEST(SpinActions, LeaveOutASegmentOfAllChannelsAndForgetItsEdges) {
   PassEdges edges = passed.edges;
   const auto kept = std::move(edges).edges();
   EXPECT_GT(kept.size(), 300U);
-  EXPECT_TRUE(std::none_of(kept.begin(), kept.end(), [](const PassEdge& edge) {
-    return edge.pulse.t >= at(30.0) && edge.pulse.t < at(90.0);
-  }));
+  for (const PassEdge& edge : kept) {
+    EXPECT_TRUE(edge.pulse.t < at(30.0) || edge.pulse.t >= at(90.0));
+  }
 }
 
 /// Returns the fixes from some revolutions after the loss of a beam.
@@ -127,14 +120,12 @@ std::vector<SpinFix> fixes_without_a_beam(const Passed& passed) {
 TEST(SpinActions, ABeamThatIsLeftOutIsNotSilent) {
   Scene scene;
   scene.body.config.north->healthy = true;
-  std::vector<Pulse> pulses = scene.seen(scene.body, 0.0, 100.0);
-  const Passed left_out = run(scene.body.config, scene.orbit, pulses,
-                              {{.said_s = 0.0,
-                                .from_s = 30.0,
-                                .action = ExcludeChannel<PulseChannel>{PulseChannel::NorthIn}},
-                               {.said_s = 0.0,
-                                .from_s = 30.0,
-                                .action = ExcludeChannel<PulseChannel>{PulseChannel::NorthOut}}});
+  std::vector<Pulse> pulses = scene.seen(0.0, 100.0);
+  std::vector<Said> words;
+  for (const PulseChannel channel : {PulseChannel::NorthIn, PulseChannel::NorthOut}) {
+    words.push_back({0.0, 30.0, ExcludeChannel<PulseChannel>{channel}});
+  }
+  const Passed left_out = scene.run(pulses, words);
   int accepted = 0;
   for (const SpinFix& fix : fixes_without_a_beam(left_out)) {
     EXPECT_TRUE(fix.accepted || fix.resolution == Resolution::Ambiguous) << fix.revolution;
@@ -146,37 +137,38 @@ TEST(SpinActions, ABeamThatIsLeftOutIsNotSilent) {
     return pulse.t >= at(30.0) &&
            (pulse.channel == PulseChannel::NorthIn || pulse.channel == PulseChannel::NorthOut);
   });
-  for (const SpinFix& fix : fixes_without_a_beam(run(scene.body.config, scene.orbit, pulses, {}))) {
+  for (const SpinFix& fix : fixes_without_a_beam(scene.run(pulses, {}))) {
     EXPECT_FALSE(fix.accepted) << fix.revolution;
   }
 }
 
 /// Holds a pass with sun slit 1 and the south beam only, where two axes fit all edges alike.
-struct TwoRoots {
-  Orbit orbit = testing::transfer_orbit();
-  testing::SpinningBody body;
+struct TwoRoots : Surroundings {
+  SpinningBody body;
   std::vector<Pulse> pulses;
 
   TwoRoots() {
     std::mt19937_64 rng{2};
-    const auto around = testing::seen_from(orbit, testing::spherical_horizon_km(40.0));
-    body = testing::random_body(around, 3.0 * kRadPerDeg, rng);
-    auto edges = testing::edges_between(body, around, 0.0, 200.0);
+    body = random_body(around, 3.0 * kRadPerDeg, rng);
+    auto edges = edges_between(body, around, 0.0, 200.0);
     std::erase_if(edges, [](const auto& edge) {
       return edge.channel == PulseChannel::Sun2 || edge.channel == PulseChannel::NorthIn ||
              edge.channel == PulseChannel::NorthOut;
     });
-    pulses = testing::pulses_from(edges, testing::kTransferStart, body.config.noise, rng);
+    pulses = noisy_pulses(body, edges, rng);
+  }
+  Passed run(const std::vector<Said>& words) const {
+    return spin_actions_test::run(body.config, orbit, pulses, words);
   }
 
   /// Returns the root that is not the true axis.
   Eigen::Vector3d false_root() const {
-    const SpinFix fix = all_of<SpinFix>(run(body.config, orbit, pulses, {}).output).back();
+    const SpinFix fix = all_of<SpinFix>(run({}).output).back();
     std::vector<Eigen::Vector3d> roots{fix.axis_icrf};
     for (const SpinAlternate& alternate : fix.alternates) {
       roots.push_back(alternate.axis_icrf);
     }
-    return *std::max_element(roots.begin(), roots.end(), [&](const auto& a, const auto& b) {
+    return *std::ranges::max_element(roots, [&](const auto& a, const auto& b) {
       return angle_between_rad(a, body.axis_icrf) < angle_between_rad(b, body.axis_icrf);
     });
   }
@@ -189,8 +181,7 @@ double error_deg(const SpinEstimate& estimate, const Eigen::Vector3d& axis_icrf)
 Passed with_root(const TwoRoots& pass, const Eigen::Vector3d& root) {
   // The chosen axis is some degrees off, because only the nearer root counts.
   const Eigen::Vector3d near = Eigen::AngleAxisd{2.0 * kRadPerDeg, root.unitOrthogonal()} * root;
-  return run(pass.body.config, pass.orbit, pass.pulses,
-             {{.said_s = 100.0, .from_s = 100.0, .action = ChooseRoot{near}}});
+  return pass.run({{.said_s = 100.0, .from_s = 100.0, .action = ChooseRoot{near}}});
 }
 
 TEST(SpinActions, AChosenRootSettlesAnAmbiguousPassForAllEstimators) {
@@ -200,7 +191,7 @@ TEST(SpinActions, AChosenRootSettlesAnAmbiguousPassForAllEstimators) {
   EXPECT_EQ(fixes.front().resolution, Resolution::Ambiguous);
   EXPECT_EQ(fixes.back().resolution, Resolution::Prior);
   for (const auto estimator : {SpinEstimator::Mean, SpinEstimator::Sequential}) {
-    const SpinEstimate last = testing::last_estimate(passed.output, estimator);
+    const SpinEstimate last = last_estimate(passed.output, estimator);
     EXPECT_TRUE(is_unopposed(last.assessment.quality));
     EXPECT_LT(error_deg(last, pass.body.axis_icrf), 1.0);
   }
@@ -222,7 +213,7 @@ TEST(SpinActions, AChosenRootSettlesAnAmbiguousPassForAllEstimators) {
 
 TEST(SpinActions, WhereNothingSettlesAPassItsEdgesAllTogetherMay) {
   const TwoRoots pass;
-  Passed passed = run(pass.body.config, pass.orbit, pass.pulses, {});
+  Passed passed = pass.run({});
   auto starts = passed.edges.starts({});
   starts.of_pass = all_of<AxisChoice>(passed.output).back();
   EXPECT_EQ(starts.of_pass->settled_by, SettledBy::Nothing);
@@ -237,8 +228,7 @@ TEST(SpinActions, AChosenRootThatTheEdgesContradictIsGivenUp) {
   const TwoRoots pass;
   const Passed passed = with_root(pass, pass.false_root());
   const auto fixes = all_of<SpinFix>(passed.output);
-  EXPECT_TRUE(std::any_of(fixes.begin(), fixes.end(),
-                          [](const SpinFix& fix) { return fix.resolution == Resolution::Prior; }));
+  EXPECT_GT(std::ranges::count(fixes, Resolution::Prior, &SpinFix::resolution), 0);
   EXPECT_TRUE(passed.prior);  // The prior is passed to `batch`, which evaluates it again.
   EXPECT_EQ(fixes.back().resolution, Resolution::Ambiguous);
 }
@@ -249,37 +239,32 @@ TEST(SpinActions, APriorAgainstWhatThePassHasSettledBeginsAnew) {
     return SetPrior{{.axis_icrf = axis_icrf, .sigma_rad = 2.0 * kRadPerDeg}};
   };
   const Passed passed =
-      run(pass.body.config, pass.orbit, pass.pulses,
-          {{.said_s = 0.0, .from_s = 0.0, .action = prior(pass.false_root())},
-           {.said_s = 80.0, .from_s = 100.0, .action = prior(pass.body.axis_icrf)}});
-  bool was_false = false;
-  for (const SpinEstimate& estimate : all_of<SpinEstimate>(passed.output)) {
-    if (estimate.t < at(100.0)) {
-      was_false = was_false || error_deg(estimate, pass.body.axis_icrf) > 5.0;
-    }
-  }
-  EXPECT_TRUE(was_false);
-  const SpinEstimate last = testing::last_estimate(passed.output, SpinEstimator::Sequential);
+      pass.run({{.said_s = 0.0, .from_s = 0.0, .action = prior(pass.false_root())},
+                {.said_s = 80.0, .from_s = 100.0, .action = prior(pass.body.axis_icrf)}});
+  EXPECT_TRUE(
+      std::ranges::any_of(all_of<SpinEstimate>(passed.output), [&](const SpinEstimate& estimate) {
+        return estimate.t < at(100.0) && error_deg(estimate, pass.body.axis_icrf) > 5.0;
+      }));
+  const SpinEstimate last = last_estimate(passed.output, SpinEstimator::Sequential);
   EXPECT_LT(error_deg(last, pass.body.axis_icrf), 3.0);
 }
 
 TEST(SpinActions, BehindAMarkedManoeuvreNoEstimateHoldsTheAxisOfBefore) {
   Scene scene;
-  testing::SpinningBody after = scene.body;
+  SpinningBody after = scene.body;
   after.axis_icrf =
       Eigen::AngleAxisd{1.0 * kRadPerDeg, scene.around.earth_icrf_km(100.0).normalized()} *
       scene.body.axis_icrf;
-  std::vector<Pulse> pulses = scene.seen(scene.body, 0.0, 100.0);
-  const std::vector<Pulse> later = scene.seen(after, 100.0, 160.0);
+  std::vector<Pulse> pulses = scene.seen(0.0, 100.0);
+  const std::vector<Pulse> later = scene.pulses(after, 100.0, 160.0, scene.rng);
   pulses.insert(pulses.end(), later.begin(), later.end());
-  std::sort(pulses.begin(), pulses.end());
+  std::ranges::sort(pulses);
   const auto worst_sigmas = [&](const std::vector<Said>& words) {
     double worst = 0.0;
-    for (const SpinEstimate& estimate :
-         all_of<SpinEstimate>(run(scene.body.config, scene.orbit, pulses, words).output)) {
+    for (const SpinEstimate& estimate : all_of<SpinEstimate>(scene.run(pulses, words).output)) {
       if (estimate.t > at(104.0)) {
-        worst = std::max(worst, error_deg(estimate, after.axis_icrf) * kRadPerDeg /
-                                    testing::sigma_rad(estimate));
+        worst = std::max(worst,
+                         error_deg(estimate, after.axis_icrf) * kRadPerDeg / sigma_rad(estimate));
       }
     }
     return worst;
@@ -290,9 +275,9 @@ TEST(SpinActions, BehindAMarkedManoeuvreNoEstimateHoldsTheAxisOfBefore) {
 
 TEST(SpinActions, AManoeuvreBeforeThePassChangesNothing) {
   Scene scene;
-  const auto pulses = scene.seen(scene.body, 10.0, 60.0);
+  const auto pulses = scene.seen(10.0, 60.0);
   const auto texts_with = [&](const std::vector<Said>& words) {
-    return testing::texts_of(run(scene.body.config, scene.orbit, pulses, words).output);
+    return texts_of(scene.run(pulses, words).output);
   };
   EXPECT_EQ(texts_with({{.said_s = 0.0, .from_s = 0.0, .action = MarkManoeuvre{}}}),
             texts_with({}));
@@ -314,4 +299,4 @@ TEST(SpinActions, BatchForgetsWhatIsBeforeAManoeuvreOnceAnEdgeIsBehindIt) {
   EXPECT_EQ((PassEdges{edges}.edges().size()), 2U);
 }
 
-}  // namespace spindrift::spin_actions_test
+}  // namespace spindrift::testing::spin_actions_test

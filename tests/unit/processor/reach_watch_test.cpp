@@ -1,6 +1,6 @@
 #include "services/processor/reach_watch.h"
 
-#include <gtest/gtest.h>
+#include "tests/support/matchers.h"
 
 namespace spindrift::reach_watch_test {
 

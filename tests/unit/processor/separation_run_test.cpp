@@ -9,10 +9,7 @@
 #include "tests/support/outcome.h"
 #include "tests/support/separation_flight.h"
 
-namespace spindrift::separation_run_test {
-
-using testing::separation_flight;
-using testing::SeparationFlight;
+namespace spindrift::testing::separation_run_test {
 
 std::vector<std::string_view> methods_in(const std::vector<Product>& products) {
   std::vector<std::string_view> methods;
@@ -25,16 +22,11 @@ std::vector<std::string_view> methods_in(const std::vector<Product>& products) {
 class SeparationRunTest : public ::testing::Test {
  protected:
   Mission mission() const {
-    return {.spacecraft_id = "SAT",
-            .config = flight_.sensors,
-            .separation = SeparationPlan{.times = {.separation = flight_.times.separation},
-                                         .launcher = std::nullopt},
-            .orbit = std::nullopt,
-            .toml_text = {},
-            .sha256 = {},
-            .orbit_sha256 = std::nullopt,
-            .tables = {},
-            .orbit_doubts = {}};
+    Mission mission{};
+    mission.spacecraft_id = "SAT";
+    mission.config = flight_.sensors;
+    mission.separation = {.times = {.separation = flight_.times.separation}, .launcher = {}};
+    return mission;
   }
   ThreeAxisRun run(SolvingPlan plan) const { return {mission(), "run-1", plan}; }
 
@@ -143,13 +135,13 @@ TEST_F(SeparationRunTest, WithoutAStarFixTheRunEndsWithoutOne) {
 
 TEST(BackgroundTask, WhatASolutionThrowsIsAFaultOfItsRun) {
   const auto products =
-      solved_or_fault("SAT", "solution", tai_from_ns(7),
-                      []() -> Expected<std::vector<Product>> { throw std::runtime_error{"no"}; });
-  ASSERT_TRUE(products);
-  ASSERT_THAT(*products, SizeIs(1));
-  const auto& fault = std::get<RunFault>(products->front());
+      solved_or_fault("SAT", "solution", tai_from_ns(7), []() -> Expected<std::vector<Product>> {
+        throw std::runtime_error{"no"};
+      }).value();
+  ASSERT_THAT(products, SizeIs(1));
+  const auto& fault = std::get<RunFault>(products.front());
   EXPECT_EQ(fault.t, tai_from_ns(7));
   EXPECT_EQ(fault.what, "no");
 }
 
-}  // namespace spindrift::separation_run_test
+}  // namespace spindrift::testing::separation_run_test

@@ -6,23 +6,13 @@
 #include "tests/support/of_kind.h"
 #include "tests/support/turning_body.h"
 
-namespace spindrift::three_axis_run_test {
-
-using testing::at_s;
-using testing::Sensors;
-using testing::TurningBody;
-using testing::usual_three_axis;
+namespace spindrift::testing::three_axis_run_test {
 
 Mission mission() {
-  return {.spacecraft_id = "SAT",
-          .config = usual_three_axis(),
-          .separation = std::nullopt,
-          .orbit = std::nullopt,
-          .toml_text = {},
-          .sha256 = {},
-          .orbit_sha256 = std::nullopt,
-          .tables = {},
-          .orbit_doubts = {}};
+  Mission mission{};
+  mission.spacecraft_id = "SAT";
+  mission.config = usual_three_axis();
+  return mission;
 }
 
 class ThreeAxisRunTest : public ::testing::Test {
@@ -113,4 +103,4 @@ TEST_F(ThreeAxisRunTest, SummaryHasTheHealthOfItsSensorsAndWhyTheirSamplesWereLe
   EXPECT_EQ(summary.attitude.value().t, at_s(9.75));
 }
 
-}  // namespace spindrift::three_axis_run_test
+}  // namespace spindrift::testing::three_axis_run_test

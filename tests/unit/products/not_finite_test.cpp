@@ -1,13 +1,12 @@
 #include "services/products/not_finite.h"
 
-#include <gtest/gtest.h>
-
 #include <limits>
 #include <memory>
 #include <string>
 #include <utility>
 
 #include "services/products/products.h"
+#include "tests/support/matchers.h"
 
 namespace spindrift::not_finite_test {
 

@@ -1,17 +1,12 @@
-#include <gtest/gtest.h>
-
-#include <cmath>
-
 #include "services/products/not_finite.h"
 #include "services/products/products.h"
 #include "services/products/to_json.h"
 #include "tests/support/made_separation.h"
+#include "tests/support/matchers.h"
 
-namespace spindrift::reconstruction_rows_test {
+namespace spindrift::testing::reconstruction_rows_test {
 
 using enum ReconstructionMethod;
-using testing::made_product;
-using testing::made_separation;
 
 /// Returns the rows of a table as objects.
 template <class Table>
@@ -35,7 +30,7 @@ std::vector<nlohmann::json> rows_of(const ReconstructionProduct& product) {
 TEST(ReconstructionRows, HaveOneOfTheWhole) {
   const auto batch = json_of(made_product(Batch));
   EXPECT_EQ(batch["method"], "batch");
-  EXPECT_EQ(batch["t_tai_ns"], testing::kSeparation_tai_ns + 300'000'000'000);
+  EXPECT_EQ(batch["t_tai_ns"], kSeparation_tai_ns + 300'000'000'000);
   EXPECT_EQ(batch["quality"], "OK");
   EXPECT_EQ(batch["status"], "OK, 1 star fix");
   EXPECT_EQ(batch["gyro_samples"], 961);
@@ -67,7 +62,7 @@ TEST(ReconstructionRows, HaveOneOfEachEvent) {
   EXPECT_EQ(rows[0]["event"], "T1");
   EXPECT_EQ(rows[3]["event"], "T4");
   EXPECT_EQ(rows[3]["found"], true);
-  EXPECT_EQ(rows[1]["t_tai_ns"], testing::kSeparation_tai_ns + 60'000'000'000);
+  EXPECT_EQ(rows[1]["t_tai_ns"], kSeparation_tai_ns + 60'000'000'000);
   EXPECT_NEAR(rows[0]["euler312_icrf_deg_1"].get<double>(), 10.0, 1e-9);
   EXPECT_NEAR(rows[0]["euler312_icrf_deg_3"].get<double>(), 30.0, 1e-9);
   EXPECT_NEAR(rows[0]["euler312_orbit_deg_2"].get<double>(), 2.0, 1e-9);
@@ -85,7 +80,7 @@ TEST(ReconstructionRows, HaveTheHistoryUnderTheNameOfTheMethod) {
     EXPECT_EQ(row["source"], "sequential");
     EXPECT_EQ(row["quality"], "OK");
   }
-  EXPECT_EQ(rows[1]["t_tai_ns"], testing::kSeparation_tai_ns + 10'000'000'000);
+  EXPECT_EQ(rows[1]["t_tai_ns"], kSeparation_tai_ns + 10'000'000'000);
   EXPECT_EQ(rows[0]["rate_z_rad_s"], 0.003);
   EXPECT_EQ(ReconstructedAttitudeTable::group(made_product(Sequential)), "sequential");
 }
@@ -95,10 +90,10 @@ TEST(ReconstructionRows, AreFoundNotFinite) {
   ReconstructedSeparation wrong = made_separation(Batch);
   wrong.solution.history[5].rate_body_rad_s.y() = std::nan("");
   const auto found =
-      not_finite(ReconstructionProduct{std::make_shared<const ReconstructedSeparation>(wrong)});
-  ASSERT_TRUE(found);
-  EXPECT_EQ(found->table, "attitude");
-  EXPECT_EQ(found->column, "rate_y_rad_s");
+      not_finite(ReconstructionProduct{std::make_shared<const ReconstructedSeparation>(wrong)})
+          .value();
+  EXPECT_EQ(found.table, "attitude");
+  EXPECT_EQ(found.column, "rate_y_rad_s");
 }
 
-}  // namespace spindrift::reconstruction_rows_test
+}  // namespace spindrift::testing::reconstruction_rows_test

@@ -1,8 +1,7 @@
 #include "services/products/to_json.h"
 
-#include <gtest/gtest.h>
-
 #include "services/products/products.h"
+#include "tests/support/matchers.h"
 
 namespace spindrift::to_json_test {
 

@@ -1,6 +1,6 @@
 #include "services/program/comparison_notice.h"
 
-#include <gtest/gtest.h>
+#include "tests/support/matchers.h"
 
 namespace spindrift::comparison_notice_test {
 

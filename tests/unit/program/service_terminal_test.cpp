@@ -1,6 +1,5 @@
 #include "services/program/service_terminal.h"
 
-#include <gtest/gtest.h>
 #include <spdlog/sinks/ostream_sink.h>
 #include <spdlog/spdlog.h>
 
@@ -8,6 +7,8 @@
 #include <optional>
 #include <sstream>
 #include <utility>
+
+#include "tests/support/matchers.h"
 
 namespace spindrift::service_terminal_test {
 

@@ -1,6 +1,6 @@
 #include "services/publisher/announcements.h"
 
-#include <gtest/gtest.h>
+#include "tests/support/matchers.h"
 
 namespace spindrift::announcements_test {
 

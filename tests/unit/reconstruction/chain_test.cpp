@@ -1,10 +1,9 @@
 #include "pipelines/reconstruction/chain.h"
 
-#include <gtest/gtest.h>
-
 #include "pipelines/frames/rotation_vector.h"
 #include "pipelines/reconstruction/chain_covariance.h"
 #include "pipelines/reconstruction/chain_fit.h"
+#include "tests/support/matchers.h"
 #include "tests/support/outcome.h"
 
 namespace spindrift::chain_test {

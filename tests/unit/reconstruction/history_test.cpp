@@ -1,7 +1,5 @@
 #include "pipelines/reconstruction/history.h"
 
-#include <gtest/gtest.h>
-
 #include <Eigen/Dense>
 #include <Eigen/Geometry>
 #include <cmath>
@@ -9,6 +7,7 @@
 #include <vector>
 
 #include "pipelines/frames/rotation_vector.h"
+#include "tests/support/matchers.h"
 
 namespace spindrift::history_test {
 

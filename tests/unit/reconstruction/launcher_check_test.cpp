@@ -1,12 +1,10 @@
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include <limits>
 
 #include "pipelines/ephemeris/flight_frames.h"
 #include "pipelines/frames/angle.h"
 #include "pipelines/frames/rotation_vector.h"
 #include "pipelines/reconstruction/separation.h"
+#include "tests/support/low_orbit.h"
 #include "tests/support/matchers.h"
 #include "tests/support/outcome.h"
 
@@ -17,14 +15,7 @@ using Eigen::Quaterniond;
 using Eigen::Vector3d;
 
 const TaiTime kSeparation = tai_from_ns(1'772'337'637'000'000'000);
-const std::optional<Orbit> kOrbit{Orbit{KeplerOrbit::make({.epoch = kSeparation,
-                                                           .semi_major_axis_km = 7000.0,
-                                                           .eccentricity = 0.001,
-                                                           .inclination_rad = 1.7,
-                                                           .raan_rad = 0.5,
-                                                           .argument_of_perigee_rad = 1.0,
-                                                           .mean_anomaly_rad = 2.0})
-                                            .value()}};
+const std::optional<Orbit> kOrbit{testing::low_orbit(kSeparation, 2.0)};
 
 Euler312 euler312_of_deg(double phi, double theta, double psi) {
   return {phi * kRadPerDeg, theta * kRadPerDeg, psi * kRadPerDeg};

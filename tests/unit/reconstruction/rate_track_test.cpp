@@ -1,8 +1,7 @@
 #include "pipelines/reconstruction/rate_track.h"
 
-#include <gtest/gtest.h>
-
 #include "pipelines/frames/rotation_vector.h"
+#include "tests/support/matchers.h"
 
 namespace spindrift::rate_track_test {
 

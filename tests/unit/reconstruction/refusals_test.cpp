@@ -7,10 +7,7 @@
 #include "tests/support/matchers.h"
 #include "tests/support/separation_flight.h"
 
-namespace spindrift::refusals_test {
-
-using testing::separation_flight;
-using testing::SeparationFlight;
+namespace spindrift::testing::refusals_test {
 
 using enum ErrorCode;
 
@@ -118,4 +115,4 @@ TEST(ReconstructBatchRefuses, SamplesThatNoAttitudeExplainsAndNamesTheSensor) {
   EXPECT_THAT(error->message, HasSubstr("in the mission file"));
 }
 
-}  // namespace spindrift::refusals_test
+}  // namespace spindrift::testing::refusals_test

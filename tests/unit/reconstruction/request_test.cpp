@@ -1,15 +1,11 @@
 #include "pipelines/reconstruction/request.h"
 
-#include <gtest/gtest.h>
-
 #include "pipelines/reconstruction/event_times.h"
+#include "tests/support/matchers.h"
 #include "tests/support/outcome.h"
 #include "tests/support/separation_flight.h"
 
-namespace spindrift::request_test {
-
-using testing::separation_flight;
-using testing::SeparationFlight;
+namespace spindrift::testing::request_test {
 
 OrbitState circular(double radius_km) {
   return {.position_icrf_km = {radius_km, 0.0, 0.0}, .velocity_icrf_km_s = {0.0, 7.5, 0.0}};
@@ -39,4 +35,4 @@ TEST(ReconstructionRequestTest, ASunSeenBehindAllStarFixesShowsNoT3) {
   EXPECT_EQ(events.back().t, flight.stars.front().t);
 }
 
-}  // namespace spindrift::request_test
+}  // namespace spindrift::testing::request_test

@@ -11,12 +11,9 @@
 #include "tests/support/matchers.h"
 #include "tests/support/separation_flight.h"
 
-namespace spindrift::separation_record_test {
+namespace spindrift::testing::separation_record_test {
 
 using namespace std::chrono_literals;
-using testing::FlightPlan;
-using testing::separation_flight;
-using testing::SeparationFlight;
 
 using AnySample = std::variant<GyroSample, SunDirection, StarFix>;
 
@@ -29,7 +26,7 @@ std::vector<AnySample> samples_of(const SeparationFlight& flight) {
   std::vector<AnySample> samples{flight.gyro.begin(), flight.gyro.end()};
   samples.insert(samples.end(), flight.sun.begin(), flight.sun.end());
   samples.insert(samples.end(), flight.stars.begin(), flight.stars.end());
-  std::stable_sort(samples.begin(), samples.end(), [](const AnySample& a, const AnySample& b) {
+  std::ranges::stable_sort(samples, [](const AnySample& a, const AnySample& b) {
     return std::tuple{time_of(a), a.index()} < std::tuple{time_of(b), b.index()};
   });
   return samples;
@@ -60,6 +57,21 @@ class SeparationRecordTest : public ::testing::Test {
                              .sun_directions = {},
                              .star_fixes = {},
                              .orbit = flight_.orbit}};
+  }
+  SeparationRecord filled(const std::vector<AnySample>& samples) const {
+    SeparationRecord record = empty();
+    for (const AnySample& sample : samples) {
+      push(sample, record);
+    }
+    return record;
+  }
+  /// Returns the samples without those of the gyro from `from_s` on.
+  std::vector<AnySample> samples_without_gyro_from(double from_s) const {
+    std::vector<AnySample> samples = samples_of(flight_);
+    std::erase_if(samples, [&](const AnySample& sample) {
+      return std::holds_alternative<GyroSample>(sample) && time_of(sample) >= at(from_s);
+    });
+    return samples;
   }
   static bool push(const AnySample& sample, SeparationRecord& record) {
     return std::visit([&](const auto& is) { return record.push(is); }, sample);
@@ -95,10 +107,7 @@ TEST_F(SeparationRecordTest, ForgetsWhatAnOperatorLeavesOutAndIsDueOnceASolution
 }
 
 TEST_F(SeparationRecordTest, OfContradictingSamplesNoneCountsUnlessOneIsPreferred) {
-  SeparationRecord record = empty();
-  for (const AnySample& sample : samples_of(flight_)) {
-    push(sample, record);
-  }
+  SeparationRecord record = filled(samples_of(flight_));
   const auto whole = record.request();
   GyroSample other = flight_.gyro.at(40);
   other.sender = static_cast<Sender>(2);
@@ -186,11 +195,7 @@ TEST_F(SeparationRecordTest, AFixAheadOfTheGyroSamplesWaitsForThem) {
 }
 
 TEST_F(SeparationRecordTest, AFixThatTheNextGyroSampleWouldPassDoesNotWait) {
-  std::vector<AnySample> samples = samples_of(flight_);
-  std::erase_if(samples, [&](const AnySample& sample) {
-    return std::holds_alternative<GyroSample>(sample) && time_of(sample) > at(299.6);
-  });
-  EXPECT_THAT(due_at_s(samples), ElementsAre(300.0));
+  EXPECT_THAT(due_at_s(samples_without_gyro_from(299.7)), ElementsAre(300.0));
 }
 
 TEST_F(SeparationRecordTest, AFixOfAClockThatIsAheadHoldsUpNone) {
@@ -257,8 +262,7 @@ TEST_F(SeparationRecordTest,
   std::vector<double> due_s;
   for (const AnySample& sample : samples_of(flight_)) {
     push(sample, record);
-    const bool is_fix = std::holds_alternative<StarFix>(sample);
-    if (is_fix && record.fall_silent(10s)) {
+    if (std::holds_alternative<StarFix>(sample) && record.fall_silent(10s)) {
       due_s.push_back(seconds_between(times_.separation, time_of(sample)));
     }
   }
@@ -277,21 +281,13 @@ TEST_F(SeparationRecordTest,
 
 TEST_F(SeparationRecordTest, InASilenceAFixThatIsAwaitedHoldsUpNoOthers) {
   fly({.star_fix_step_s = 1.0, .end_s = 303.0});
-  SeparationRecord record = empty();
-  for (const AnySample& sample : samples_of(flight_)) {
-    if (!std::holds_alternative<GyroSample>(sample) || time_of(sample) < at(302.2)) {
-      push(sample, record);
-    }
-  }
-  EXPECT_TRUE(record.fall_silent(10s));
+  EXPECT_TRUE(filled(samples_without_gyro_from(302.2)).fall_silent(10s));
 }
 
 TEST_F(SeparationRecordTest, InASilenceTheFirstFixWaitsForGyroSamples) {
   SeparationRecord record = empty();
-  for (const AnySample& sample : samples_of(flight_)) {
-    if (!std::holds_alternative<GyroSample>(sample) || time_of(sample) < at(250.0)) {
-      EXPECT_FALSE(push(sample, record));
-    }
+  for (const AnySample& sample : samples_without_gyro_from(250.0)) {
+    EXPECT_FALSE(push(sample, record));
   }
   EXPECT_FALSE(record.fall_silent(10s));
 }
@@ -300,4 +296,4 @@ TEST_F(SeparationRecordTest, WithoutAGyroSampleNothingIsDue) {
   EXPECT_THAT(due_at_s({flight_.stars.front(), flight_.sun.front()}), IsEmpty());
 }
 
-}  // namespace spindrift::separation_record_test
+}  // namespace spindrift::testing::separation_record_test

@@ -1,11 +1,10 @@
 #include "pipelines/reconstruction/star_consensus.h"
 
-#include <gtest/gtest.h>
-
 #include <cmath>
 
 #include "pipelines/frames/rotation_vector.h"
 #include "pipelines/observation/innovation_gate.h"
+#include "tests/support/matchers.h"
 
 namespace spindrift::star_consensus_test {
 

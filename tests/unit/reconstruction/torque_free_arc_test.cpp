@@ -1,12 +1,11 @@
 #include "pipelines/reconstruction/torque_free_arc.h"
 
-#include <gtest/gtest.h>
-
 #include <Eigen/Eigenvalues>
 
 #include "pipelines/frames/angle.h"
 #include "pipelines/frames/euler312.h"
 #include "pipelines/frames/rotation_vector.h"
+#include "tests/support/matchers.h"
 
 namespace spindrift::torque_free_arc_test {
 

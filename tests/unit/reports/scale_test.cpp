@@ -2,8 +2,7 @@
 
 #include "tests/support/matchers.h"
 
-namespace spindrift::plot {
-namespace {
+namespace spindrift::plot::scale_test {
 
 using ::testing::DoubleNear;
 
@@ -41,5 +40,4 @@ TEST(Scale, TimeIsCountedAsPeopleDo) {
   EXPECT_EQ(time_step_s(90'000.0), 172'800.0);
 }
 
-}  // namespace
-}  // namespace spindrift::plot
+}  // namespace spindrift::plot::scale_test

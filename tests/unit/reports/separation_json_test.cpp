@@ -1,24 +1,10 @@
-#include <gtest/gtest.h>
-
 #include <nlohmann/json.hpp>
 
 #include "services/reports/separation_report.h"
 #include "tests/support/made_separation.h"
+#include "tests/support/matchers.h"
 
-namespace spindrift::separation_json_test {
-
-using testing::made_product;
-using testing::made_report;
-using testing::made_separation;
-
-nlohmann::json json_after(void (*change)(ReconstructedSeparation&)) {
-  ReconstructedSeparation separation = made_separation(ReconstructionMethod::Batch);
-  change(separation);
-  return to_json(
-      SeparationReport{.spacecraft_id = "LEOSAT",
-                       .run_id = "run-1",
-                       .methods = {std::make_shared<const ReconstructedSeparation>(separation)}});
-}
+namespace spindrift::testing::separation_json_test {
 
 TEST(SeparationJson, HasWhatItsDescriptionSays) {
   const nlohmann::json json = to_json(made_report());
@@ -46,7 +32,7 @@ TEST(SeparationJson, HasTheEventsInOrder) {
   ASSERT_EQ(events.size(), 4U);
   const auto& first = events[0];
   EXPECT_EQ(first["event"], "T1");
-  EXPECT_EQ(first["t_tai_ns"], testing::kSeparation_tai_ns);
+  EXPECT_EQ(first["t_tai_ns"], kSeparation_tai_ns);
   EXPECT_EQ(first["utc"], "2026-03-01T04:00:00.000Z");
   EXPECT_EQ(first["found"], false);
   EXPECT_EQ(events[3]["found"], true);
@@ -64,10 +50,10 @@ TEST(SeparationJson, HasTheEventsInOrder) {
 }
 
 TEST(SeparationJson, HasTheMisalignmentThatWasEstimated) {
-  const nlohmann::json json = json_after([](ReconstructedSeparation& one) {
+  const nlohmann::json json = to_json(report_after([](auto& one) {
     one.solution.misalignment =
         SunMisalignment{Eigen::Vector3d{0.01, -0.02, 0.0}, 1e-6 * Eigen::Matrix3d::Identity()};
-  });
+  }));
   EXPECT_NEAR(json["batch"]["sun_misalignment_deg"][1].get<double>(), -0.02 / kRadPerDeg, 1e-9);
   EXPECT_NEAR(json["batch"]["sun_misalignment_sigma_deg"][0].get<double>(), 1e-3 / kRadPerDeg,
               1e-9);
@@ -77,20 +63,20 @@ TEST(SeparationJson, IsNullWhereThereIsNothing) {
   const nlohmann::json both = to_json(made_report());
   EXPECT_TRUE(both["sequential"]["gyro_bias_deg_s"].is_null());
   EXPECT_TRUE(both["sequential"]["events"][0]["bound_deg"].is_null());
-  const nlohmann::json bare = json_after([](ReconstructedSeparation& one) {
+  const nlohmann::json bare = to_json(report_after([](auto& one) {
     one.in_orbit_frame.clear();
     one.launcher.reset();
-  });
+  }));
   EXPECT_TRUE(bare["sequential"].is_null());
   EXPECT_TRUE(bare["batch"]["launcher"].is_null());
   EXPECT_TRUE(bare["batch"]["events"][0]["euler312_orbit_deg"].is_null());
 }
 
 TEST(SeparationJson, SaysWhyTheLauncherWasNotChecked) {
-  const nlohmann::json json = json_after([](ReconstructedSeparation& one) {
+  const nlohmann::json json = to_json(report_after([](auto& one) {
     one.launcher = Unexpected{{ErrorCode::NoCoverage, "no orbit at T1"}};
-  });
+  }));
   EXPECT_EQ(json["batch"]["launcher"], nlohmann::json::parse(R"({"error": "no orbit at T1"})"));
 }
 
-}  // namespace spindrift::separation_json_test
+}  // namespace spindrift::testing::separation_json_test

@@ -1,17 +1,10 @@
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include "pipelines/frames/rotation_vector.h"
 #include "services/reports/separation_report.h"
 #include "tests/support/made_separation.h"
 #include "tests/support/matchers.h"
 #include "tests/support/well_formed.h"
 
-namespace spindrift::separation_plot_test {
-
-using testing::made_report;
-using testing::made_separation;
-using testing::xml_problem;
+namespace spindrift::testing::separation_plot_test {
 
 int count_of(const std::string& text, const std::string& part) {
   int count = 0;
@@ -22,11 +15,9 @@ int count_of(const std::string& text, const std::string& part) {
 }
 
 std::string plot_after(void (*change)(Reconstruction&)) {
-  ReconstructedSeparation separation = made_separation(ReconstructionMethod::Batch);
-  change(separation.solution);
-  return plot_of({.spacecraft_id = "A&B",
-                  .run_id = "run-1",
-                  .methods = {std::make_shared<const ReconstructedSeparation>(separation)}});
+  SeparationReport report = report_after([&](auto& separation) { change(separation.solution); });
+  report.spacecraft_id = "A&B";
+  return plot_of(report);
 }
 
 TEST(SeparationPlot, HasAnglesWithBandsEventsUnitsAndTime) {
@@ -79,4 +70,4 @@ TEST(SeparationPlot, IsEmptyWhereTheHistoryIsOfOneInstant) {
   EXPECT_EQ(plot_after([](Reconstruction& solution) { solution.history.resize(1); }), "");
 }
 
-}  // namespace spindrift::separation_plot_test
+}  // namespace spindrift::testing::separation_plot_test

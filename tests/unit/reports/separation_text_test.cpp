@@ -1,25 +1,11 @@
-
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include "services/reports/separation_report.h"
 #include "tests/support/made_separation.h"
 #include "tests/support/matchers.h"
 
-namespace spindrift::separation_text_test {
-
-using testing::made_report;
-using testing::made_separation;
+namespace spindrift::testing::separation_text_test {
 
 /// Returns the text of a report with `batch` alone after a change.
-template <class Change>
-std::string text_after(const Change& change) {
-  ReconstructedSeparation separation = made_separation(ReconstructionMethod::Batch);
-  change(separation);
-  return to_text({.spacecraft_id = "LEOSAT",
-                  .run_id = "run-1",
-                  .methods = {std::make_shared<const ReconstructedSeparation>(separation)}});
-}
+constexpr auto text_after = [](const auto& change) { return to_text(report_after(change)); };
 
 TEST(SeparationText, HasEventsAttitudesBiasLauncherAndQualityOfBothMethods) {
   EXPECT_EQ(to_text(made_report()), R"(LEOSAT  run run-1
@@ -65,7 +51,7 @@ TEST(SeparationText, HasEventsAttitudesBiasLauncherAndQualityOfBothMethods) {
 }
 
 TEST(SeparationText, SaysHowTheSunSensorIsTurned) {
-  const std::string turned = text_after([](ReconstructedSeparation& one) {
+  const std::string turned = text_after([](auto& one) {
     one.solution.misalignment =
         SunMisalignment{Eigen::Vector3d{0.01, -0.02, 0.0}, 1e-6 * Eigen::Matrix3d::Identity()};
   });
@@ -74,20 +60,18 @@ TEST(SeparationText, SaysHowTheSunSensorIsTurned) {
 }
 
 TEST(SeparationText, SaysWhatIsNotKnown) {
-  const std::string no_orbit =
-      text_after([](ReconstructedSeparation& one) { one.in_orbit_frame.clear(); });
+  const std::string no_orbit = text_after([](auto& one) { one.in_orbit_frame.clear(); });
   EXPECT_THAT(no_orbit, HasSubstr("  orbit frame  not known: the mission file names no orbit\n"));
-  const std::string unchecked = text_after([](ReconstructedSeparation& one) {
+  const std::string unchecked = text_after([](auto& one) {
     one.launcher = Unexpected{{ErrorCode::NoCoverage, "no orbit at T1"}};
   });
   EXPECT_THAT(unchecked, HasSubstr("  launcher     not checked: no orbit at T1\n"));
-  const std::string nothing_told =
-      text_after([](ReconstructedSeparation& one) { one.launcher.reset(); });
+  const std::string nothing_told = text_after([](auto& one) { one.launcher.reset(); });
   EXPECT_THAT(nothing_told, Not(HasSubstr("launcher")));
 }
 
 TEST(SeparationText, MarksAnglesNearTheirSingularity) {
-  const std::string text = text_after([](ReconstructedSeparation& one) {
+  const std::string text = text_after([](auto& one) {
     one.solution.events[1].attitude.q_icrf_body =
         quaternion_of({.phi_rad = 89.9 * kRadPerDeg, .theta_rad = 0.0, .psi_rad = 0.0});
   });
@@ -95,7 +79,7 @@ TEST(SeparationText, MarksAnglesNearTheirSingularity) {
 }
 
 TEST(SeparationText, ShowsTheDigitsThatASmallSigmaLeaves) {
-  const std::string text = text_after([](ReconstructedSeparation& one) {
+  const std::string text = text_after([](auto& one) {
     for (ReconstructedEvent& event : one.solution.events) {
       event.attitude.covariance_rad2 *= 1e-4;
     }
@@ -105,7 +89,7 @@ TEST(SeparationText, ShowsTheDigitsThatASmallSigmaLeaves) {
 }
 
 TEST(SeparationText, SaysInsideWhereTheLauncherAgrees) {
-  const std::string text = text_after([](ReconstructedSeparation& one) {
+  const std::string text = text_after([](auto& one) {
     (*one.launcher)->chance = 0.5;
     (*one.launcher)->difference = {.angle_rad = 0.5 * kRadPerDeg, .chi_square = 2.4};
   });
@@ -113,4 +97,4 @@ TEST(SeparationText, SaysInsideWhereTheLauncherAgrees) {
                               "freedom: inside 99 %\n"));
 }
 
-}  // namespace spindrift::separation_text_test
+}  // namespace spindrift::testing::separation_text_test

@@ -5,8 +5,7 @@
 #include "tests/support/matchers.h"
 #include "tests/support/well_formed.h"
 
-namespace spindrift::plot {
-namespace {
+namespace spindrift::plot::svg_test {
 
 TEST(Svg, IsWellFormedWhateverTheText) {
   Svg svg;
@@ -30,5 +29,4 @@ TEST(Svg, OfTheTestsCheckFindsWhatIsNotWellFormed) {
   }
 }
 
-}  // namespace
-}  // namespace spindrift::plot
+}  // namespace spindrift::plot::svg_test

@@ -1,6 +1,5 @@
 #include "services/serving/background_solving.h"
 
-#include <gtest/gtest.h>
 #include <sched.h>
 
 #include <future>
@@ -8,6 +7,7 @@
 #include <vector>
 
 #include "services/archive/archive.h"
+#include "tests/support/matchers.h"
 #include "tests/support/temporary_folder.h"
 
 namespace spindrift::background_solving_test {

@@ -1,6 +1,5 @@
-#include <gtest/gtest.h>
-
 #include "services/serving/service_watch.h"
+#include "tests/support/matchers.h"
 
 namespace spindrift::backlog_watch_test {
 

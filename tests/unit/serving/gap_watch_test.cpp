@@ -1,6 +1,5 @@
-#include <gtest/gtest.h>
-
 #include "services/serving/session_watch.h"
+#include "tests/support/matchers.h"
 
 namespace spindrift::gap_watch_test {
 

@@ -1,6 +1,6 @@
 #include "services/serving/link_watch.h"
 
-#include <gtest/gtest.h>
+#include "tests/support/matchers.h"
 
 namespace spindrift::link_watch_test {
 

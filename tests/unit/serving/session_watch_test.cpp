@@ -1,6 +1,6 @@
 #include "services/serving/session_watch.h"
 
-#include <gtest/gtest.h>
+#include "tests/support/matchers.h"
 
 namespace spindrift::session_watch_test {
 

@@ -1,7 +1,3 @@
-
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include "services/simulation/comparison_report.h"
 #include "tests/support/matchers.h"
 #include "tests/support/well_formed.h"

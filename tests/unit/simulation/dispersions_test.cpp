@@ -12,10 +12,7 @@
 #include "tests/support/test_paths.h"
 #include "tests/support/text_of.h"
 
-namespace spindrift::dispersions_test {
-
-using testing::error_of;
-using testing::replaced;
+namespace spindrift::testing::dispersions_test {
 
 const std::string kDispersed = text_of(scenarios() / "tumbling.toml") + R"(
 [[dispersions]]
@@ -26,7 +23,6 @@ key = "truth.inertia.factor"
 range = 0.2
 )";
 
-/// Returns the document as read from a file.
 TomlDocument document(const std::string& text = kDispersed) {
   const TemporaryFolder folder;
   return read_scenario(folder.write("scenario.toml", text)).value();
@@ -69,8 +65,8 @@ TEST(Dispersions, HaveTheSpreadThatIsAsked) {
 }
 
 TEST(Dispersions, DoNotChangeTheScenarioAsItStands) {
-  const auto alone = testing::loaded(text_of(scenarios() / "tumbling.toml"));
-  const auto with = testing::loaded(kDispersed);
+  const auto alone = loaded(text_of(scenarios() / "tumbling.toml"));
+  const auto with = loaded(kDispersed);
   EXPECT_EQ(std::get<TumblingScenario>(with.flight).truth.body.at_start.rate_body_rad_s,
             std::get<TumblingScenario>(alone.flight).truth.body.at_start.rate_body_rad_s);
   EXPECT_EQ(with.mission_toml, alone.mission_toml);
@@ -104,4 +100,4 @@ TEST(Dispersions, ThatLeadOutOfTheirRangeAreSaid) {
   EXPECT_GT(bad, 5);
 }
 
-}  // namespace spindrift::dispersions_test
+}  // namespace spindrift::testing::dispersions_test

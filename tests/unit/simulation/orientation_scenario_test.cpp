@@ -11,14 +11,9 @@
 #include "tests/support/test_paths.h"
 #include "tests/support/text_of.h"
 
-namespace spindrift::orientation_scenario_test {
+namespace spindrift::testing::orientation_scenario_test {
 
 const std::string kWhole = text_of(scenarios() / "upper-stage.toml");
-
-using testing::error_of;
-using testing::expect_problems;
-using testing::loaded;
-using testing::replaced;
 
 const OrientationControl& control(const Scenario& scenario) {
   return std::get<OrientationScenario>(scenario.flight).truth.control;
@@ -113,4 +108,4 @@ TEST(OrientationScenario, RefusesWhatDoesNothingSwingsOrTurnsTooFast) {
   }
 }
 
-}  // namespace spindrift::orientation_scenario_test
+}  // namespace spindrift::testing::orientation_scenario_test

@@ -16,14 +16,9 @@
 #include "tests/support/test_paths.h"
 #include "tests/support/text_of.h"
 
-namespace spindrift::separation_scenario_test {
+namespace spindrift::testing::separation_scenario_test {
 
 const std::string kWhole = text_of(scenarios() / "separation.toml");
-
-using testing::error_of;
-using testing::expect_problems;
-using testing::loaded;
-using testing::replaced;
 
 const SeparationScenario& separation(const Scenario& scenario) {
   return std::get<SeparationScenario>(scenario.flight);
@@ -216,4 +211,4 @@ TEST(SeparationScenario, RefusesASpinnersScenarioThatSaysItIsThreeAxis) {
                     HasSubstr("attitude.rate_rpm: unknown")));
 }
 
-}  // namespace spindrift::separation_scenario_test
+}  // namespace spindrift::testing::separation_scenario_test

@@ -13,14 +13,9 @@
 #include "tests/support/test_paths.h"
 #include "tests/support/text_of.h"
 
-namespace spindrift::tumbling_scenario_test {
+namespace spindrift::testing::tumbling_scenario_test {
 
 const std::string kWhole = text_of(scenarios() / "tumbling.toml");
-
-using testing::error_of;
-using testing::expect_problems;
-using testing::loaded;
-using testing::replaced;
 
 const TumblingScenario& tumbling(const Scenario& scenario) {
   return std::get<TumblingScenario>(scenario.flight);
@@ -122,4 +117,4 @@ TEST(TumblingScenario, RefusesOneThatSendsNothing) {
   EXPECT_THAT(error_of(text), HasSubstr("[three_axis]: must have gyro, sun_sensor"));
 }
 
-}  // namespace spindrift::tumbling_scenario_test
+}  // namespace spindrift::testing::tumbling_scenario_test

@@ -1,9 +1,9 @@
 #include "pipelines/statistics/considered.h"
 
-#include <gtest/gtest.h>
-
 #include <Eigen/Dense>
 #include <random>
+
+#include "tests/support/matchers.h"
 
 namespace spindrift::considered_test {
 

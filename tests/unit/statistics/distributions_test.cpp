@@ -1,10 +1,9 @@
 #include "pipelines/statistics/distributions.h"
 
-#include <gtest/gtest.h>
-
 #include <cmath>
 
 #include "pipelines/statistics/significance.h"
+#include "tests/support/matchers.h"
 
 namespace spindrift::distributions_test {
 

@@ -1,10 +1,10 @@
 #include "pipelines/statistics/drift_filter.h"
 
-#include <gtest/gtest.h>
-
 #include <Eigen/Dense>
 #include <cmath>
 #include <random>
+
+#include "tests/support/matchers.h"
 
 namespace spindrift::drift_filter_test {
 

@@ -1,11 +1,10 @@
 #include "pipelines/statistics/median.h"
 
-#include <gtest/gtest.h>
-
 #include <vector>
 
-namespace spindrift {
-namespace {
+#include "tests/support/matchers.h"
+
+namespace spindrift::median_test {
 
 TEST(Median, IsTheUpperOfTwo) {
   std::vector<double> odd{3.0, 1.0, 2.0};
@@ -23,5 +22,4 @@ TEST(Median, AnyPlaceInTheOrderIsFound) {
   }
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::median_test

@@ -1,13 +1,13 @@
 #include "pipelines/statistics/robust_mean.h"
 
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <random>
 #include <span>
 #include <vector>
+
+#include "tests/support/matchers.h"
 
 namespace spindrift::robust_mean_test {
 
@@ -58,7 +58,7 @@ TEST(RobustMean, WithstandsFourOutliersAmongTen) {
   std::normal_distribution<double> normal;
   for (int trial = 0; trial < 500; ++trial) {
     std::vector<double> values(10);
-    std::generate(values.begin(), values.end(), [&] { return 100.0 + normal(rng); });
+    std::ranges::generate(values, [&] { return 100.0 + normal(rng); });
     std::fill(values.begin(), values.begin() + 4, 1e6);
     // The mean of six normal values is within 5 / sqrt(6) of the centre, except once in 2 million
     // times.
@@ -106,7 +106,7 @@ TEST(RobustMean, ALimitBelowOneSigmaLeavesSomethingToKeep) {
   std::normal_distribution<double> normal;
   for (int trial = 0; trial < 200; ++trial) {
     std::vector<double> values(static_cast<std::size_t>(2 + trial % 30));
-    std::generate(values.begin(), values.end(), [&] { return normal(rng); });
+    std::ranges::generate(values, [&] { return normal(rng); });
     const RobustMean mean = robust_mean(values, {.sigma = 0.05, .stated = 1e-9});
     const auto [least, greatest] = std::minmax_element(values.begin(), values.end());
     ASSERT_GE(mean.mean, *least);
@@ -122,7 +122,7 @@ TEST(RobustMean, DoesNotDependOnTheOrderOfItsValues) {
   const RobustMean first = robust_mean(values, kThreeSigma);
   std::mt19937_64 rng{13};
   for (int trial = 0; trial < 50; ++trial) {
-    std::shuffle(values.begin(), values.end(), rng);
+    std::ranges::shuffle(values, rng);
     const RobustMean again = robust_mean(values, kThreeSigma);
     ASSERT_DOUBLE_EQ(again.mean, first.mean);
     ASSERT_DOUBLE_EQ(again.limit, first.limit);
@@ -134,8 +134,8 @@ TEST(RobustMean, ClipsTheShareOfAGaussianThatLiesBeyondThreeSigma) {
   std::mt19937_64 rng{14};
   std::normal_distribution<double> normal;
   std::vector<double> values(100000);
-  std::generate(values.begin(), values.end(), [&] { return normal(rng); });
-  std::sort(values.begin(), values.end());  // The run time depends on the order.
+  std::ranges::generate(values, [&] { return normal(rng); });
+  std::ranges::sort(values);  // The run time depends on the order.
   const RobustMean mean = robust_mean(values, kThreeSigma);
   // Clipping a Gaussian at 3 s, with s the deviation of what is kept, has the fixed point s^2 = 1 -
   // 2 k phi(k) / (2 Phi(k) - 1) with k = 3 s: s = 0.984846, and 0.003131 are clipped.

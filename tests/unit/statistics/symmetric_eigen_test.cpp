@@ -1,12 +1,11 @@
 #include "pipelines/statistics/symmetric_eigen.h"
 
-#include <gtest/gtest.h>
-
 #include <cmath>
 #include <numbers>
 
-namespace spindrift {
-namespace {
+#include "tests/support/matchers.h"
+
+namespace spindrift::symmetric_eigen_test {
 
 TEST(SymmetricEigen, OfASecondDifferenceIsTheClosedForm) {
   constexpr int kSize = 7;
@@ -30,5 +29,4 @@ TEST(SymmetricEigen, GivesTheMatrixAgain) {
   EXPECT_TRUE((eigen.vectors.transpose() * eigen.vectors).isIdentity(1e-14));
 }
 
-}  // namespace
-}  // namespace spindrift
+}  // namespace spindrift::symmetric_eigen_test

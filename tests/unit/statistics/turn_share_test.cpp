@@ -1,6 +1,6 @@
 #include "pipelines/statistics/turn_share.h"
 
-#include <gtest/gtest.h>
+#include "tests/support/matchers.h"
 
 namespace spindrift::turn_share_test {
 

@@ -1,8 +1,7 @@
-#include <gtest/gtest.h>
-
 #include <limits>
 
 #include "pipelines/statistics/significance.h"
+#include "tests/support/matchers.h"
 
 namespace spindrift::variance_factor_test {
 

@@ -1,7 +1,5 @@
 #include "pipelines/supervision/attitude_conditions.h"
 
-#include <gtest/gtest.h>
-
 #include <optional>
 #include <set>
 #include <string>
@@ -9,16 +7,22 @@
 
 #include "pipelines/ephemeris/kepler_orbit.h"
 #include "pipelines/ephemeris/sun.h"
+#include "tests/support/matchers.h"
 
 namespace spindrift::attitude_conditions_test {
 
+TaiTime at(double t_s) { return shifted(tai_from_ns(1'795'143'637'000'000'000), t_s); }
+
 AttitudeEstimate estimate(double t_s, Quality quality) {
-  return {.t = shifted(tai_from_ns(1'795'143'637'000'000'000), t_s),
+  return {.t = at(t_s),
           .q_icrf_body = Eigen::Quaterniond::Identity(),
           .rate_body_rad_s = std::nullopt,
           .covariance_rad2 = 1e-8 * Eigen::Matrix3d::Identity(),
           .assessment = {.quality = quality}};
 }
+
+/// Matches one change of this kind.
+auto only(Change change) { return ElementsAre(::testing::Field(&ConditionChange::change, change)); }
 
 class AttitudeConditionsTest : public ::testing::Test {
  protected:
@@ -26,16 +30,11 @@ class AttitudeConditionsTest : public ::testing::Test {
 };
 
 TEST_F(AttitudeConditionsTest, RaiseThatTheAttitudeIsLostAndClearItWhenItIsBack) {
-  const auto nominal = conditions_.evaluate(estimate(0.0, Quality::Ok));
-  ASSERT_EQ(nominal.size(), 1U);
-  EXPECT_EQ(nominal.front().change, Change::Cleared);
+  EXPECT_THAT(conditions_.evaluate(estimate(0.0, Quality::Ok)), only(Change::Cleared));
   const auto lost = conditions_.evaluate(estimate(1.0, Quality::Lost));
-  ASSERT_EQ(lost.size(), 1U);
+  ASSERT_THAT(lost, only(Change::Raised));
   EXPECT_EQ(lost.front().code, AlertCode::AttitudeLost);
-  EXPECT_EQ(lost.front().change, Change::Raised);
-  const auto back = conditions_.evaluate(estimate(2.0, Quality::Converging));
-  ASSERT_EQ(back.size(), 1U);
-  EXPECT_EQ(back.front().change, Change::Cleared);
+  EXPECT_THAT(conditions_.evaluate(estimate(2.0, Quality::Converging)), only(Change::Cleared));
 }
 
 TEST_F(AttitudeConditionsTest, RaiseThatStarFixesOverruleTheAttitude) {
@@ -43,12 +42,8 @@ TEST_F(AttitudeConditionsTest, RaiseThatStarFixesOverruleTheAttitude) {
   anew.assessment.reasons = {{ReasonCode::Since, {{"since_tai_ns", tai_ns(anew.t)}}}};
   ASSERT_EQ(conditions_.evaluate(anew).size(), 1U);
   anew.t += std::chrono::seconds{1};
-  const auto later = conditions_.evaluate(anew);
-  ASSERT_EQ(later.size(), 1U);
-  EXPECT_EQ(later.front().change, Change::Cleared);
+  EXPECT_THAT(conditions_.evaluate(anew), only(Change::Cleared));
 }
-
-TaiTime at(double t_s) { return shifted(tai_from_ns(1'795'143'637'000'000'000), t_s); }
 
 /// Gives ten estimates a second with this mean square of the innovations in five degrees of
 /// freedom.
@@ -109,9 +104,7 @@ TEST_F(AttitudeConditionsTest, RaiseASensorThatGivesNothingWhileOthersDo) {
   EXPECT_EQ(raised_by(conditions_, {Gyro, Star, OrbitState}, 0, 10), Keys{});
   EXPECT_EQ(raised_by(conditions_, {Gyro}, 10, 14), Keys{});
   EXPECT_EQ(raised_by(conditions_, {Gyro}, 14, 20), Keys{"channel.silent:star"});
-  const auto back = conditions_.evaluate(Star, at(20.5));
-  ASSERT_EQ(back.size(), 1U);
-  EXPECT_EQ(back.front().change, Change::Cleared);
+  EXPECT_THAT(conditions_.evaluate(Star, at(20.5)), only(Change::Cleared));
 }
 
 TEST_F(AttitudeConditionsTest, BelieveNoSampleAloneThatTimeHasGoneOn) {

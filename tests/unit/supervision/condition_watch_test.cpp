@@ -1,6 +1,6 @@
 #include "pipelines/supervision/condition_watch.h"
 
-#include <gtest/gtest.h>
+#include "tests/support/matchers.h"
 
 namespace spindrift::condition_watch_test {
 

@@ -1,10 +1,10 @@
 #include "pipelines/supervision/service_conditions.h"
 
-#include <gtest/gtest.h>
-
 #include <map>
 #include <optional>
 #include <string>
+
+#include "tests/support/matchers.h"
 
 namespace spindrift::service_conditions_test {
 

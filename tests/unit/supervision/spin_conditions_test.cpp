@@ -1,13 +1,12 @@
 #include "pipelines/supervision/spin_conditions.h"
 
-#include <gtest/gtest.h>
-
 #include <optional>
 #include <set>
 #include <string>
 
 #include "pipelines/ephemeris/kepler_orbit.h"
 #include "pipelines/frames/angle.h"
+#include "tests/support/matchers.h"
 
 namespace spindrift::spin_conditions_test {
 
@@ -49,13 +48,19 @@ SpinEstimate estimate(double t_s, Quality quality, double sigma_deg = 0.05, doub
           .assessment = {.quality = quality}};
 }
 
+SpinTarget target_at(double rate_rad_s) {
+  return {.axis_icrf = kAxis,
+          .rate = SpinTarget::Rate{.rad_s = rate_rad_s, .tolerance_rad_s = 0.1}};
+}
+
 /// Collects the keys that are raised and not cleared.
 struct Supervised {
   SpinConditions conditions;
   std::set<std::string> raised = {};
 
-  explicit Supervised(std::optional<SpinTarget> target = std::nullopt)
-      : conditions{config(), orbit(), AlertLimits{}, target} {}
+  explicit Supervised(const std::optional<SpinTarget>& target = std::nullopt,
+                      const SpinConfig& mission = config())
+      : conditions{mission, orbit(), AlertLimits{}, target} {}
 
   template <class Product>
   void evaluate(const Product& product) {
@@ -79,6 +84,17 @@ const Keys& give_estimates(Supervised& pass, Quality quality, double sigma_deg, 
     pass.evaluate(estimate(t_s, quality, sigma_deg, off_deg));
   }
   return pass.raised;
+}
+
+void give_period(Supervised& pass, std::int64_t revolution,
+                 std::optional<Rejection> rejected_by = std::nullopt) {
+  pass.evaluate(RevolutionProduct{
+      .revolution = revolution, .t_sun1 = at(static_cast<double>(revolution)), .period_s = 1.0});
+  pass.evaluate(SpinMeasurement{.revolution = revolution,
+                                .quantity = SpinQuantity::Period,
+                                .value = 1.0,
+                                .sigma = 1e-4,
+                                .rejected_by = rejected_by});
 }
 
 /// Gives the edges of all channels of a turn except `silent`.
@@ -109,19 +125,12 @@ class SpinConditionsTest : public ::testing::Test {
 };
 
 TEST_F(SpinConditionsTest, RaiseNothingOfANominalPass) {
-  Supervised pass{SpinTarget{.axis_icrf = kAxis,
-                             .rate = SpinTarget::Rate{.rad_s = 6.0, .tolerance_rad_s = 0.1}}};
+  Supervised pass{target_at(6.0)};
   give_estimates(pass, Quality::Converging, 2.0, 0.0, 0.0, 30.0);
   give_estimates(pass, Quality::Ok, 0.05, 0.0, 30.0, 300.0);
   for (int revolution = 0; revolution < 300; ++revolution) {
     give_edges(pass, revolution, std::nullopt);
-    pass.evaluate(
-        RevolutionProduct{.revolution = revolution, .t_sun1 = at(revolution), .period_s = 1.0});
-    pass.evaluate(SpinMeasurement{.revolution = revolution,
-                                  .quantity = SpinQuantity::Period,
-                                  .value = 1.0,
-                                  .sigma = 1e-4,
-                                  .rejected_by = std::nullopt});
+    give_period(pass, revolution);
   }
   EXPECT_EQ(pass.raised, Keys{});
 }
@@ -154,8 +163,7 @@ TEST_F(SpinConditionsTest, RaiseAWideSigmaBeforeAManoeuvreThatIsToCome) {
 }
 
 TEST_F(SpinConditionsTest, RaiseAnAxisAndARateAwayFromTheirTarget) {
-  Supervised pass{SpinTarget{.axis_icrf = kAxis,
-                             .rate = SpinTarget::Rate{.rad_s = 5.0, .tolerance_rad_s = 0.1}}};
+  Supervised pass{target_at(5.0)};
   EXPECT_EQ(give_estimates(pass, Quality::Ok, 0.1, 2.2, 0.0, 20.0), Keys{"spin.rate"});
   EXPECT_EQ(give_estimates(pass, Quality::Ok, 0.1, 2.4, 20.0, 40.0),
             (Keys{"spin.off_target", "spin.rate"}));
@@ -203,8 +211,7 @@ TEST_F(SpinConditionsTest, ExpectABeamThatHasNeverComeWhereTheMissionCallsItHeal
     SpinConfig mission = config();
     mission.south = InfraredSensor{
         .mount_angle_rad = 95.0 * kRadPerDeg, .azimuth_rad = 0.1, .healthy = healthy};
-    Supervised pass;
-    pass.conditions = SpinConditions{mission, orbit(), AlertLimits{}, std::nullopt};
+    Supervised pass{std::nullopt, mission};
     pass.evaluate(estimate(0.0, Quality::Ok));
     EXPECT_EQ(give_turns(pass, 0, 30),
               healthy ? Keys({"channel.silent:south_in", "channel.silent:south_out"}) : Keys{});
@@ -216,8 +223,7 @@ TEST_F(SpinConditionsTest, ExpectNoSunBehindTheEndOfASlit) {
   for (const double off_deg : {113.0, 0.0}) {
     SpinConfig mission = config();
     mission.sun_sensor.slit_cant_rad = 0.8;
-    Supervised pass;
-    pass.conditions = SpinConditions{mission, orbit(), AlertLimits{}, std::nullopt};
+    Supervised pass{std::nullopt, mission};
     pass.evaluate(estimate(0.0, Quality::Ok, 0.05, off_deg));
     EXPECT_EQ(give_turns(pass, 0, 40, Sun2), off_deg > 0.0 ? Keys{} : Keys{"channel.silent:sun2"});
   }
@@ -250,33 +256,25 @@ TEST_F(SpinConditionsTest, RaiseSharesOfTheLastHundredRevolutions) {
     const bool is_bad = revolution % 4 == 0;
     give_edges(pass_, revolution, std::nullopt,
                is_bad ? std::optional{Rejection::Phase} : std::nullopt);
-    pass_.evaluate(
-        RevolutionProduct{.revolution = revolution, .t_sun1 = at(revolution), .period_s = 1.0});
-    pass_.evaluate(
-        SpinMeasurement{.revolution = revolution,
-                        .quantity = SpinQuantity::Period,
-                        .value = 1.0,
-                        .sigma = 1e-4,
-                        .rejected_by = is_bad ? std::optional{Rejection::Period} : std::nullopt});
+    give_period(pass_, revolution, is_bad ? std::optional{Rejection::Period} : std::nullopt);
   }
   EXPECT_EQ(pass_.raised, (Keys{"spin.period", "spin.rejection"}));
 }
 
+PulseUse left_over(double t_s, PulseChannel channel, Rejection rejection) {
+  return {.pulse = {.t = at(t_s), .channel = channel}, .revolution = {}, .rejected_by = rejection};
+}
+
 TEST_F(SpinConditionsTest, CountEdgesThatFoundNoRevolution) {
-  const auto left_over = [](int revolution, PulseChannel channel, Rejection rejection) {
-    return PulseUse{.pulse = {.t = at(revolution + 0.005), .channel = channel},
-                    .revolution = {},
-                    .rejected_by = rejection};
-  };
   for (const Rejection rejection : {Rejection::Unassociated, Rejection::Copy}) {
     Supervised copied;
     Supervised without_axis;
     for (int revolution = 0; revolution < 110; ++revolution) {
       give_edges(copied, revolution, std::nullopt);
-      copied.evaluate(left_over(revolution, Sun1, rejection));
-      copied.evaluate(left_over(revolution, Sun2, rejection));
+      copied.evaluate(left_over(revolution + 0.005, Sun1, rejection));
+      copied.evaluate(left_over(revolution + 0.005, Sun2, rejection));
       for (const PulseChannel channel : {Sun1, Sun2, NorthIn, NorthOut, SouthIn, SouthOut}) {
-        without_axis.evaluate(left_over(revolution, channel, rejection));
+        without_axis.evaluate(left_over(revolution + 0.005, channel, rejection));
       }
     }
     EXPECT_EQ(copied.raised, Keys{"spin.rejection"});
@@ -285,7 +283,7 @@ TEST_F(SpinConditionsTest, CountEdgesThatFoundNoRevolution) {
   Supervised by_operator;
   for (int revolution = 0; revolution < 110; ++revolution) {
     give_edges(by_operator, revolution, Sun1);
-    by_operator.evaluate(left_over(revolution, Sun1, Rejection::Operator));
+    by_operator.evaluate(left_over(revolution + 0.005, Sun1, Rejection::Operator));
   }
   EXPECT_EQ(by_operator.raised, Keys{});
 }
@@ -298,9 +296,7 @@ TEST_F(SpinConditionsTest, TakeACopyForNoEdge) {
     if (revolution >= 28) {
       EXPECT_EQ(pass_.raised.contains("channel.silent:north_in"), revolution == 29);
     }
-    pass_.evaluate(PulseUse{.pulse = {.t = at(revolution + 0.5), .channel = Sun1},
-                            .revolution = {},
-                            .rejected_by = Rejection::Copy});
+    pass_.evaluate(left_over(revolution + 0.5, Sun1, Rejection::Copy));
   }
 }
 
@@ -329,10 +325,7 @@ TEST_F(SpinConditionsTest, RaiseANutationThatIsWideOrGrows) {
 }
 
 TEST_F(SpinConditionsTest, GiveARateInRpm) {
-  SpinConditions conditions{
-      config(), orbit(), AlertLimits{},
-      SpinTarget{.axis_icrf = kAxis,
-                 .rate = SpinTarget::Rate{.rad_s = 5.0, .tolerance_rad_s = 0.1}}};
+  SpinConditions conditions{config(), orbit(), AlertLimits{}, target_at(5.0)};
   std::optional<ConditionChange> raised;
   for (int t_s = 0; t_s < 20; ++t_s) {
     for (const ConditionChange& change : conditions.evaluate(estimate(t_s, Quality::Ok))) {

@@ -155,8 +155,7 @@ TEST(PulseFile, RejectsALastRowCutInHalf) {
     SCOPED_TRACE(length);
     const auto pulses = read_text(text.substr(0, length));
     EXPECT_EQ(pulses.samples.size(), 1U);
-    ASSERT_EQ(pulses.rejected.size(), 1U);
-    EXPECT_EQ(pulses.rejected[0].line, 3);
+    EXPECT_THAT(pulses.rejected, ElementsAre(Field(&RejectedInput::line, 3)));
   }
 }
 

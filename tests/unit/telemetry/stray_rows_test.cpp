@@ -1,10 +1,10 @@
 #include "services/telemetry/stray_rows.h"
 
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <random>
 #include <vector>
+
+#include "tests/support/matchers.h"
 
 namespace spindrift::stray_rows_test {
 
@@ -50,8 +50,7 @@ TEST(StrayRows, StandBetweenTwoThatGoOnFromOneAnother) {
   EXPECT_EQ(stray(joined({run(0, 20), {-1800.0, 9000.0}, run(20, 20)})),
             (std::vector<std::size_t>{20, 21}));
   const auto found = find_stray_rows(times_of(joined({run(0, 3), {1800.0}, run(3, 3)})));
-  ASSERT_EQ(found.size(), 1U);
-  EXPECT_EQ(found.front().after, 2U);
+  EXPECT_THAT(found, ElementsAre(Field(&StrayRow::after, 2U)));
 }
 
 TEST(StrayRows, AreNoneBehindASilenceNorInABlockInTheWrongPlace) {
@@ -63,7 +62,7 @@ TEST(StrayRows, AreNoneBehindASilenceNorInABlockInTheWrongPlace) {
 
 TEST(StrayRows, AreNoneWhereNoRowStandsInOrder) {
   std::vector<double> seconds = run(0, 600);
-  std::shuffle(seconds.begin(), seconds.end(), std::mt19937_64{51});
+  std::ranges::shuffle(seconds, std::mt19937_64{51});
   EXPECT_TRUE(stray(seconds).empty());
 }
 

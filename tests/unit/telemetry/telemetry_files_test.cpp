@@ -28,8 +28,11 @@ std::string error_of(std::vector<std::filesystem::path> paths) {
   return files.error().message;
 }
 
-TEST(TelemetryFiles, AreRecognisedByTheirHeaders) {
+struct TelemetryFiles : ::testing::Test {
   const TemporaryFolder folder;
+};
+
+TEST_F(TelemetryFiles, AreRecognisedByTheirHeaders) {
   const std::array<std::pair<const char*, TelemetryKind>, 7> cases = {
       {{"t_tai_ns,channel\n", Kind<Pulse>{}},
        {"t_tai_ns,period_s,sun2_s,north_in_s,north_out_s,south_in_s,south_out_s\n",
@@ -47,8 +50,7 @@ TEST(TelemetryFiles, AreRecognisedByTheirHeaders) {
   }
 }
 
-TEST(TelemetryFiles, MayNameTheSpacecraftInAnyColumn) {
-  const TemporaryFolder folder;
+TEST_F(TelemetryFiles, MayNameTheSpacecraftInAnyColumn) {
   for (const char* header : {"spacecraft,t_tai_ns,channel", "t_tai_ns,spacecraft,channel",
                              "t_tai_ns,channel,spacecraft"}) {
     SCOPED_TRACE(header);
@@ -57,8 +59,7 @@ TEST(TelemetryFiles, MayNameTheSpacecraftInAnyColumn) {
   }
 }
 
-TEST(TelemetryFiles, OfADirectoryAreItsCsvFilesByName) {
-  const TemporaryFolder folder;
+TEST_F(TelemetryFiles, OfADirectoryAreItsCsvFilesByName) {
   folder.write("b.csv", "t_tai_ns,channel\n");
   folder.write("a.csv", kCodedHeader);
   folder.write("notes.txt", "not telemetry");
@@ -72,8 +73,7 @@ TEST(TelemetryFiles, OfADirectoryAreItsCsvFilesByName) {
   EXPECT_EQ(files[1].kind, TelemetryKind{Kind<Pulse>{}});
 }
 
-TEST(TelemetryFiles, StayInTheOrderGiven) {
-  const TemporaryFolder folder;
+TEST_F(TelemetryFiles, StayInTheOrderGiven) {
   const auto z = folder.write("z.csv", "t_tai_ns,channel\n");
   const auto a = folder.write("a.csv", "t_tai_ns,channel\n");
   const auto files = scan({z, a}).value();
@@ -81,8 +81,7 @@ TEST(TelemetryFiles, StayInTheOrderGiven) {
   EXPECT_EQ(files[1].path, a);
 }
 
-TEST(TelemetryFiles, WithAnUnknownHeaderAreRefusedNamingFileLineAndWhatIsAllowed) {
-  const TemporaryFolder folder;
+TEST_F(TelemetryFiles, WithAnUnknownHeaderAreRefusedNamingFileLineAndWhatIsAllowed) {
   for (const char* header : {"time,channel", "t_tai_ns", "t_tai_ns,channel,extra",
                              "channel,t_tai_ns", "t_tai_ns, channel", "T_TAI_NS,CHANNEL",
                              "spacecraft,t_tai_ns,channel,spacecraft", ",", "\xff\xfe"}) {
@@ -95,8 +94,7 @@ TEST(TelemetryFiles, WithAnUnknownHeaderAreRefusedNamingFileLineAndWhatIsAllowed
   }
 }
 
-TEST(TelemetryFiles, WithoutAHeaderAreRefused) {
-  const TemporaryFolder folder;
+TEST_F(TelemetryFiles, WithoutAHeaderAreRefused) {
   for (const char* text : {"\n\r\n\n", "\xEF\xBB\xBF"}) {
     const auto path = folder.write("empty.csv", text);
     EXPECT_THAT(error_of({path}),
@@ -104,15 +102,13 @@ TEST(TelemetryFiles, WithoutAHeaderAreRefused) {
   }
 }
 
-TEST(TelemetryFiles, WithoutAByteAreOfNoKind) {
-  const TemporaryFolder folder;
+TEST_F(TelemetryFiles, WithoutAByteAreOfNoKind) {
   const std::vector<std::filesystem::path> paths = {folder.write("empty.csv", "")};
   const auto files = value_or_throw(scan_telemetry(paths));
   EXPECT_EQ(files.front().kind, std::nullopt);
 }
 
-TEST(TelemetryFiles, ThatCannotBeReadAreNamedAllAtOnce) {
-  const TemporaryFolder folder;
+TEST_F(TelemetryFiles, ThatCannotBeReadAreNamedAllAtOnce) {
   const auto odd = folder.write("odd.csv", "what,is,this\n");
   const auto good = folder.write("good.csv", "t_tai_ns,channel\n");
   const auto nothing = folder.path() / "nothing.csv";
@@ -125,8 +121,7 @@ TEST(TelemetryFiles, ThatCannotBeReadAreNamedAllAtOnce) {
   EXPECT_THAT(error, Not(HasSubstr(good.string())));
 }
 
-TEST(TelemetryFiles, ThatAreNoRegularFilesAreRefusedInsteadOfReadForEver) {
-  const TemporaryFolder folder;
+TEST_F(TelemetryFiles, ThatAreNoRegularFilesAreRefusedInsteadOfReadForEver) {
   const auto pipe = folder.path() / "pipe.csv";
   ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
   EXPECT_EQ(error_of({pipe, "/dev/zero"}), pipe.string() +
@@ -134,8 +129,7 @@ TEST(TelemetryFiles, ThatAreNoRegularFilesAreRefusedInsteadOfReadForEver) {
                                                "/dev/zero: cannot be read: not a regular file");
 }
 
-TEST(TelemetryFiles, AreSourcesByAsMuchOfTheirPathAsTellsThemApart) {
-  const TemporaryFolder folder;
+TEST_F(TelemetryFiles, AreSourcesByAsMuchOfTheirPathAsTellsThemApart) {
   constexpr const char* kHeader = "t_tai_ns,qx,qy,qz,qw\n";
   for (const char* name : {"a", "a/one", "b", "b/one"}) {
     std::filesystem::create_directory(folder.path() / name);

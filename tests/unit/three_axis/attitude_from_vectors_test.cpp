@@ -10,13 +10,10 @@
 #include "tests/support/matchers.h"
 #include "tests/support/turning_body.h"
 
-namespace spindrift::attitude_from_vectors_test {
+namespace spindrift::testing::attitude_from_vectors_test {
 
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
-using testing::any_attitude;
-using testing::error_rad;
-using testing::normal_vector;
 
 // Source: Schaub and Junkins, Analytical Mechanics of Space Systems, examples 3.14 to 3.16 and
 // concept checks. The matrices rotate the reference into the body, with eight digits.
@@ -177,4 +174,4 @@ TEST(Triad, CovarianceIsThatOfItsErrors) {
 
 TEST(QMethod, CovarianceIsThatOfItsErrors) { expect_honest(&q_method); }
 
-}  // namespace spindrift::attitude_from_vectors_test
+}  // namespace spindrift::testing::attitude_from_vectors_test

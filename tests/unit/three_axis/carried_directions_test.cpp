@@ -1,23 +1,19 @@
 #include "pipelines/three_axis/carried_directions.h"
 
-#include <gtest/gtest.h>
-
 #include <Eigen/Geometry>
 #include <cmath>
 #include <numbers>
 #include <random>
 
 #include "pipelines/frames/rotation_vector.h"
+#include "tests/support/matchers.h"
 #include "tests/support/turning_body.h"
 
-namespace spindrift::carried_directions_test {
+namespace spindrift::testing::carried_directions_test {
 
 using Eigen::Matrix3d;
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
-using testing::any_attitude;
-using testing::at_s;
-using testing::normal_vector;
 
 constexpr double kSigma_rad = 1e-3;
 const Vector3d kSun{1.0, 0.0, 0.0};
@@ -167,4 +163,4 @@ TEST(CarriedDirections, ContradictEachOtherWhereTheirAngleIsOffByMoreThanNoise) 
   }
 }
 
-}  // namespace spindrift::carried_directions_test
+}  // namespace spindrift::testing::carried_directions_test

@@ -10,12 +10,7 @@
 #include "tests/support/matchers.h"
 #include "tests/support/turning_body.h"
 
-namespace spindrift::three_axis_contradiction_test {
-
-using testing::at_s;
-using testing::Sensors;
-using testing::TurningBody;
-using testing::usual_three_axis;
+namespace spindrift::testing::three_axis_contradiction_test {
 
 using AnySample = std::variant<GyroSample, StarFix, SunDirection>;
 
@@ -68,8 +63,8 @@ class Contradictions : public ::testing::Test {
   };
 
   static Made run(std::vector<Arrival> arrivals) {
-    std::stable_sort(arrivals.begin(), arrivals.end(),
-                     [](const Arrival& a, const Arrival& b) { return a.t_s < b.t_s; });
+    std::ranges::stable_sort(arrivals,
+                             [](const Arrival& a, const Arrival& b) { return a.t_s < b.t_s; });
     ThreeAxisPass pass{usual_three_axis(), std::nullopt};
     Made made;
     const auto note = [&made](const ThreeAxisOutput& output) {
@@ -81,7 +76,7 @@ class Contradictions : public ::testing::Test {
           for (const SampleContradiction::By& one : contradiction->by) {
             by.push_back(fmt::format("{}{}", static_cast<int>(one.sender), one.used ? "+" : "-"));
           }
-          std::sort(by.begin(), by.end());
+          std::ranges::sort(by);
           made.contradictions.push_back(fmt::format("{} {} {}{}", contradiction->kind,
                                                     tai_ns(contradiction->t), fmt::join(by, ""),
                                                     contradiction->late ? " late" : ""));
@@ -170,7 +165,7 @@ TEST_F(Contradictions, WhoeverComesFirstNoContestedValueIsUsed) {
   const Made wrong_alone = run(arrivals(said_by(kOther, true), nothing));
   ASSERT_GT(without.attitudes.size(), 50U);
   ASSERT_NE(without.attitudes, honest_alone.attitudes);
-  const auto contested = static_cast<std::size_t>(std::count(wrong.begin(), wrong.end(), true));
+  const auto contested = static_cast<std::size_t>(std::ranges::count(wrong, true));
 
   std::vector<std::string> said;
   for (int order = 0; order < 50; ++order) {
@@ -237,4 +232,4 @@ TEST_F(Contradictions, APreferredSenderThatContradictsItselfIsNotUsed) {
   EXPECT_THAT(made.contradictions, ElementsAre(fmt::format("star {} 0-1-", tai_ns(one.t))));
 }
 
-}  // namespace spindrift::three_axis_contradiction_test
+}  // namespace spindrift::testing::three_axis_contradiction_test

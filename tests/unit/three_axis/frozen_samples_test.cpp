@@ -1,18 +1,16 @@
 #include "pipelines/three_axis/frozen_samples.h"
 
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <random>
 
+#include "tests/support/matchers.h"
 #include "tests/support/turning_body.h"
 
-namespace spindrift::frozen_samples_test {
+namespace spindrift::testing::frozen_samples_test {
 
 using Eigen::Vector3d;
-using testing::normal_vector;
 
 constexpr double kNoise_rad_s = 3e-5;
 
@@ -21,7 +19,6 @@ Vector3d in_steps(const Vector3d& rate_rad_s, double step_rad_s) {
   return step_rad_s * (rate_rad_s / step_rad_s).array().round().matrix();
 }
 
-/// Returns a detector that has learned these telemetry steps.
 FrozenSamples with_steps(const Vector3d& steps_rad_s) {
   FrozenSamples gyro = FrozenSamples::of_gyro();
   gyro.learn(Vector3d::Zero(), steps_rad_s);
@@ -179,4 +176,4 @@ TEST(FrozenSamples, AReferenceWithItsNoiseBelowTheStepIsNot) {
   }
 }
 
-}  // namespace spindrift::frozen_samples_test
+}  // namespace spindrift::testing::frozen_samples_test

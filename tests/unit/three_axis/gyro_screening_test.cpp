@@ -1,9 +1,9 @@
 #include "pipelines/three_axis/gyro_screening.h"
 
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <random>
+
+#include "tests/support/matchers.h"
 
 namespace spindrift::gyro_screening_test {
 
@@ -88,8 +88,8 @@ TEST(GyroScreening, LeavesOutASpikeWhereverItIs) {
       EXPECT_EQ(found.left_out.at(0).t, samples[spike].t);
       EXPECT_EQ(found.usable.size(), 99U);
       EXPECT_EQ(found.first_is_outlier, spike == 0);
-      EXPECT_TRUE(std::none_of(found.usable.begin(), found.usable.end(),
-                               [&](const auto& sample) { return sample.t == samples[spike].t; }));
+      EXPECT_TRUE(std::ranges::none_of(
+          found.usable, [&](const auto& sample) { return sample.t == samples[spike].t; }));
     }
   }
 }
@@ -107,8 +107,8 @@ TEST(GyroScreening, SaysWhatItLeavesOutInOrderOfTime) {
   EXPECT_EQ(count(found, Rejection::Outlier), 3);
   EXPECT_EQ(count(found, Rejection::Saturated), 1);
   EXPECT_EQ(count(found, Rejection::Frozen), 19);
-  EXPECT_TRUE(std::is_sorted(found.left_out.begin(), found.left_out.end(),
-                             [](const auto& a, const auto& b) { return a.t < b.t; }));
+  EXPECT_TRUE(std::ranges::is_sorted(found.left_out,
+                                     [](const auto& a, const auto& b) { return a.t < b.t; }));
 }
 
 /// A gyro that was just switched on sends zeros.

@@ -1,7 +1,5 @@
 #include "pipelines/three_axis/gyro_tests.h"
 
-#include <gtest/gtest.h>
-
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -9,13 +7,12 @@
 #include <span>
 #include <vector>
 
+#include "tests/support/matchers.h"
 #include "tests/support/turning_body.h"
 
-namespace spindrift::gyro_tests_test {
+namespace spindrift::testing::gyro_tests_test {
 
 using Eigen::Vector3d;
-using testing::at_s;
-using testing::normal_vector;
 
 constexpr double kNoise_rad_s = 3e-5;
 const Vector3d kNone = Vector3d::Zero();
@@ -175,4 +172,4 @@ TEST(EndStandsOut, TheLastIsLikeTheFirst) {
   EXPECT_TRUE(last.stands_out_by(off, kNoise_rad_s));
 }
 
-}  // namespace spindrift::gyro_tests_test
+}  // namespace spindrift::testing::gyro_tests_test

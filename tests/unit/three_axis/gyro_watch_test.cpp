@@ -1,18 +1,15 @@
 #include "pipelines/three_axis/gyro_watch.h"
 
-#include <gtest/gtest.h>
-
 #include <cmath>
 #include <numbers>
 #include <random>
 
+#include "tests/support/matchers.h"
 #include "tests/support/turning_body.h"
 
-namespace spindrift::gyro_watch_test {
+namespace spindrift::testing::gyro_watch_test {
 
 using Eigen::Vector3d;
-using testing::at_s;
-using testing::normal_vector;
 
 constexpr GyroSensor kGyro{.noise_rad_s = 3e-5, .bias_sigma_rad_s = 2e-4, .range_rad_s = 0.2};
 
@@ -140,4 +137,4 @@ TEST(GyroWatch, OneDeadAxisIsFrozen) {
   }
 }
 
-}  // namespace spindrift::gyro_watch_test
+}  // namespace spindrift::testing::gyro_watch_test

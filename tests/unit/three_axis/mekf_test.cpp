@@ -1,23 +1,18 @@
 #include "pipelines/three_axis/mekf.h"
 
-#include <gtest/gtest.h>
-
 #include <Eigen/Dense>
 #include <cmath>
 #include <random>
 
 #include "pipelines/frames/angle.h"
 #include "pipelines/frames/rotation_vector.h"
+#include "tests/support/matchers.h"
 #include "tests/support/turning_body.h"
 
-namespace spindrift::mekf_test {
+namespace spindrift::testing::mekf_test {
 
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
-using testing::any_attitude;
-using testing::error_rad;
-using testing::normal_vector;
-using testing::TurningBody;
 
 UncertainAttitude known_to(const Eigen::Quaterniond& q, double sigma_rad) {
   return {.q_ref_body = q, .covariance_rad2 = sigma_rad * sigma_rad * Matrix3d::Identity()};
@@ -138,4 +133,4 @@ TEST(Mekf, CovarianceStaysPositiveThroughSharpFixes) {
               1e-20);
 }
 
-}  // namespace spindrift::mekf_test
+}  // namespace spindrift::testing::mekf_test

@@ -1,6 +1,5 @@
 #include "pipelines/three_axis/three_axis_pass.h"
 
-#include <algorithm>
 #include <random>
 
 #include "pipelines/ephemeris/kepler_orbit.h"
@@ -14,14 +13,7 @@
 #include "tests/support/stepped_orbit.h"
 #include "tests/support/turning_body.h"
 
-namespace spindrift::three_axis_pass_test {
-
-using testing::at_s;
-using testing::error_rad;
-using testing::kStart_tai_ns;
-using testing::Sensors;
-using testing::TurningBody;
-using testing::usual_three_axis;
+namespace spindrift::testing::three_axis_pass_test {
 
 /// Returns a state on the Sun's side of the Earth or behind it.
 TimedOrbitState state_towards(const Eigen::Vector3d& sun_icrf, double side) {
@@ -282,11 +274,11 @@ TEST_F(MagnetometerPassTest, AStepOfTheOrbitBetweenFieldsIsDoubted) {
     products_.clear();
     notices_.clear();
     pass_ = {config_,
-             Orbit{testing::stepped(segment, at_s(step_s), Eigen::Vector3d::Zero(),
-                                    Eigen::Vector3d{0.0, 0.12, 0.0})},
+             Orbit{stepped(segment, at_s(step_s), Eigen::Vector3d::Zero(),
+                           Eigen::Vector3d{0.0, 0.12, 0.0})},
              model_};
     run();
-    EXPECT_EQ(testing::has(notices_, NoticeCode::OrbitStepsInPass), step_s > 0.0);
+    EXPECT_EQ(has(notices_, NoticeCode::OrbitStepsInPass), step_s > 0.0);
     EXPECT_EQ(has(last().assessment, ReasonCode::OrbitSteps), step_s > 0.0);
     for (const AttitudeEstimate& estimate : of_kind<AttitudeEstimate>(products_)) {
       EXPECT_FALSE(step_s > 0.0 && estimate.t > at_s(step_s + 2.0) &&
@@ -334,9 +326,8 @@ TEST_F(MagnetometerPassTest, WithoutAnOrbitAFieldIsLeftOutUntilAStateComes) {
   add(pass_.push(field(2.0)));
   add(pass_.finish());
   EXPECT_THAT(reasons(), ElementsAre(Rejection::NoOrbit, Rejection::NoOrbit));
-  ASSERT_THAT(notices_, SizeIs(2));
-  EXPECT_EQ(notices_[0].code, NoticeCode::FieldWithoutOrbit);
-  EXPECT_EQ(notices_[1].code, NoticeCode::AttitudeNeverBegan);
+  EXPECT_THAT(notices_, ElementsAre(Field(&Notice::code, NoticeCode::FieldWithoutOrbit),
+                                    Field(&Notice::code, NoticeCode::AttitudeNeverBegan)));
   EXPECT_EQ(pass_.sensors().at(index_of(SampleKind::Magnetometer)).accepted, 1);
 }
 
@@ -362,4 +353,4 @@ TEST_F(MagnetometerPassTest, AFieldThatTheMissionLacksTheSensorOfIsLeftOut) {
   EXPECT_THAT(reasons(), ElementsAre(Rejection::NoSensor));
 }
 
-}  // namespace spindrift::three_axis_pass_test
+}  // namespace spindrift::testing::three_axis_pass_test

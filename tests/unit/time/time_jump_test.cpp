@@ -1,6 +1,6 @@
 #include "pipelines/time/time_jump.h"
 
-#include <gtest/gtest.h>
+#include "tests/support/matchers.h"
 
 namespace spindrift::time_jump_test {
 

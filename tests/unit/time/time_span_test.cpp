@@ -1,8 +1,8 @@
 #include "pipelines/time/time_span.h"
 
-#include <gtest/gtest.h>
-
 #include <limits>
+
+#include "tests/support/matchers.h"
 
 namespace spindrift::time_span_test {
 

@@ -67,7 +67,7 @@ TEST(Utc, ReadsBackToTheNanosecondWhatItWritesAlsoAcrossEveryLeapSecond) {
   std::mt19937_64 rng{1972};
   std::uniform_int_distribution<std::int64_t> any_ns{tai_ns(first), utc_ns("2189-12-31T00:00:00")};
   std::vector<TaiTime> times(20'000);
-  std::generate(times.begin(), times.end(), [&] { return tai_from_ns(any_ns(rng)); });
+  std::ranges::generate(times, [&] { return tai_from_ns(any_ns(rng)); });
   std::uniform_int_distribution<std::int64_t> around_ns{-3'000'000'000, 3'000'000'000};
   for (const LeapSecond& leap : leap_seconds()) {
     for (int trial = 0; trial < 200; ++trial) {

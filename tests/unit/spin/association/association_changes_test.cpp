@@ -1,8 +1,6 @@
 /// Association of edges that change during the pass: moving chords, drifting or stepping rates,
 /// silences.
 
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -12,6 +10,7 @@
 
 #include "pipelines/spin/association/association.h"
 #include "tests/support/edge_train.h"
+#include "tests/support/matchers.h"
 
 namespace spindrift::association_changes_test {
 
@@ -165,7 +164,6 @@ TEST(Association, TheCountIsRightAfterMinutesOfSilence) {
   }
 }
 
-/// Returns the edges of a body with a constant drift of its rate.
 std::vector<MadeEdge> made_drifting(double rate_rpm, double drift_rpm_h, int turns,
                                     std::mt19937_64& rng) {
   std::normal_distribution<double> normal;
@@ -194,9 +192,9 @@ TEST(Association, ADriftOfTheRateIsFollowed) {
       expect_every_edge_on_its_turn(all, edges);
       std::ptrdiff_t rejected = 0;
       for (const Revolution& revolution : all.closed) {
-        rejected +=
-            std::count_if(revolution.edge_rejections.begin(), revolution.edge_rejections.end(),
-                          [](const auto& rejection) { return rejection.has_value(); });
+        rejected += std::ranges::count_if(revolution.edge_rejections, [](const auto& rejection) {
+          return rejection.has_value();
+        });
       }
       EXPECT_LE(rejected, 12);  // One in a hundred edges.
     }
@@ -215,10 +213,9 @@ TEST(Association, SaysWhenASilenceWasTooLongToCount) {
     ASSERT_FALSE(revolution.count_sigma_turns) << revolution.number;
   }
   const auto closed = heard(3720).closed;
-  const auto uncertain = std::find_if(closed.begin(), closed.end(), [](const Revolution& r) {
-    return r.count_sigma_turns.has_value();
-  });
-  const auto after = std::find_if(closed.begin(), closed.end(), [&](const Revolution& r) {
+  const auto uncertain = std::ranges::find_if(
+      closed, [](const Revolution& r) { return r.count_sigma_turns.has_value(); });
+  const auto after = std::ranges::find_if(closed, [&](const Revolution& r) {
     return r.t_start > edges.at(4000 * kPulseChannels).pulse.t;
   });
   ASSERT_NE(after, closed.end());
@@ -243,9 +240,8 @@ TEST(Association, AYearOfSilenceStartsTheClockAfresh) {
   const Association all = associate(pulses);
   EXPECT_LT(all.left_over.size(), 6U);
   EXPECT_TRUE(std::ranges::is_sorted(all.closed, {}, &Revolution::number));
-  const auto year_on = std::find_if(all.closed.begin(), all.closed.end(), [&](const auto& r) {
-    return r.t_start > shifted(kStart, 1e6);
-  });
+  const auto year_on = std::ranges::find_if(
+      all.closed, [&](const auto& r) { return r.t_start > shifted(kStart, 1e6); });
   ASSERT_NE(year_on, all.closed.end());
   ASSERT_TRUE(year_on->count_sigma_turns);
   EXPECT_GT(*year_on->count_sigma_turns, 0.5);

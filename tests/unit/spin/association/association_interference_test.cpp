@@ -1,5 +1,3 @@
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -10,6 +8,7 @@
 #include "pipelines/spin/association/association.h"
 #include "pipelines/spin/telemetry_order/interference.h"
 #include "tests/support/edge_train.h"
+#include "tests/support/matchers.h"
 
 namespace spindrift::testing::association_interference_test {
 
@@ -86,7 +85,7 @@ Association associate(const std::vector<Edge>& edges, const SpinConfig& config, 
   for (const Edge& edge : edges) {
     pulses.push_back({.t = shifted(tai_from_ns(0), edge.t_s), .channel = edge.channel});
   }
-  std::sort(pulses.begin(), pulses.end());
+  std::ranges::sort(pulses);
   InterferenceWindow window{config.screening.interference_s};
   Associator associator{config};
   Association all;

@@ -1,7 +1,5 @@
 #include "pipelines/spin/association/association.h"
 
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -9,6 +7,7 @@
 #include <vector>
 
 #include "tests/support/edge_train.h"
+#include "tests/support/matchers.h"
 
 namespace spindrift::testing::association_test {
 
@@ -55,28 +54,32 @@ TEST(Association, LostEdgesLeaveTheOthersWhereTheyBelong) {
         all, without(edges, [&](const MadeEdge& edge) {
           const bool early = ++seen.at(index_of(edge.pulse.channel)) < 5 ||
                              edge.pulse.t < all.closed.front().edges[0];
-          return early && std::any_of(all.left_over.begin(), all.left_over.end(),
-                                      [&](const PulseUse& use) { return use.pulse == edge.pulse; });
+          return early && std::ranges::any_of(all.left_over, [&](const PulseUse& use) {
+                   return use.pulse == edge.pulse;
+                 });
         }));
   }
 }
 
 TEST(Association, OfDoubledEdgesTheNearerToItsPlaceStays) {
-  for (const double echo_turns : {-0.03, 0.03}) {
-    SCOPED_TRACE(echo_turns);
-    const auto edges = made({});
-    std::vector<Pulse> pulses = pulses_of(edges);
-    const std::size_t genuine = pulses.size();
-    for (const MadeEdge& edge : edges) {
-      if (edge.turn % 7 == 3) {
-        pulses.push_back(
-            {.t = shifted(edge.pulse.t, echo_turns * kPeriod_s), .channel = edge.pulse.channel});
+  for (const double noise_s : {0.0, 1e-4}) {
+    for (const double echo_turns : {-0.03, -0.008, 0.008, 0.03}) {
+      SCOPED_TRACE(::testing::Message() << echo_turns << " turns, noise " << noise_s);
+      const auto edges = made({.noise_s = noise_s});
+      std::vector<Pulse> pulses = pulses_of(edges);
+      for (const MadeEdge& edge : edges) {
+        if (edge.turn % 7 == 3) {
+          pulses.push_back(
+              {.t = shifted(edge.pulse.t, echo_turns * kPeriod_s), .channel = edge.pulse.channel});
+        }
+      }
+      const Association all = associate(pulses);
+      expect_every_edge_on_its_turn(all, edges);
+      EXPECT_EQ(all.left_over.size(), pulses.size() - edges.size());
+      for (const PulseUse& use : all.left_over) {
+        EXPECT_EQ(use.rejected_by, Rejection::Unassociated);
       }
     }
-    const std::size_t echoes = pulses.size() - genuine;
-    const Association all = associate(pulses);
-    expect_every_edge_on_its_turn(all, edges);
-    EXPECT_EQ(all.left_over.size(), echoes);
   }
 }
 
@@ -106,8 +109,7 @@ TEST(Association, SpuriousEdgesAreLeftOver) {
     };
     for (const MadeEdge& edge : edges) {
       if (edge.pulse.t >= first_sun1) {
-        ASSERT_TRUE(found.contains(edge.pulse) ||
-                    std::any_of(found.begin(), found.end(), stands_in_for(edge)))
+        ASSERT_TRUE(found.contains(edge.pulse) || std::ranges::any_of(found, stands_in_for(edge)))
             << name_of(edge.pulse.channel) << " " << edge.turn;
       }
     }
@@ -256,7 +258,7 @@ TEST(Association, EveryEdgeComesOutExactlyOnce) {
       pulses.push_back(
           {.t = shifted(kStart, t_s(rng)), .channel = static_cast<PulseChannel>(channel(rng))});
     }
-    std::sort(pulses.begin(), pulses.end());
+    std::ranges::sort(pulses);
 
     const Association all = associate(pulses);
     std::vector<Pulse> out;
@@ -266,7 +268,7 @@ TEST(Association, EveryEdgeComesOutExactlyOnce) {
     for (const PulseUse& use : all.left_over) {
       out.push_back(use.pulse);
     }
-    std::sort(out.begin(), out.end());
+    std::ranges::sort(out);
     ASSERT_EQ(out, pulses);
   }
 }

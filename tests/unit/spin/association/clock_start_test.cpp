@@ -1,19 +1,17 @@
 #include "pipelines/spin/association/clock_start.h"
 
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <optional>
 #include <utility>
 #include <vector>
 
+#include "tests/support/matchers.h"
 #include "tests/support/spinning_body.h"
 
 namespace spindrift::testing::clock_start_test {
 
 constexpr TaiTime kStart = tai_from_ns(1'795'143'637'000'000'000);
 
-/// Returns consecutive period notes.
 std::vector<PeriodNote> notes_of(const std::vector<double>& periods_s) {
   std::vector<PeriodNote> notes;
   TaiTime t = kStart;
@@ -61,7 +59,7 @@ std::vector<Pulse> among_others(double sun1_every_s) {
       pulses.push_back({.t = shifted(kStart, turn + phase), .channel = channel});
     }
   }
-  std::sort(pulses.begin(), pulses.end());
+  std::ranges::sort(pulses);
   return pulses;
 }
 

@@ -1,12 +1,11 @@
 #include "pipelines/spin/association/copies.h"
 
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <random>
 #include <tuple>
 
 #include "pipelines/time/time_span.h"
+#include "tests/support/matchers.h"
 
 namespace spindrift::copies_test {
 

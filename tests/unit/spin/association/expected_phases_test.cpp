@@ -1,7 +1,5 @@
 #include "pipelines/spin/association/expected_phases.h"
 
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -9,6 +7,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "tests/support/matchers.h"
 #include "tests/support/spinning_body.h"
 
 namespace spindrift::testing::expected_phases_test {
@@ -119,7 +118,7 @@ TEST_F(ExpectedPhasesTest, EdgesAnywhereAreNotLearnt) {
 /// Merges the edges of two places in each turn.
 std::vector<double> both(std::vector<double> one, const std::vector<double>& other) {
   one.insert(one.end(), other.begin(), other.end());
-  std::sort(one.begin(), one.end());
+  std::ranges::sort(one);
   return one;
 }
 
@@ -149,10 +148,8 @@ TEST_F(ExpectedPhasesTest, OfTwoPlacesTheSunIsOnTheSideOfTheOtherSlit) {
   by_sun2.set_reference(Sun2);
   by_sun2.define(Sun2, 0, slit_turns);
   const auto strays = both(counts(12, 0.1), counts(12, 0.6));
-  const bool learnt = std::any_of(strays.begin(), strays.end(), [&](double count) {
-    return by_sun2.stray(Sun1, count, 0.0, 0.0);
-  });
-  ASSERT_TRUE(learnt);
+  ASSERT_TRUE(std::ranges::any_of(
+      strays, [&](double count) { return by_sun2.stray(Sun1, count, 0.0, 0.0); }));
   EXPECT_NEAR(by_sun2.at(Sun1, 10.0), 0.1, 1e-6);
 }
 

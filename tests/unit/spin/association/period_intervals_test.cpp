@@ -1,8 +1,7 @@
 #include "pipelines/spin/association/period_intervals.h"
 
-#include <gtest/gtest.h>
-
 #include "pipelines/time/time_span.h"
+#include "tests/support/matchers.h"
 
 namespace spindrift::period_intervals_test {
 
@@ -30,19 +29,17 @@ class PeriodIntervalsTest : public ::testing::Test {
 
 TEST_F(PeriodIntervalsTest, AnIntervalMaySpanTurnsWithoutAnEdge) {
   EXPECT_FALSE(candidate(with_sun1(0)));
-  const auto found = candidate(with_sun1(3));
-  ASSERT_TRUE(found);
-  EXPECT_FALSE(found->rejected_by);
-  EXPECT_NEAR(found->period_s, kPeriod_s, 1e-9);
+  const auto found = candidate(with_sun1(3)).value();
+  EXPECT_FALSE(found.rejected_by);
+  EXPECT_NEAR(found.period_s, kPeriod_s, 1e-9);
 }
 
 TEST_F(PeriodIntervalsTest, NoneStartsOrIsAcceptedAtABadEdge) {
   EXPECT_FALSE(candidate(with_sun1(0, Rejection::Phase)));
   EXPECT_FALSE(candidate(with_sun1(1)));
-  const auto bad = candidate(with_sun1(2, Rejection::Phase));
-  ASSERT_TRUE(bad);
-  EXPECT_EQ(bad->rejected_by, Rejection::Phase);
-  EXPECT_FALSE(bad->said);
+  const auto bad = candidate(with_sun1(2, Rejection::Phase)).value();
+  EXPECT_EQ(bad.rejected_by, Rejection::Phase);
+  EXPECT_FALSE(bad.said);
   ASSERT_TRUE(candidate(with_sun1(3)));
 }
 
@@ -51,12 +48,10 @@ TEST_F(PeriodIntervalsTest, ANoteCountsWhereNoIntervalEnds) {
   for (int number = 0; number < 2; ++number) {
     intervals_.keep({.t_sun1 = *with_sun1(number).edge(Sun1), .period_s = kNoted_s});
   }
-  const auto noted = candidate(with_sun1(0));
-  ASSERT_TRUE(noted);
-  EXPECT_DOUBLE_EQ(noted->period_s, kNoted_s);
-  const auto measured = candidate(with_sun1(1));
-  ASSERT_TRUE(measured);
-  EXPECT_NEAR(measured->period_s, kPeriod_s, 1e-9);
+  const auto noted = candidate(with_sun1(0)).value();
+  EXPECT_DOUBLE_EQ(noted.period_s, kNoted_s);
+  const auto measured = candidate(with_sun1(1)).value();
+  EXPECT_NEAR(measured.period_s, kPeriod_s, 1e-9);
 }
 
 TEST_F(PeriodIntervalsTest, OnlyTheLastSixteenNotesAreKept) {

@@ -1,7 +1,5 @@
 #include "pipelines/spin/association/period_search.h"
 
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <cmath>
 #include <random>
@@ -9,6 +7,7 @@
 
 #include "pipelines/spin/types/spin_rate.h"
 #include "pipelines/time/time_span.h"
+#include "tests/support/matchers.h"
 
 namespace spindrift::period_search_test {
 
@@ -17,7 +16,7 @@ constexpr double kNoise_s = 1e-4;
 constexpr std::size_t kFewest = 5;
 
 std::vector<TaiTime> instants(std::vector<double> times_s) {
-  std::sort(times_s.begin(), times_s.end());
+  std::ranges::sort(times_s);
   std::vector<TaiTime> edges;
   for (const double t_s : times_s) {
     edges.push_back(later_by_s(kStart, t_s));
@@ -47,15 +46,14 @@ std::vector<double> even_edges(int count, double period_s) {
 TEST(PeriodSearch, EvenEdgesAreACombOfTheirSpacing) {
   for (const double period_s : {0.26, 0.6, 1.0, 4.75, 14.9}) {
     SCOPED_TRACE(period_s);
-    const auto comb = train_of(even_edges(20, period_s));
-    ASSERT_TRUE(comb);
+    const auto comb = train_of(even_edges(20, period_s)).value();
     // Times are rounded to nanoseconds.
-    EXPECT_NEAR(comb->period_s, period_s, 1e-9);
-    EXPECT_NEAR(elapsed_s(kStart, comb->t), 0.0, 2e-9);
-    EXPECT_EQ(comb->drift_per_s2, 0.0);
-    EXPECT_EQ(comb->edges, 20U);
-    EXPECT_EQ(comb->turns, 19.0);
-    EXPECT_GE(comb->scatter_s, kNoise_s);
+    EXPECT_NEAR(comb.period_s, period_s, 1e-9);
+    EXPECT_NEAR(elapsed_s(kStart, comb.t), 0.0, 2e-9);
+    EXPECT_EQ(comb.drift_per_s2, 0.0);
+    EXPECT_EQ(comb.edges, 20U);
+    EXPECT_EQ(comb.turns, 19.0);
+    EXPECT_GE(comb.scatter_s, kNoise_s);
   }
 }
 
@@ -99,11 +97,10 @@ TEST(PeriodSearch, ADriftIsThatOfTheRate) {
     for (int n = 0; n < 30; ++n) {
       times_s.push_back(time_of_turn(n, kRate_hz, drift_per_s2));
     }
-    const auto comb = find_pulse_train(instants(times_s), 1e-6, kFewest);
-    ASSERT_TRUE(comb);
+    const auto comb = find_pulse_train(instants(times_s), 1e-6, kFewest).value();
     // A parabola in turns neglects the third order, about (drift / rate^2)^2 n of the drift.
-    EXPECT_NEAR(comb->drift_per_s2, drift_per_s2, 0.01 * std::abs(drift_per_s2));
-    EXPECT_NEAR(comb->period_s, 1.0 / kRate_hz, 1e-6);
+    EXPECT_NEAR(comb.drift_per_s2, drift_per_s2, 0.01 * std::abs(drift_per_s2));
+    EXPECT_NEAR(comb.period_s, 1.0 / kRate_hz, 1e-6);
   }
 }
 
@@ -152,10 +149,9 @@ TEST(PeriodSearch, EdgesThatComeSeveralTimesHaveThePeriodOfTheFirst) {
             }
           }
         }
-        const auto comb = train_of(times_s);
-        ASSERT_TRUE(comb);
+        const auto comb = train_of(times_s).value();
         // The sigma of a slope through twenty points, with the noise of two, is 1/13 of the noise.
-        EXPECT_NEAR(comb->period_s, period_s, kNoise_s);
+        EXPECT_NEAR(comb.period_s, period_s, kNoise_s);
       }
     }
   }
@@ -167,7 +163,7 @@ TEST(PeriodSearch, EdgesAtRandomHaveSeldomAPeriod) {
   int found = 0;
   for (int trial = 0; trial < 300; ++trial) {
     std::vector<double> times_s(30);
-    std::generate(times_s.begin(), times_s.end(), [&] { return t_s(rng); });
+    std::ranges::generate(times_s, [&] { return t_s(rng); });
     found += train_of(times_s) ? 1 : 0;
   }
   EXPECT_LE(found, 3);

@@ -1,10 +1,9 @@
-#include <gtest/gtest.h>
-
 #include <utility>
 #include <vector>
 
 #include "pipelines/spin/association/period_search.h"
 #include "pipelines/time/time_span.h"
+#include "tests/support/matchers.h"
 
 namespace spindrift::rate_step_test {
 
@@ -25,9 +24,8 @@ TEST(RateStep, EdgesOfANewRateAreACombOfTheirOwn) {
     EXPECT_FALSE(watch.new_pulse_train(kNoise_s, kPeriod_s)) << turn;
   }
   watch.add(later_by_s(kStart, 4.0 + 5 * 0.9), false);
-  const auto comb = watch.new_pulse_train(kNoise_s, kPeriod_s);
-  ASSERT_TRUE(comb);
-  EXPECT_NEAR(comb->period_s, 0.9, 1e-9);
+  const auto comb = watch.new_pulse_train(kNoise_s, kPeriod_s).value();
+  EXPECT_NEAR(comb.period_s, 0.9, 1e-9);
 
   watch.forget();
   watch.add(later_by_s(kStart, 4.0 + 6 * 0.9), false);

@@ -1,12 +1,12 @@
 #include "pipelines/spin/association/robust_line.h"
 
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <random>
 #include <vector>
+
+#include "tests/support/matchers.h"
 
 namespace spindrift::robust_line_test {
 
@@ -25,7 +25,7 @@ TEST(RobustLine, IsThatOfTheMajorityWhateverTheMinoritySays) {
   for (const unsigned seed : {1U, 2U, 3U}) {
     std::mt19937_64 random{seed};
     std::vector<PhasePoint> points = on_a_line(11);
-    std::shuffle(points.begin(), points.end(), random);
+    std::ranges::shuffle(points, random);
     for (std::size_t i = 0; i < 5; ++i) {
       points[i].phase = std::uniform_real_distribution<double>{0.3, 0.9}(random);
     }

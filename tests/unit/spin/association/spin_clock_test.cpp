@@ -1,10 +1,9 @@
 #include "pipelines/spin/association/spin_clock.h"
 
-#include <gtest/gtest.h>
-
 #include <cmath>
 
 #include "pipelines/time/time_span.h"
+#include "tests/support/matchers.h"
 
 namespace spindrift::spin_clock_test {
 

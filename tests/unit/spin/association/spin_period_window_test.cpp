@@ -1,8 +1,7 @@
-#include <gtest/gtest.h>
-
 #include <numbers>
 
 #include "pipelines/spin/association/period_intervals.h"
+#include "tests/support/matchers.h"
 
 namespace spindrift::spin_period_window_test {
 

@@ -1,8 +1,5 @@
 #include "pipelines/spin/batch/batch_estimator.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -14,10 +11,9 @@
 #include "services/base/assessment_words.h"
 #include "tests/support/assessed.h"
 #include "tests/support/batch_pass.h"
+#include "tests/support/matchers.h"
 
 namespace spindrift::testing::batch_estimator_test {
-
-using ::testing::HasSubstr;
 
 struct Scene : testing::BatchScene {
   explicit Scene(std::uint64_t seed = 1809) : BatchScene{seed} {}
@@ -40,14 +36,12 @@ struct Scene : testing::BatchScene {
 };
 
 const BiasEstimate& of(const BatchSolution& solution, SensorBias bias) {
-  return *std::find_if(solution.biases.begin(), solution.biases.end(),
-                       [&](const BiasEstimate& estimate) { return estimate.bias == bias; });
+  return *std::ranges::find_if(solution.biases,
+                               [&](const BiasEstimate& estimate) { return estimate.bias == bias; });
 }
 
 void expect_refused(const Expected<BatchSolution>& solution, const std::string& why) {
-  ASSERT_FALSE(solution) << sentence_of(solution->estimate.assessment);
-  EXPECT_EQ(solution.error().code, ErrorCode::Unobservable);
-  EXPECT_THAT(solution.error().message, HasSubstr(why));
+  EXPECT_THAT(solution, IsRefused(ErrorCode::Unobservable, HasSubstr(why)));
 }
 
 void widen_north_chord(const SpinningBody& body, double wider_rad, std::vector<PassEdge>& edges) {

@@ -1,7 +1,5 @@
 #include "pipelines/spin/batch/batch_fit.h"
 
-#include <gtest/gtest.h>
-
 #include <Eigen/Geometry>
 #include <cmath>
 #include <random>
@@ -10,6 +8,7 @@
 #include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
 #include "tests/support/batch_pass.h"
+#include "tests/support/matchers.h"
 
 namespace spindrift::testing::batch_fit_test {
 
@@ -40,16 +39,15 @@ TEST(BatchFit, ExactEdgesLeadBackFromDegreesAwayAndTheMinimumStays) {
     starts.push_back(pass.turned(turn_deg * kRadPerDeg));
   }
   for (const SpinState& start : starts) {
-    const auto found = fit(pass.model, pass.edges, start, {});
-    ASSERT_TRUE(found);
-    EXPECT_LT(pass.off_rad(found->state), kExact_rad);
+    const auto found = fit(pass.model, pass.edges, start, {}).value();
+    EXPECT_LT(pass.off_rad(found.state), kExact_rad);
     // The angle that the rate makes over the pass must be as exact as the others.
-    EXPECT_LT(std::abs(found->state.rate_rad_s - pass.truth.rate_rad_s) * pass.model.half_s(),
+    EXPECT_LT(std::abs(found.state.rate_rad_s - pass.truth.rate_rad_s) * pass.model.half_s(),
               kExact_rad);
-    EXPECT_LT(std::abs(found->state.drift_rad_s2) * 0.5 * std::pow(pass.model.half_s(), 2),
+    EXPECT_LT(std::abs(found.state.drift_rad_s2) * 0.5 * std::pow(pass.model.half_s(), 2),
               kExact_rad);
-    EXPECT_TRUE(found->at_bound.none());
-    EXPECT_TRUE(found->state.biases.isZero());
+    EXPECT_TRUE(found.at_bound.none());
+    EXPECT_TRUE(found.state.biases.isZero());
   }
   const SpinState minimum = fit(pass.model, pass.edges, pass.truth, {}).value().state;
   const SpinState again = fit(pass.model, pass.edges, minimum, {}).value().state;

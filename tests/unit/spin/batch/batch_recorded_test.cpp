@@ -1,9 +1,8 @@
-#include <gtest/gtest.h>
-
 #include <string>
 
 #include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
+#include "tests/support/matchers.h"
 #include "tests/support/product_text.h"
 #include "tests/support/recorded_pass.h"
 #include "tests/support/solved_pass.h"

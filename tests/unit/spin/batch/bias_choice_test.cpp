@@ -1,12 +1,11 @@
 /// The bias chosen by the residuals, compared with closed forms of the quadratic likelihood.
 
-#include <gtest/gtest.h>
-
 #include <Eigen/Dense>
 #include <cmath>
 #include <random>
 
 #include "pipelines/spin/batch/bias_selection.h"
+#include "tests/support/matchers.h"
 
 namespace spindrift::bias_choice_test {
 
@@ -60,14 +59,12 @@ TEST(BiasChoice, TheOneThatExplainsMostIsWantedUnlessItIsEstimatedAlready) {
   ask_for(NorthChordBias, 30.0, pass);
   ask_for(Co2HeightBias, 40.0, pass);
   ask_for(SunAngleBias, 20.0, pass);
-  const auto wanted = most_significant_bias(pass, kNone);
-  ASSERT_TRUE(wanted);
-  EXPECT_EQ(wanted->bias, Co2HeightBias);
-  EXPECT_NEAR(wanted->gain, 40.0, 1e-9);
+  const auto wanted = most_significant_bias(pass, kNone).value();
+  EXPECT_EQ(wanted.bias, Co2HeightBias);
+  EXPECT_NEAR(wanted.gain, 40.0, 1e-9);
   // What is estimated already is not wanted.
-  const auto next = most_significant_bias(pass, BiasSet{}.set(Co2HeightBias));
-  ASSERT_TRUE(next);
-  EXPECT_EQ(next->bias, NorthChordBias);
+  const auto next = most_significant_bias(pass, BiasSet{}.set(Co2HeightBias)).value();
+  EXPECT_EQ(next.bias, NorthChordBias);
   EXPECT_FALSE(most_significant_bias(
       pass, BiasSet{}.set(Co2HeightBias).set(NorthChordBias).set(SunAngleBias)));
   EXPECT_FALSE(most_significant_bias(pass, BiasSet{}.set()));
@@ -79,9 +76,8 @@ TEST(BiasChoice, NoiseBeyondWhatIsStatedMakesItLessSure) {
   pass.squares = 4.0 * static_cast<double>(pass.edges - kMotionUnknowns);
   EXPECT_FALSE(most_significant_bias(pass, kNone));
   ask_for(NorthChordBias, 100.0, pass);
-  const auto wanted = most_significant_bias(pass, kNone);
-  ASSERT_TRUE(wanted);
-  EXPECT_NEAR(wanted->gain, 25.0, 1e-9);
+  const auto wanted = most_significant_bias(pass, kNone).value();
+  EXPECT_NEAR(wanted.gain, 25.0, 1e-9);
 }
 
 TEST(BiasChoice, TheGainIsWhatTheSquaresFallByAtTheMinimum) {
@@ -89,9 +85,8 @@ TEST(BiasChoice, TheGainIsWhatTheSquaresFallByAtTheMinimum) {
   for (int trial = 0; trial < 50; ++trial) {
     const PassInformation pass = mixed(DihedralBias, 500.0, rng);
     const BiasSet estimated = BiasSet{}.set(SunAngleBias).set(SouthChordBias);
-    const auto wanted = most_significant_bias(pass, estimated);
-    ASSERT_TRUE(wanted);
-    ASSERT_EQ(wanted->bias, DihedralBias);
+    const auto wanted = most_significant_bias(pass, estimated).value();
+    ASSERT_EQ(wanted.bias, DihedralBias);
     // Solves for motion and the three biases by another decomposition. The prior of the motion is
     // one radian.
     const std::array<int, 8> unknowns{0,
@@ -112,7 +107,7 @@ TEST(BiasChoice, TheGainIsWhatTheSquaresFallByAtTheMinimum) {
     const Eigen::Matrix<double, 8, 1> score = pass.score(unknowns);
     const Eigen::Matrix<double, 8, 1> best = information.fullPivLu().solve(-score);
     const double falls_by = -(best.dot(information * best) + 2.0 * score.dot(best));
-    EXPECT_NEAR(wanted->gain / falls_by, 1.0, 1e-9);
+    EXPECT_NEAR(wanted.gain / falls_by, 1.0, 1e-9);
   }
 }
 

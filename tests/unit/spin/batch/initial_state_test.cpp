@@ -2,19 +2,15 @@
 
 #include "pipelines/spin/batch/initial_state.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include <cmath>
 #include <random>
 
 #include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
 #include "tests/support/batch_pass.h"
+#include "tests/support/matchers.h"
 
 namespace spindrift::testing::initial_state_test {
-
-using ::testing::HasSubstr;
 
 constexpr double kTurns = 100.0;
 
@@ -116,10 +112,8 @@ TEST_F(FirstClockTest, AnAxisThatHasNoneOfTheEdgesIsRefused) {
   });
   // Beams across the axis miss an Earth that lies on the axis.
   const Eigen::Vector3d axis_icrf = scene.around.earth_icrf_km(0.0).normalized();
-  const auto first = initial_state(scene.model(), scene.edges, axis_icrf);
-  ASSERT_FALSE(first);
-  EXPECT_EQ(first.error().code, ErrorCode::Unobservable);
-  EXPECT_THAT(first.error().message, HasSubstr("no edge is one that a body"));
+  EXPECT_THAT(initial_state(scene.model(), scene.edges, axis_icrf),
+              IsRefused(ErrorCode::Unobservable, HasSubstr("no edge is one that a body")));
 }
 
 }  // namespace spindrift::testing::initial_state_test

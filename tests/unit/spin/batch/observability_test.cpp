@@ -1,14 +1,10 @@
 #include "pipelines/spin/batch/observability.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include <cmath>
 
-namespace spindrift::observability_test {
+#include "tests/support/matchers.h"
 
-using ::testing::ElementsAre;
-using ::testing::IsEmpty;
+namespace spindrift::observability_test {
 
 /// Returns the information of edges that know the motion well and know the sum and the difference
 /// of the north chord's and north mounting angle's biases this well, in units of the priors.

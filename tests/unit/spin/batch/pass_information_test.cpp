@@ -1,7 +1,5 @@
 #include "pipelines/spin/batch/pass_information.h"
 
-#include <gtest/gtest.h>
-
 #include <Eigen/Dense>
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -13,6 +11,7 @@
 
 #include "pipelines/statistics/distributions.h"
 #include "tests/support/batch_pass.h"
+#include "tests/support/matchers.h"
 
 namespace spindrift::testing::pass_information_test {
 
@@ -89,7 +88,7 @@ TEST_F(ExactPassInformation, IsHowTheSquaresGrowBesideTheTruth) {
     if (i < kMotionUnknowns) {
       change[i] = 1.0;
     } else {
-      std::generate(change.begin(), change.end(), [&] { return normal(rng); });
+      std::ranges::generate(change, [&] { return normal(rng); });
     }
     // Scale the change to one sigma an edge.
     change *= std::sqrt(static_cast<double>(at_truth.edges) / change.dot(information * change));

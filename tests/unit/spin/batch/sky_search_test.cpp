@@ -1,7 +1,5 @@
 #include "pipelines/spin/batch/sky_search.h"
 
-#include <gtest/gtest.h>
-
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <vector>
@@ -12,6 +10,7 @@
 #include "pipelines/spin/batch/initial_state.h"
 #include "pipelines/spin/batch/pass_information.h"
 #include "tests/support/batch_pass.h"
+#include "tests/support/matchers.h"
 
 namespace spindrift::testing::sky_search_test {
 
@@ -104,10 +103,10 @@ TEST(SkySearch, NamesFewAndDistinctAxesBestFirstThatExplainTheEdgesAboutAsWell) 
     last = misfit;
     EXPECT_NEAR(axis.norm(), 1.0, 1e-9);
     EXPECT_GT(angle_between_rad(axis, best.axis_icrf()), 1.0 * kRadPerDeg);
-    EXPECT_EQ(std::count_if(others.begin(), others.end(),
-                            [&](const Vector3d& other) {
-                              return angle_between_rad(axis, other) < 1.0 * kRadPerDeg;
-                            }),
+    EXPECT_EQ(std::ranges::count_if(others,
+                                    [&](const Vector3d& other) {
+                                      return angle_between_rad(axis, other) < 1.0 * kRadPerDeg;
+                                    }),
               1);
   }
 }

@@ -1,13 +1,12 @@
 #include "pipelines/spin/disambiguation/disambiguation.h"
 
-#include <gtest/gtest.h>
-
 #include <Eigen/Geometry>
 #include <set>
 
 #include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
 #include "tests/support/axis_scene.h"
+#include "tests/support/matchers.h"
 
 namespace spindrift::testing::disambiguation_test {
 

@@ -1,7 +1,5 @@
 #include "pipelines/spin/disambiguation/dispersion.h"
 
-#include <gtest/gtest.h>
-
 #include <Eigen/Geometry>
 #include <array>
 #include <cmath>
@@ -13,6 +11,7 @@
 #include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
 #include "pipelines/statistics/distributions.h"
+#include "tests/support/matchers.h"
 
 namespace spindrift::dispersion_test {
 

@@ -1,7 +1,5 @@
 #include "pipelines/spin/fix/axis_angles.h"
 
-#include <gtest/gtest.h>
-
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -13,6 +11,7 @@
 #include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
 #include "tests/support/axis_scene.h"
+#include "tests/support/matchers.h"
 
 namespace spindrift::testing::axis_angles_test {
 

@@ -1,5 +1,3 @@
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -10,6 +8,7 @@
 #include "pipelines/frames/celestial.h"
 #include "pipelines/spin/fix/axis_candidates.h"
 #include "tests/support/axis_scene.h"
+#include "tests/support/matchers.h"
 
 namespace spindrift::testing::axis_candidates_determinant_test {
 

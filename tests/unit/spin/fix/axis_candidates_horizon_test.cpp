@@ -1,5 +1,3 @@
-#include <gtest/gtest.h>
-
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
@@ -13,6 +11,7 @@
 #include "pipelines/frames/celestial.h"
 #include "pipelines/spin/fix/axis_candidates.h"
 #include "tests/support/axis_scene.h"
+#include "tests/support/matchers.h"
 
 namespace spindrift::testing::axis_candidates_horizon_test {
 
@@ -125,7 +124,6 @@ TEST(AxisCandidatesOnTheEllipsoid, ABeamThatOnTheSphereWouldMissItHasAFixToo) {
   }
 }
 
-/// Mounts the north beam so that its chord has this width.
 void mount_for_chord(double chord_rad, Scene& scene) {
   const double earth_angle_rad = angle_between_rad(scene.axis_icrf, scene.earth_icrf);
   double narrower_rad = earth_angle_rad - 30.0 * kRadPerDeg;
@@ -149,10 +147,9 @@ TEST(AxisCandidatesOnTheEllipsoid, ANarrowChordAnywhereOnTheLimbHasAFixToo) {
         for (const auto& left_out : {std::set{SouthChord, SouthDihedral},
                                      std::set{SouthChord, SouthDihedral, NorthDihedral}}) {
           const auto found =
-              axis_candidates(scene.config, scene.measured(left_out), scene.sun_earth());
-          ASSERT_TRUE(found);
+              axis_candidates(scene.config, scene.measured(left_out), scene.sun_earth()).value();
           double off_rad = 1.0;
-          for (const AxisCandidate& candidate : found->candidates) {
+          for (const AxisCandidate& candidate : found.candidates) {
             off_rad = std::min(off_rad, scene.off_rad(candidate.axis_icrf));
           }
           EXPECT_LT(off_rad, 0.0002 * kRadPerDeg)

@@ -1,7 +1,5 @@
 #include "pipelines/spin/fix/axis_candidates.h"
 
-#include <gtest/gtest.h>
-
 #include <Eigen/Geometry>
 #include <cmath>
 #include <set>
@@ -11,6 +9,7 @@
 #include "pipelines/frames/celestial.h"
 #include "pipelines/spin/sensor_model/geometry.h"
 #include "tests/support/axis_scene.h"
+#include "tests/support/matchers.h"
 
 namespace spindrift::testing::axis_candidates_test {
 

@@ -1,5 +1,3 @@
-#include <gtest/gtest.h>
-
 #include <Eigen/Dense>
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -13,6 +11,7 @@
 #include "pipelines/spin/fix/axis_candidates.h"
 #include "pipelines/spin/measurement/beam_view.h"
 #include "tests/support/axis_scene.h"
+#include "tests/support/matchers.h"
 
 namespace spindrift::testing::horizon_roots_test {
 

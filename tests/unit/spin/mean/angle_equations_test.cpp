@@ -1,12 +1,11 @@
 #include "pipelines/spin/mean/angle_equations.h"
 
-#include <gtest/gtest.h>
-
 #include <Eigen/Dense>
 #include <random>
 
 #include "pipelines/frames/celestial.h"
 #include "tests/support/axis_scene.h"
+#include "tests/support/matchers.h"
 #include "tests/support/normalised_square.h"
 
 namespace spindrift::testing::angle_equations_test {

@@ -1,7 +1,5 @@
 #include "pipelines/spin/mean/fixes_by_case.h"
 
-#include <gtest/gtest.h>
-
 #include <Eigen/Dense>
 #include <cmath>
 #include <numbers>
@@ -9,6 +7,7 @@
 
 #include "pipelines/frames/celestial.h"
 #include "tests/support/axis_scene.h"
+#include "tests/support/matchers.h"
 
 namespace spindrift::testing::fixes_by_case_test {
 

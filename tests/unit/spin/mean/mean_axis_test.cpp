@@ -1,13 +1,12 @@
 #include "pipelines/spin/mean/mean_axis.h"
 
-#include <gtest/gtest.h>
-
 #include <cmath>
 #include <random>
 #include <vector>
 
 #include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
+#include "tests/support/matchers.h"
 #include "tests/support/observed_spin.h"
 
 namespace spindrift::testing::mean_axis_test {

@@ -1,7 +1,5 @@
 #include "pipelines/spin/mean/mean_estimator.h"
 
-#include <gtest/gtest.h>
-
 #include <Eigen/Geometry>
 #include <random>
 
@@ -9,6 +7,7 @@
 #include "pipelines/frames/celestial.h"
 #include "services/base/assessment_words.h"
 #include "tests/support/axis_scene.h"
+#include "tests/support/matchers.h"
 #include "tests/support/product_text.h"
 
 namespace spindrift::testing::mean_estimator_test {

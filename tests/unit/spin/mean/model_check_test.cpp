@@ -1,7 +1,5 @@
 #include "pipelines/spin/mean/model_check.h"
 
-#include <gtest/gtest.h>
-
 #include <Eigen/Dense>
 #include <cmath>
 #include <numbers>
@@ -10,6 +8,7 @@
 #include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
 #include "tests/support/axis_scene.h"
+#include "tests/support/matchers.h"
 #include "tests/support/normalised_square.h"
 
 namespace spindrift::testing::model_check_test {

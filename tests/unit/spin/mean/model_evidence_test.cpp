@@ -1,10 +1,9 @@
-#include <gtest/gtest.h>
-
 #include <cmath>
 #include <utility>
 
 #include "pipelines/frames/angle.h"
 #include "pipelines/spin/mean/model_check.h"
+#include "tests/support/matchers.h"
 
 namespace spindrift::model_evidence_test {
 

@@ -1,12 +1,11 @@
 #include "pipelines/spin/measurement/beam_view.h"
 
-#include <gtest/gtest.h>
-
 #include <cmath>
 
 #include "pipelines/frames/celestial.h"
 #include "pipelines/spin/sensor_model/geometry.h"
 #include "tests/support/axis_scene.h"
+#include "tests/support/matchers.h"
 
 namespace spindrift::testing::beam_view_test {
 

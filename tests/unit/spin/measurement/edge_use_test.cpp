@@ -1,11 +1,10 @@
 #include "pipelines/spin/measurement/edge_use.h"
 
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <optional>
 #include <vector>
 
+#include "tests/support/matchers.h"
 #include "tests/support/spinning_body.h"
 
 namespace spindrift::testing::edge_use_test {
@@ -27,8 +26,8 @@ std::optional<Rejection> use_of(PulseChannel channel, Rejection out_rejected_by,
       {.quantity = SpinQuantity::NorthChord, .rejected_by = out_rejected_by},
       {.quantity = SpinQuantity::SunAngle, .rejected_by = sun_angle_rejected_by}};
   const auto uses = edge_uses(usual_config(), revolution, verdicts);
-  const auto use = std::find_if(uses.begin(), uses.end(),
-                                [&](const PulseUse& u) { return u.pulse.channel == channel; });
+  const auto use =
+      std::ranges::find_if(uses, [&](const PulseUse& u) { return u.pulse.channel == channel; });
   return use->rejected_by;
 }
 

@@ -1,12 +1,11 @@
 #include "pipelines/spin/measurement/mixed_azimuth.h"
 
-#include <gtest/gtest.h>
-
 #include <cmath>
 #include <numbers>
 #include <random>
 
 #include "pipelines/frames/angle.h"
+#include "tests/support/matchers.h"
 
 namespace spindrift::mixed_azimuth_test {
 

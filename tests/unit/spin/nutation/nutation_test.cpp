@@ -2,9 +2,6 @@
 
 #include "pipelines/spin/nutation/nutation.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -12,13 +9,12 @@
 #include <random>
 
 #include "pipelines/frames/angle.h"
+#include "tests/support/matchers.h"
 #include "tests/unit/spin/nutation/edges_off.h"
 
 namespace spindrift::testing::nutation_test {
 
-using ::testing::Contains;
 using ::testing::DoubleNear;
-using ::testing::HasSubstr;
 
 constexpr double kSigma_rad = 0.05 * kRadPerDeg;
 
@@ -45,8 +41,7 @@ TEST(Nutation, OfAnExactCircleIsFoundExactly) {
   for (const double per_turn : {0.07, 0.37, 0.81, 1.24, 1.93}) {
     SCOPED_TRACE(per_turn);
     const auto search = find_nutation(tipped(300, off_by_circle(0.003, per_turn, 0.4))).value();
-    ASSERT_TRUE(search.found);
-    const FoundNutation& found = *search.found;
+    const FoundNutation& found = search.found.value();
     EXPECT_NEAR(found.half_angle_rad.value, 0.003, 1e-8);
     EXPECT_NEAR(found.period_s.value / (kSteadyPeriod_s / per_turn), 1.0, 1e-6);
     EXPECT_NEAR(found.per_turn, per_turn, 1e-6);
@@ -65,11 +60,10 @@ TEST(Nutation, OfADayAtAHundredRpmIsFound) {
   constexpr int kTurns = 144'000;
   constexpr double kHalfAngle_rad = 2e-5;
   const auto found =
-      searched(kTurns, off_by_circle(kHalfAngle_rad, 0.37, 0.4), kSigma_rad, 9).found;
-  ASSERT_TRUE(found);
-  EXPECT_NEAR(found->half_angle_rad.value, kHalfAngle_rad, 3.0 * found->half_angle_rad.sigma);
-  EXPECT_NEAR(found->period_s.value, kSteadyPeriod_s / 0.37, 3.0 * found->period_s.sigma);
-  EXPECT_LT(found->period_s.sigma, 1e-5);
+      searched(kTurns, off_by_circle(kHalfAngle_rad, 0.37, 0.4), kSigma_rad, 9).found.value();
+  EXPECT_NEAR(found.half_angle_rad.value, kHalfAngle_rad, 3.0 * found.half_angle_rad.sigma);
+  EXPECT_NEAR(found.period_s.value, kSteadyPeriod_s / 0.37, 3.0 * found.period_s.sigma);
+  EXPECT_LT(found.period_s.sigma, 1e-5);
 }
 
 TEST(Nutation, GrowsAsItDoes) {
@@ -78,12 +72,11 @@ TEST(Nutation, GrowsAsItDoes) {
     return off_by_circle(0.003, 0.37, 0.0)(channel, turns) *
            std::exp(growth_per_s * kSteadyPeriod_s * (turns - 250.0));
   };
-  const auto found = searched(500, growing, kSigma_rad, 1).found;
-  ASSERT_TRUE(found);
-  EXPECT_GT(found->growth_per_s.value, 5.0 * found->growth_per_s.sigma);
+  const auto found = searched(500, growing, kSigma_rad, 1).found.value();
+  EXPECT_GT(found.growth_per_s.value, 5.0 * found.growth_per_s.sigma);
   // The growth of 0.35 to each end is treated to first order; its square adds a small error.
-  EXPECT_NEAR(found->growth_per_s.value / growth_per_s, 1.0,
-              0.05 + 3.0 * found->growth_per_s.sigma / growth_per_s);
+  EXPECT_NEAR(found.growth_per_s.value / growth_per_s, 1.0,
+              0.05 + 3.0 * found.growth_per_s.sigma / growth_per_s);
 }
 
 TEST(Nutation, SeenOnceATurnLeavesItsAliasesOpen) {
@@ -91,10 +84,9 @@ TEST(Nutation, SeenOnceATurnLeavesItsAliasesOpen) {
       find_nutation(
           noisy(tipped(300, off_by_circle(0.003, 0.37, 0.4), {kSteadyChannels[2]}), kSigma_rad, 2))
           .value()
-          .found;
-  ASSERT_TRUE(found);
-  std::vector<double> periods_s = found->other_periods_s;
-  periods_s.push_back(found->period_s.value);
+          .found.value();
+  std::vector<double> periods_s = found.other_periods_s;
+  periods_s.push_back(found.period_s.value);
   for (const double per_turn : {0.37, 0.63, 1.37, 1.63}) {
     EXPECT_THAT(periods_s, Contains(DoubleNear(kSteadyPeriod_s / per_turn, 1e-3)));
   }
@@ -133,7 +125,7 @@ TEST(Nutation, ThatGoesRoundOnceATurnIsTakenForMisplacedSensors) {
 TEST(Nutation, DoesNotDependOnTheOrderOfTheEdges) {
   auto edges = noisy(tipped(100, off_by_circle(0.003, 0.37, 0.4)), kSigma_rad, 5);
   const auto found = find_nutation(edges).value().found;
-  std::shuffle(edges.begin(), edges.end(), std::mt19937_64{6});
+  std::ranges::shuffle(edges, std::mt19937_64{6});
   const auto shuffled = find_nutation(edges).value().found;
   EXPECT_EQ(found->period_s.value, shuffled->period_s.value);
   EXPECT_EQ(found->half_angle_rad.sigma, shuffled->half_angle_rad.sigma);
@@ -145,33 +137,26 @@ TEST(Nutation, SurvivesGapsAndLostEdges) {
   std::erase_if(edges, [&](const UniformSpinResidual& edge) {
     return std::bernoulli_distribution{0.3}(rng) || (edge.turns > 200.0 && edge.turns < 400.0);
   });
-  const auto found = find_nutation(edges).value().found;
-  ASSERT_TRUE(found);
-  EXPECT_NEAR(found->period_s.value, kSteadyPeriod_s / 0.37, 4.0 * found->period_s.sigma);
-}
-
-void expect_refused(const std::vector<UniformSpinResidual>& edges, ErrorCode code,
-                    const std::string& why) {
-  const auto search = find_nutation(edges);
-  ASSERT_FALSE(search);
-  EXPECT_EQ(search.error().code, code);
-  EXPECT_THAT(search.error().message, HasSubstr(why));
+  const auto found = find_nutation(edges).value().found.value();
+  EXPECT_NEAR(found.period_s.value, kSteadyPeriod_s / 0.37, 4.0 * found.period_s.sigma);
 }
 
 TEST(Nutation, RefusesWhatItCannotUse) {
+  using enum ErrorCode;
   const Off tilt = off_by_circle(0.003, 0.37, 0.4);
   const auto edges = tipped(100, tilt);
   auto infinite = edges;
   infinite[17].off_rad = std::numeric_limits<double>::quiet_NaN();
-  expect_refused(infinite, ErrorCode::InvalidInput, "must be finite");
+  EXPECT_THAT(find_nutation(infinite), IsRefused(InvalidInput, HasSubstr("must be finite")));
   auto exact = edges;
   exact[5].sigma_rad = 0.0;
-  expect_refused(exact, ErrorCode::InvalidInput, "sigma above 0");
-  expect_refused({}, ErrorCode::Unobservable, "0 edges");
-  expect_refused(tipped(15, tilt), ErrorCode::Unobservable, "14.0 turns");
-  expect_refused(tipped(15, tilt), ErrorCode::Unobservable, "20 turns at least");
-  expect_refused(tipped(100, tilt, {{PulseChannel::Sun1, 0.0, {0.0, 0.0}}}),
-                 ErrorCode::Unobservable, "by 0 sigmas");
+  EXPECT_THAT(find_nutation(exact), IsRefused(InvalidInput, HasSubstr("sigma above 0")));
+  EXPECT_THAT(find_nutation({}), IsRefused(Unobservable, HasSubstr("0 edges")));
+  EXPECT_THAT(
+      find_nutation(tipped(15, tilt)),
+      IsRefused(Unobservable, AllOf(HasSubstr("14.0 turns"), HasSubstr("20 turns at least"))));
+  EXPECT_THAT(find_nutation(tipped(100, tilt, {{PulseChannel::Sun1, 0.0, {0.0, 0.0}}})),
+              IsRefused(Unobservable, HasSubstr("by 0 sigmas")));
 }
 
 }  // namespace spindrift::testing::nutation_test

@@ -1,7 +1,5 @@
 #include "pipelines/spin/nutation/tilt_signal.h"
 
-#include <gtest/gtest.h>
-
 #include <Eigen/Geometry>
 #include <Eigen/QR>
 #include <algorithm>
@@ -10,6 +8,7 @@
 #include <vector>
 
 #include "pipelines/frames/angle.h"
+#include "tests/support/matchers.h"
 #include "tests/unit/spin/nutation/edges_off.h"
 
 namespace spindrift::testing::tilt_signal_test {
@@ -52,7 +51,7 @@ TEST(TiltSignal, CountsTurnsFromTheEdgeInTheMiddle) {
 TEST(TiltSignal, DoesNotDependOnTheOrderOfTheResiduals) {
   auto residuals = edges_off(kSteadyChannels, 100, off_by_noise(kSteadySigma_rad, 2));
   const TiltSignal signal{residuals};
-  std::shuffle(residuals.begin(), residuals.end(), std::mt19937_64{3});
+  std::ranges::shuffle(residuals, std::mt19937_64{3});
   const TiltSignal shuffled{residuals};
   EXPECT_EQ(shuffled.off(), signal.off());
   EXPECT_EQ(shuffled.turns(), signal.turns());

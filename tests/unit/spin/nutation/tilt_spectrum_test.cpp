@@ -1,10 +1,9 @@
-#include <gtest/gtest.h>
-
 #include <cmath>
 #include <complex>
 
 #include "pipelines/frames/angle.h"
 #include "pipelines/spin/nutation/tilt_signal.h"
+#include "tests/support/matchers.h"
 #include "tests/unit/spin/nutation/edges_off.h"
 
 namespace spindrift::testing::tilt_spectrum_test {

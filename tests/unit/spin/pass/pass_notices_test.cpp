@@ -1,25 +1,15 @@
 #include "pipelines/spin/pass/pass_notices.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include <Eigen/Core>
 #include <cmath>
 #include <utility>
 
 #include "services/base/notice_words.h"
+#include "tests/support/matchers.h"
 #include "tests/support/observed_spin.h"
 
 namespace spindrift::testing::pass_notices_test {
 
-using ::testing::AllOf;
-using ::testing::Contains;
-using ::testing::ElementsAre;
-using ::testing::EndsWith;
-using ::testing::HasSubstr;
-using ::testing::IsEmpty;
-using ::testing::Not;
-using ::testing::StartsWith;
 using enum PulseChannel;
 
 const TaiTime kStart = tai_from_ns(1'795'143'637'000'000'000);
@@ -30,7 +20,6 @@ Association of_one_revolution() {
           .left_over = {}};
 }
 
-/// Returns the notices as sentences.
 std::vector<std::string> taken(PassNotices& notices) {
   std::vector<std::string> sentences;
   for (const Notice& notice : notices.take_pending()) {

@@ -1,10 +1,9 @@
-#include <gtest/gtest.h>
-
 #include <numbers>
 #include <random>
 
 #include "pipelines/spin/measurement/measurement.h"
 #include "pipelines/spin/planning/pass_geometry.h"
+#include "tests/support/matchers.h"
 #include "tests/support/observed_spin.h"
 
 namespace spindrift::testing::expected_revolution_test {

@@ -3,9 +3,6 @@
 
 #include "pipelines/spin/planning/pass_geometry.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -17,14 +14,11 @@
 #include "pipelines/spin/measurement/measurement.h"
 #include "pipelines/spin/planning/pass_conditions.h"
 #include "services/reports/planned_pass.h"
+#include "tests/support/matchers.h"
 #include "tests/support/observed_spin.h"
 #include "tests/support/recorded_pass.h"
 
 namespace spindrift::testing::pass_geometry_test {
-
-using ::testing::Contains;
-using ::testing::HasSubstr;
-using ::testing::Not;
 
 PassGeometry at(const SpinConfig& config, const Orbit& orbit, const Eigen::Vector3d& axis_icrf,
                 TaiTime t, double rate_rad_s = 2.0 * std::numbers::pi) {
@@ -260,9 +254,8 @@ TEST(PassGeometry, BelowTheHorizonIsAnError) {
   const Orbit orbit = orbit_across_the_earth();
   SpinConfig config = usual_config();
   config.horizon.co2_altitude_km = 30'000.0;
-  const auto found = PassScene{config, orbit, Eigen::Vector3d::UnitZ(), 1.0}.at(kTransferStart);
-  ASSERT_FALSE(found);
-  EXPECT_EQ(found.error().code, ErrorCode::Unobservable);
+  EXPECT_THAT((PassScene{config, orbit, Eigen::Vector3d::UnitZ(), 1.0}.at(kTransferStart)),
+              IsRefused(ErrorCode::Unobservable, _));
 }
 
 }  // namespace spindrift::testing::pass_geometry_test

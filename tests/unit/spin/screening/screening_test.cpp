@@ -1,7 +1,5 @@
 #include "pipelines/spin/screening/screening.h"
 
-#include <gtest/gtest.h>
-
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -11,6 +9,7 @@
 #include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
 #include "tests/support/axis_scene.h"
+#include "tests/support/matchers.h"
 
 namespace spindrift::testing::screening_test {
 
@@ -143,7 +142,7 @@ TEST(Residuals, AChordThatTheAxisSaysIsImpossibleHasNone) {
       Eigen::AngleAxisd{60.0 * kRadPerDeg, kScene.earth_icrf.unitOrthogonal()} * kScene.earth_icrf;
   const auto found = residuals_of(seen(), axis);
   ASSERT_EQ(found.size(), 3U);
-  EXPECT_TRUE(std::none_of(found.begin(), found.end(), [](const AngleResidual& residual) {
+  EXPECT_TRUE(std::ranges::none_of(found, [](const AngleResidual& residual) {
     return residual.quantity == NorthChord || residual.quantity == SouthChord;
   }));
 }

@@ -1,8 +1,6 @@
 /// The information of edges on the axis, compared with pipelines/spin/README.md and with the
 /// response of the oracle's edges to changes of the body.
 
-#include <gtest/gtest.h>
-
 #include <Eigen/Geometry>
 #include <array>
 #include <cmath>
@@ -12,6 +10,7 @@
 #include "pipelines/frames/celestial.h"
 #include "pipelines/spin/sensor_model/edge_prediction.h"
 #include "tests/support/information_limit.h"
+#include "tests/support/matchers.h"
 #include "tests/support/observed_spin.h"
 #include "tests/support/recorded_pass.h"
 

@@ -3,8 +3,6 @@
 
 #include "pipelines/spin/sensor_model/edge_prediction.h"
 
-#include <gtest/gtest.h>
-
 #include <Eigen/Geometry>
 #include <cmath>
 #include <numbers>
@@ -13,6 +11,7 @@
 #include "pipelines/frames/celestial.h"
 #include "pipelines/frames/wgs84.h"
 #include "pipelines/spin/measurement/measurement.h"
+#include "tests/support/matchers.h"
 #include "tests/support/observed_spin.h"
 #include "tests/support/spinning_body.h"
 

@@ -2,8 +2,6 @@
 
 #include "pipelines/spin/sensor_model/horizon.h"
 
-#include <gtest/gtest.h>
-
 #include <Eigen/Geometry>
 #include <cmath>
 #include <limits>
@@ -13,6 +11,7 @@
 #include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
 #include "pipelines/spin/sensor_model/edge_prediction.h"
+#include "tests/support/matchers.h"
 #include "tests/support/spinning_body.h"
 
 namespace spindrift::testing::horizon_test {
@@ -22,7 +21,7 @@ const TaiTime kStart = tai_from_ns(1'795'143'637'000'000'000);
 
 Eigen::Vector3d random_direction(std::mt19937_64& rng) {
   std::normal_distribution<double> normal;
-  return Eigen::Vector3d{normal(rng), normal(rng), normal(rng)}.normalized();
+  return testing::random_direction(normal, rng);
 }
 
 /// Holds a body that sees the Earth from some distance, and the predictor's input for it.

@@ -1,12 +1,11 @@
 #include "pipelines/spin/sequential/hypotheses.h"
 
-#include <gtest/gtest.h>
-
 #include <Eigen/Core>
 #include <cstddef>
 #include <utility>
 #include <vector>
 
+#include "tests/support/matchers.h"
 #include "tests/support/sequential_scene.h"
 
 namespace spindrift::testing::hypotheses_test {

@@ -1,8 +1,6 @@
 /// When fixes name several axes, `sequential` follows them all and reports AMBIGUOUS until one is
 /// settled.
 
-#include <gtest/gtest.h>
-
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -12,6 +10,7 @@
 #include "pipelines/spin/sequential/sequential.h"
 #include "services/base/assessment_words.h"
 #include "tests/support/assessed.h"
+#include "tests/support/matchers.h"
 #include "tests/support/sequential_scene.h"
 
 namespace spindrift::testing::sequential_candidates_test {
@@ -24,12 +23,11 @@ SpinFix ambiguous(SpinFix fix, const Eigen::Vector3d& first, const Eigen::Vector
   return fix;
 }
 
-TEST(Sequential, AFixThatComesNearABranchOfAlternatesDoesNotStartThere) {
+TEST_F(SequentialOnAScene, AFixThatComesNearABranchOfAlternatesDoesNotStartThere) {
   // Poor fixes settled by a prior name a false axis beside the true one until it is known well;
   // then a settled fix lies nearer to the false one.
   constexpr double kPoor_rad = 8.0 * kRadPerDeg;
   constexpr std::size_t kByPrior = 14;
-  Scene scene;
   const auto seen = scene.seen(0.0, 240.0);
   const Eigen::Vector3d elsewhere = scene.turned_about_earth(40.0);
   const auto all = estimates(scene.body.config, seen, [&](std::size_t i) {
@@ -52,9 +50,8 @@ TEST(Sequential, AFixThatComesNearABranchOfAlternatesDoesNotStartThere) {
   EXPECT_LT(squared_error(all.back(), scene.body.axis_icrf), kOneInTenThousand);
 }
 
-TEST(Sequential, NearTangentFixesStartItWhereThereAreNoOthersAndSettleNothing) {
+TEST_F(SequentialOnAScene, NearTangentFixesStartItWhereThereAreNoOthersAndSettleNothing) {
   constexpr std::size_t kFirstGood = 40;
-  Scene scene;
   const auto seen = scene.seen(0.0, 60.0);
   const Eigen::Vector3d sun_icrf = scene.around.sun_icrf(0.0);
   const auto all = estimates(scene.body.config, seen, [&](std::size_t i) {
@@ -75,11 +72,10 @@ TEST(Sequential, NearTangentFixesStartItWhereThereAreNoOthersAndSettleNothing) {
   EXPECT_LT(squared_error(all.back(), scene.body.axis_icrf), kOneInTenThousand);
 }
 
-TEST(Sequential, NeverFollowsAFalseAxisSilently) {
+TEST_F(SequentialOnAScene, NeverFollowsAFalseAxisSilently) {
   // The first fixes are false and none follows. Unless the filter finds the true axis by itself,
   // its status must not be OK. If it does, the doubt from the false start has faded, with at most
   // one exception.
-  Scene scene;
   const auto seen = scene.seen(0.0, 60.0);
   const Eigen::Matrix<double, 3, 2> basis = tangent_basis(scene.body.axis_icrf);
   int lost = 0;
@@ -105,10 +101,9 @@ TEST(Sequential, NeverFollowsAFalseAxisSilently) {
   EXPECT_GT(lost, 16);  // All that are at least 30 deg off.
 }
 
-TEST(Sequential, SaysAmbiguousUntilAFixSettlesIt) {
+TEST_F(SequentialOnAScene, SaysAmbiguousUntilAFixSettlesIt) {
   // Without the Sun, the axes form a cone about the Earth; two of them are named, the true one
   // second.
-  Scene scene;
   const auto seen = without_sun(scene.seen(0.0, 30.0));
   const std::size_t settled_at = 20;
   const SpinFix start =
@@ -126,8 +121,7 @@ TEST(Sequential, SaysAmbiguousUntilAFixSettlesIt) {
   EXPECT_LT(squared_error(all.back(), scene.body.axis_icrf), kOneInTenThousand);
 }
 
-TEST(Sequential, NamesTheAlternativeThatItDoesNotPublish) {
-  Scene scene;
+TEST_F(SequentialOnAScene, NamesTheAlternativeThatItDoesNotPublish) {
   const auto seen = without_sun(scene.seen(0.0, 15.0));
   const SpinFix start =
       ambiguous(scene.fix(), scene.body.axis_icrf, scene.turned_about_earth(10.0));
@@ -176,9 +170,8 @@ TEST(Sequential, TheLikeliestCandidateOfOneFixIsNotTheAxisForThat) {
   }
 }
 
-TEST(Sequential, WhereNearlyAllFixesAreNearTangentNoneNamesAllCandidates) {
+TEST_F(SequentialOnAScene, WhereNearlyAllFixesAreNearTangentNoneNamesAllCandidates) {
   // Noise makes one fix in ten not near tangent, but it lacks the true axis like the others.
-  Scene scene;
   const auto seen = scene.seen(0.0, 100.0);
   const Eigen::Vector3d sun_icrf = scene.around.sun_icrf(0.0);
   const auto all = estimates(scene.body.config, seen, [&](std::size_t i) {
@@ -194,9 +187,8 @@ TEST(Sequential, WhereNearlyAllFixesAreNearTangentNoneNamesAllCandidates) {
   }
 }
 
-TEST(Sequential, ACandidateThatOnlyLaterFixesNameIsFollowed) {
+TEST_F(SequentialOnAScene, ACandidateThatOnlyLaterFixesNameIsFollowed) {
   // The first AMBIGUOUS fix lacks the true axis; all others name it second.
-  Scene scene;
   const auto seen = scene.seen(0.0, 60.0);
   const Eigen::Vector3d sun_icrf = scene.around.sun_icrf(0.0);
   const auto all = estimates(scene.body.config, seen, [&](std::size_t i) {
@@ -213,9 +205,8 @@ TEST(Sequential, ACandidateThatOnlyLaterFixesNameIsFollowed) {
   EXPECT_TRUE(is_unopposed(all.back().assessment.quality));
 }
 
-TEST(Sequential, WhatIsSettledIsOpenAgainWhereFixesNameOtherAxes) {
+TEST_F(SequentialOnAScene, WhatIsSettledIsOpenAgainWhereFixesNameOtherAxes) {
   // Without the Sun no edge contradicts the false axis, and no later fix is settled.
-  Scene scene;
   const auto seen = without_sun(scene.seen(0.0, 60.0));
   const SpinFix wrong = scene.false_fix(12.0);
   const auto all = estimates(scene.body.config, seen, [&](std::size_t i) {

@@ -1,7 +1,5 @@
 #include "pipelines/spin/sequential/spin_filter.h"
 
-#include <gtest/gtest.h>
-
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -9,6 +7,7 @@
 
 #include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
+#include "tests/support/matchers.h"
 #include "tests/support/normalised_square.h"
 #include "tests/support/observed_spin.h"
 #include "tests/support/recorded_pass.h"
@@ -42,7 +41,6 @@ double squared_error(const SpinFilter& filter, const Eigen::Vector3d& true_icrf)
 // Chi-square quantile for a probability of 1e-4 and two degrees of freedom.
 constexpr double kOneInTenThousand = 18.42;
 
-/// Holds the recorded pass and filters about its true axis.
 class SpinFilterTest : public ::testing::Test {
  protected:
   SpinFilter about_the_axis(const Eigen::Matrix2d& covariance_rad2) const {
@@ -169,7 +167,7 @@ TEST_F(SpinFilterTest, TheOrderOfTheEdgesHasNoWeight) {
   const GoodEdges good{pass_.config, seen_[1].revolution};
   std::vector<Pulse> edges{good.span().begin(), good.span().end()};
   forward.update(pass_.config, seen_[1].sky, edges);
-  std::reverse(edges.begin(), edges.end());
+  std::ranges::reverse(edges);
   backward.update(pass_.config, seen_[1].sky, edges);
   EXPECT_LT(angle_between_rad(forward.axis_icrf(), backward.axis_icrf()), 1e-9);
   EXPECT_TRUE(forward.axis_covariance_rad2().isApprox(backward.axis_covariance_rad2(), 1e-6));

@@ -1,11 +1,10 @@
-#include <gtest/gtest.h>
-
 #include <Eigen/Geometry>
 #include <functional>
 #include <random>
 
 #include "pipelines/frames/angle.h"
 #include "pipelines/spin/sequential/contradiction.h"
+#include "tests/support/matchers.h"
 #include "tests/support/observed_spin.h"
 
 namespace spindrift::testing::start_confirmation_test {
@@ -18,7 +17,6 @@ StartingPoint known_to(double sigma_rad, double off_rad = 0.0) {
           .covariance_rad2 = 0.5 * sigma_rad * sigma_rad * Eigen::Matrix2d::Identity()};
 }
 
-/// Returns the confirmation after this many fixes of the axis.
 StartConfirmation after(int fixes, const StartingPoint& followed,
                         const std::function<void(SpinFix&)>& change = {}) {
   std::mt19937_64 rng{5};

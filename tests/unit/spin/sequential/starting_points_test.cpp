@@ -1,7 +1,5 @@
 #include "pipelines/spin/sequential/starting_points.h"
 
-#include <gtest/gtest.h>
-
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -10,6 +8,7 @@
 
 #include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
+#include "tests/support/matchers.h"
 
 namespace spindrift::starting_points_test {
 
@@ -27,13 +26,11 @@ StartingPoint drawn(const Eigen::Vector3d& axis_icrf, double sigma_deg, std::mt1
 TEST(StartingPoints, OneSharpCandidateIsItsOwnBranch) {
   std::mt19937_64 rng{1};
   const std::vector candidates{drawn(axis_at(10.0, 89.0), 0.5, rng)};
-  const auto known = StartingPoints{}.add(candidates);
-  ASSERT_TRUE(known);
-  ASSERT_EQ(known->points.size(), 1U);
-  EXPECT_LT(angle_between_rad(known->points.front().axis_icrf, candidates.front().axis_icrf),
-            1e-12);
-  EXPECT_TRUE(well_known(known->points.front().covariance_rad2));
-  EXPECT_EQ(known->fixes, 1);
+  const auto known = StartingPoints{}.add(candidates).value();
+  ASSERT_EQ(known.points.size(), 1U);
+  EXPECT_LT(angle_between_rad(known.points.front().axis_icrf, candidates.front().axis_icrf), 1e-12);
+  EXPECT_TRUE(well_known(known.points.front().covariance_rad2));
+  EXPECT_EQ(known.fixes, 1);
 }
 
 TEST(StartingPoints, PoorCandidatesAreAveragedUntilTheyAreKnownWell) {

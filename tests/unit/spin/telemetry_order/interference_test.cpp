@@ -1,17 +1,14 @@
 #include "pipelines/spin/telemetry_order/interference.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include <cstddef>
 #include <cstdint>
 #include <utility>
 #include <vector>
 
+#include "tests/support/matchers.h"
+
 namespace spindrift::interference_test {
 
-using ::testing::ElementsAre;
-using ::testing::IsEmpty;
 using enum PulseChannel;
 
 constexpr double kWindow_s = 1e-3;

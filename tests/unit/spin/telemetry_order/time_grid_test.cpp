@@ -1,9 +1,9 @@
 #include "pipelines/spin/telemetry_order/time_grid.h"
 
-#include <gtest/gtest.h>
-
 #include <cstdint>
 #include <random>
+
+#include "tests/support/matchers.h"
 
 namespace spindrift::time_grid_test {
 

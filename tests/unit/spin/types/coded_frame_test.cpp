@@ -1,8 +1,5 @@
 #include "pipelines/spin/types/coded_frame.h"
 
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <array>
 #include <map>
@@ -12,12 +9,12 @@
 
 #include "pipelines/spin/telemetry_order/pulse_reorder_window.h"
 #include "tests/support/edge_train.h"
+#include "tests/support/matchers.h"
 #include "tests/support/observed_spin.h"
 #include "tests/support/product_text.h"
 
 namespace spindrift::testing::coded_frame_test {
 
-using ::testing::ElementsAre;
 using enum PulseChannel;
 
 CodedFrame frame_at(double t_s) {
@@ -82,9 +79,9 @@ TEST(CodedFrame, OneAloneIsARevolutionWithItsPeriod) {
   }
   EXPECT_EQ(revolution.t_start, kStart);
   EXPECT_DOUBLE_EQ(revolution.period.period_s, 1.0);
-  ASSERT_TRUE(revolution.period_candidate);
-  EXPECT_FALSE(revolution.period_candidate->rejected_by);
-  EXPECT_DOUBLE_EQ(revolution.period_candidate->period_s, 1.0);
+  const auto& candidate = revolution.period_candidate.value();
+  EXPECT_FALSE(candidate.rejected_by);
+  EXPECT_DOUBLE_EQ(candidate.period_s, 1.0);
 }
 
 TEST(CodedFrame, AChordThatStraddlesSun1StandsInTwoFrames) {
@@ -190,31 +187,31 @@ TEST(CodedFrame, FramesThatContradictEachOtherAreLeftOut) {
   const RecordedPass pass = recorded_pass("coded");
   const std::vector<CodedFrame>& frames = pass.frames;
   std::vector<CodedFrame> uncontested;
-  std::array<std::vector<CodedFrame>, 2> both;
-  std::array<std::vector<CodedFrame>, 2> preferring;
+  std::vector<CodedFrame> others;
   for (std::size_t i = 0; i < frames.size(); ++i) {
-    CodedFrame wrong = frames[i];
-    wrong.sender = static_cast<Sender>(2);
-    const bool is_wrong = i % 5 == 3;
-    if (is_wrong) {
-      wrong.delay_s[index_of(Sun2)] = wrong.delay_s[index_of(Sun2)].value_or(0.0) + 0.01;
+    others.push_back(frames[i]);
+    others.back().sender = static_cast<Sender>(2);
+    if (i % 5 == 3) {
+      auto& sun2_s = others.back().delay_s[index_of(Sun2)];
+      sun2_s = sun2_s.value_or(0.0) + 0.01;
     } else {
       uncontested.push_back(frames[i]);
     }
-    CodedFrame preferred = frames[i];
-    preferred.sender = Sender::Preferred;
-    for (const bool wrong_first : {false, true}) {
-      auto& order = both[wrong_first ? 1 : 0];
-      order.insert(order.end(), {wrong_first ? wrong : frames[i], wrong_first ? frames[i] : wrong});
-      auto& preferred_order = preferring[wrong_first ? 1 : 0];
-      preferred_order.insert(preferred_order.end(),
-                             {wrong_first ? wrong : preferred, wrong_first ? preferred : wrong});
-    }
   }
-  const auto made_of = [&](const std::vector<CodedFrame>& arrivals) {
+  const auto arrivals = [&](Sender sender, bool other_first) {
+    std::vector<CodedFrame> all;
+    for (std::size_t i = 0; i < frames.size(); ++i) {
+      CodedFrame frame = frames[i];
+      frame.sender = sender;
+      all.push_back(other_first ? others[i] : frame);
+      all.push_back(other_first ? frame : others[i]);
+    }
+    return all;
+  };
+  const auto made_of = [&](const std::vector<CodedFrame>& received) {
     std::vector<std::string> texts;
     std::size_t contradicted_edges = 0;
-    for (const SpinProduct& product : run(SpinPass{pass.config, pass.orbit}, arrivals).products) {
+    for (const SpinProduct& product : run(SpinPass{pass.config, pass.orbit}, received).products) {
       const auto* const use = std::get_if<PulseUse>(&product);
       if (use != nullptr && use->rejected_by == Rejection::Contradicted) {
         ++contradicted_edges;
@@ -227,14 +224,12 @@ TEST(CodedFrame, FramesThatContradictEachOtherAreLeftOut) {
   const auto expected = made_of(uncontested).first;
   const auto whole = made_of(frames).first;
   ASSERT_NE(expected, whole);
-  for (const auto& arrivals : both) {
-    const auto [texts, contradicted_edges] = made_of(arrivals);
+  for (const bool other_first : {false, true}) {
+    const auto [texts, contradicted_edges] = made_of(arrivals(Sender::First, other_first));
     EXPECT_EQ(texts, expected);
     // Seven edges for a whole frame, because each sender gives a sun2.
     EXPECT_GT(contradicted_edges, 6U * (frames.size() - uncontested.size()));
-  }
-  for (const auto& arrivals : preferring) {
-    EXPECT_EQ(made_of(arrivals).first, whole);
+    EXPECT_EQ(made_of(arrivals(Sender::Preferred, other_first)).first, whole);
   }
 }
 

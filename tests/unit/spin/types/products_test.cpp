@@ -1,9 +1,9 @@
 #include "pipelines/spin/types/products.h"
 
-#include <gtest/gtest.h>
-
 #include <array>
 #include <utility>
+
+#include "tests/support/matchers.h"
 
 namespace spindrift::products_test {
 
