@@ -59,6 +59,8 @@ TEST(Process, PrintsWhatItStored) {
   const auto& run = processed.run;
   EXPECT_EQ(run["edges_received"], count_rows(db, "pulse"));
   EXPECT_EQ(run["edges_accepted"], number_of(db, "SELECT sum(accepted) FROM pulse_use"));
+  // The ninth is a mixed azimuth of one revolution without sun1.
+  EXPECT_EQ(run["residuals"].size(), 9U) << run["residuals"];
   for (const char* channel : {"sun1", "sun2", "north_in", "north_out"}) {
     EXPECT_GT(run["residuals"][channel]["used"], 0.95) << channel;
     EXPECT_NEAR(run["residuals"][channel]["noise"], 1.0, 0.15) << channel;

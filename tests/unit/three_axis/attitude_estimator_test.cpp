@@ -167,7 +167,6 @@ TEST_F(AttitudeEstimatorTest, AStuckTrackerOverrulesNothing) {
 }
 
 /// A body at 0.005 deg/s moves by less than the noise of a fix.
-
 TEST_F(AttitudeEstimatorTest, AStuckTrackerDoesNotStopASlowBody) {
   const TurningBody slow{any_attitude(rng_), kLong_s, [](double) {
                            return Vector3d{5e-5, 5e-5, -5e-5};
@@ -219,7 +218,6 @@ TEST_F(AttitudeEstimatorTest, ATurnedTrackerDoesNotOverruleWhatSunAndFieldConfir
 }
 
 /// The gyro alone cannot tell whether the tracker was wrong before or is wrong now.
-
 TEST_F(AttitudeEstimatorTest, WithoutSunAndFieldATurnedTrackerIsDoubtfulUntilItReturns) {
   track_stars(30.0);
   EXPECT_EQ(quality(), Quality::Ok);
@@ -275,7 +273,6 @@ TEST_F(AttitudeEstimatorTest, SunAndFieldProveAFixThatTheAttitudeRejects) {
 }
 
 /// A magnetometer is misaligned by 6 deg about the Sun and contradicts the tracker.
-
 TEST_F(AttitudeEstimatorTest, FixesThatContradictWhatTheyNeverSaidAreDoubtful) {
   const Eigen::Quaterniond off{Eigen::AngleAxisd{6.0 * kRadPerDeg, sun_icrf_}};
   gyro(0.0);
@@ -314,7 +311,6 @@ TEST_F(AttitudeEstimatorTest, AStuckFieldIsNamedAndTheOthersHoldTheAttitude) {
 }
 
 /// One sample of a sensor that was never accepted prevents trust in the others.
-
 TEST_F(AttitudeEstimatorTest, IsNotOkWhileAllOfASensorIsRejected) {
   begin(kTurned_rad);
   run(0.0, 30.0, [&](double t_s) {
@@ -344,10 +340,6 @@ TEST_F(AttitudeEstimatorTest, WhereAllIsRejectedItIsLostAndBeginsAtTheNextFix) {
   EXPECT_TRUE(says(ReasonCode::Since));
   EXPECT_LT(error_deg(), 0.03);
 }
-
-/// The body rotates by 30 deg in the gap and is at rest before and after.
-
-/// The rate changes by 1 deg/s within a sample and back, while star fixes continue.
 
 TEST_F(AttitudeEstimatorTest, NoiseBeyondTheStatedIsSaidAndInTheSigma) {
   begin();

@@ -97,7 +97,9 @@ TEST_F(AttitudeGyroTest, AFixInAGapIsCarriedThereByTheLastRateAndTheRestOfTheGap
   EXPECT_EQ(health(Star).rejected, 0);
 }
 
-TEST_F(AttitudeGyroTest, WhatTurnedUnseenInAGapIsDoubtfulUntilItIsChecked) {
+/// The body is at rest. The gyro is silent for a minute, in which the body could have turned
+/// unseen.
+TEST_F(AttitudeGyroTest, AMinuteWithoutGyroIsDoubtfulUntilStarFixesCheckIt) {
   const auto rest = [&](double from_s, double to_s) {
     for (int i = static_cast<int>(std::lround(from_s * 10.0)); i < std::lround(to_s * 10.0); ++i) {
       const Vector3d rate_rad_s = normal_vector(rng_, config_.gyro->noise_rad_s);
@@ -145,6 +147,7 @@ TEST_F(AttitudeGyroTest, ASpikeOfTheGyroIsLeftOut) {
   }
 }
 
+/// The rate rises by 1 deg/s over one, two or four samples, and falls back ten seconds later.
 TEST_F(AttitudeGyroTest, WhatThrustersDoIsNoSpike) {
   for (const int samples_on : {1, 2, 4}) {
     AttitudeEstimator estimator{config_};
