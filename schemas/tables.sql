@@ -279,12 +279,17 @@ CREATE TABLE pulse_use (
   accepted      INTEGER NOT NULL CHECK (accepted IN (0, 1)),
   rejected_by   TEXT REFERENCES rejection,
   -- What it said to `sequential`, as that decided live (view edge_residual): measured minus expected time, its
-  -- sigma by what the filter knew before, the limit of the one over the other, and whether it was used. NULL: no
-  -- filter was asked; of residual_ns and sigma_ns also: the filter expected no such edge.
+  -- sigma by what the filter knew before, the limit of the one over the other, and whether it was used. Of an edge
+  -- rejected by phase, or unassociated: the same by the clock that counts the turns. NULL: neither was asked; of
+  -- residual_ns and sigma_ns also: the filter expected no such edge.
   residual_ns    INTEGER,
   sigma_ns       INTEGER,
   residual_limit_milli INTEGER,  -- thousandths take a quarter of the room of a number
   used           INTEGER CHECK (used IN (0, 1)),
+  -- Of interference: the time to the edge of another channel (measured; expected where that is too narrow for both
+  -- channels) and the least that it must be; of a copy, or a second edge of its turn: the same to the edge that counts.
+  gap_ns         INTEGER,
+  least_gap_ns   INTEGER,
   PRIMARY KEY (run_id, t_tai_ns, channel),  -- a run has one spacecraft
   CHECK (accepted = (rejected_by IS NULL))
 ) STRICT, WITHOUT ROWID;

@@ -142,11 +142,12 @@ UNION ALL
 SELECT run_id, revolution, candidate, ra_deg, dec_deg, misfit FROM spin_fix_other;
 
 -- What each edge said to an estimator: measured minus expected time, its sigma by what the estimator knew before, and the
--- limit of the one over the other.
+-- limit of the one over the other. Edges that the clock of turns rejected ahead of `sequential` stand with it.
 CREATE VIEW edge_residual AS
 SELECT run_id, t_tai_ns, channel, 'sequential' AS estimator, revolution,
   residual_ns / 1e9 AS residual_s, sigma_ns / 1e9 AS sigma_s, residual_ns * 1.0 / sigma_ns AS whitened,
-  residual_limit_milli / 1e3 AS "limit", used, CASE used WHEN 0 THEN 'innovation' END AS rejected_by
+  residual_limit_milli / 1e3 AS "limit", used,
+  CASE used WHEN 0 THEN coalesce(rejected_by, 'innovation') END AS rejected_by
 FROM pulse_use WHERE used IS NOT NULL
 UNION ALL
 SELECT said.run_id, said.t_tai_ns, named.channel, 'batch', revolution,

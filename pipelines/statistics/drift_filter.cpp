@@ -66,26 +66,27 @@ double DriftFilter::change_sigma_at(double x, const DriftNoise& noise) const {
   return std::sqrt(std::max(covariance_(1, 1), covariance_at(x, noise)(1, 1)));
 }
 
-bool DriftFilter::accepts(double x, double measured, const DriftNoise& noise,
-                          const DriftGate& gate) const {
+DriftTest DriftFilter::test(double x, double measured, const DriftNoise& noise,
+                            const DriftGate& gate) const {
   const double sigma = std::hypot(sigma_at(x, noise), scale_ * noise.measured);
-  return std::abs(measured - at(x)) <= std::min(gate.sigma * sigma, gate.most);
+  return {
+      .off = measured - at(x), .sigma = sigma, .limit = std::min(gate.sigma * sigma, gate.most)};
 }
 
-bool DriftFilter::follow(double x, double measured, const DriftNoise& noise,
-                         const DriftGate& gate) {
-  const bool accepted = accepts(x, measured, noise, gate);
+DriftTest DriftFilter::follow(double x, double measured, const DriftNoise& noise,
+                              const DriftGate& gate) {
+  const DriftTest tested = test(x, measured, noise, gate);
   const double ahead = x - x_;
   if (ahead < 0.0) {  // Earlier measurements are tested but not used.
-    return accepted;
+    return tested;
   }
   const Eigen::Matrix3d before = covariance_at(x, noise);
   const double measured_sigma = scale_ * noise.measured;
   const double variance = before(0, 0) + measured_sigma * measured_sigma;
-  const double off = measured - at(x);
+  const double off = tested.off;
   const bool far = off * off > kMedianDeviation * kMedianDeviation * variance;
   scale_ = std::clamp(far ? scale_ * kScaleStep : scale_ / kScaleStep, 1.0, kMostScale);
-  if (accepted) {
+  if (tested.passed()) {
     const Eigen::Vector3d gain = before.col(0) / variance;
     state_ = Eigen::Vector3d{at(x), state_[1] + state_[2] * ahead, state_[2]} + gain * off;
     x_ = x;
@@ -95,7 +96,7 @@ bool DriftFilter::follow(double x, double measured, const DriftNoise& noise,
     covariance_ = kept * before * kept.transpose() +
                   gain * measured_sigma * measured_sigma * gain.transpose();
   }
-  return accepted;
+  return tested;
 }
 
 DriftFilter DriftFilter::supposing_bend(double bend, double sigma) const {

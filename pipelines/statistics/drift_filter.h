@@ -5,6 +5,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
 
 namespace spindrift {
 
@@ -19,6 +20,14 @@ struct DriftNoise {
 struct DriftGate {
   double sigma;  ///< In standard deviations of the deviation.
   double most;   ///< Absolute limit.
+};
+
+/// A measurement against the filter's expectation, in its unit.
+struct DriftTest {
+  double off;    ///< Measured minus expected.
+  double sigma;  ///< Standard deviation of `off`.
+  double limit;  ///< Largest absolute `off` within the gate.
+  bool passed() const { return std::abs(off) <= limit; }
 };
 
 /// The state at an abscissa, with standard deviations.
@@ -55,9 +64,9 @@ class DriftFilter {
   double change_sigma_at(double x, const DriftNoise& noise) const;
 
   /// Returns whether a measurement lies within the gate.
-  bool accepts(double x, double measured, const DriftNoise& noise, const DriftGate& gate) const;
+  DriftTest test(double x, double measured, const DriftNoise& noise, const DriftGate& gate) const;
   /// Tests a measurement and processes it if it lies within the gate.
-  bool follow(double x, double measured, const DriftNoise& noise, const DriftGate& gate);
+  DriftTest follow(double x, double measured, const DriftNoise& noise, const DriftGate& gate);
 
   /// Returns the filter as if the bend had been measured in addition.
   DriftFilter supposing_bend(double bend, double sigma) const;

@@ -42,9 +42,9 @@ Quantity phase(std::string_view channel) {
           "unit, used FROM (SELECT edge.t_tai_ns, (edge.t_tai_ns - turn.t_tai_ns) / (1e9 * "
           "period_s) "
           "AS turns, edge.accepted, edge.rejected_by, edge.used, coalesce(value - expected, "
-          "residual_ns * "
-          "1.0 / sigma_ns) AS off, coalesce(\"limit\", residual_limit_milli / 1e3) AS \"limit\", "
-          "coalesce(unit, 'sigma') AS unit FROM pulse_use AS edge CROSS JOIN revolution AS turn "
+          "gap_ns / 1e9, residual_ns * 1.0 / sigma_ns) AS off, coalesce(\"limit\", "
+          "least_gap_ns / 1e9, residual_limit_milli / 1e3) AS \"limit\", coalesce(unit, iif(gap_ns "
+          "IS NULL, 'sigma', 's')) AS unit FROM pulse_use AS edge CROSS JOIN revolution AS turn "
           "ON turn.run_id = edge.run_id AND turn.revolution = coalesce(edge.revolution, (SELECT "
           "revolution FROM pulse_use AS before WHERE before.run_id = edge.run_id AND "
           "before.t_tai_ns < edge.t_tai_ns AND before.revolution IS NOT NULL ORDER BY "
@@ -61,9 +61,9 @@ Quantity edge_residual(std::string_view channel) {
           .unit = "sigma",
           .sql = fmt::format(
               "SELECT t_tai_ns, residual_ns * 1.0 / sigma_ns, used, CASE used WHEN 0 THEN "
-              "'innovation' END, residual_ns * 1.0 / sigma_ns, residual_limit_milli / 1e3, 'sigma' "
-              "FROM "
-              "pulse_use WHERE run_id = ?1 AND channel = '{}' AND residual_ns IS NOT NULL AND "
+              "coalesce(rejected_by, 'innovation') END, residual_ns * 1.0 / sigma_ns, "
+              "residual_limit_milli / 1e3, 'sigma' FROM pulse_use WHERE run_id = ?1 AND channel = "
+              "'{}' AND residual_ns IS NOT NULL AND "
               "t_tai_ns <= ?2 ORDER BY t_tai_ns DESC",
               channel)};
 }

@@ -223,6 +223,9 @@ nlohmann::json ShownSpacecraft::held_against(const PulseUse& edge) const {
             {"limit", SpinMeasurementTable::largest_of(*measured.said) * unit},
             {"off_unit", SpinMeasurementTable::is_time(measured) ? "s" : "deg"}};
   }
+  if (edge.gap) {
+    return {{"off", edge.gap->gap_s}, {"limit", edge.gap->least_s}, {"off_unit", "s"}};
+  }
   if (edge.said && edge.said->residual.freedom > 0) {
     return {{"off", edge.said->whitened()},
             {"limit", std::sqrt(edge.said->limit)},

@@ -19,14 +19,14 @@ inline std::optional<std::string_view> name_of(const std::optional<Rejection>& r
   return rejected_by ? std::optional{name_of(*rejected_by)} : std::nullopt;
 }
 
-/// Makes a column about the edge's observation in `sequential`; null when it had none.
+/// Makes a column about the edge's observation; null when it had none.
 template <class Get>
 constexpr auto said_column(std::string_view name, Get get) {
   return ProductColumn{name, [get](const PulseUse& use) {
                          return use.said ? std::optional{get(*use.said)} : std::nullopt;
                        }};
 }
-/// Makes a column about the residual, in ns; null when the estimator expected no edge.
+/// Makes a column about the residual, in ns; null when no edge was expected.
 template <class Get>
 constexpr auto residual_ns_column(std::string_view name, Get get) {
   return ProductColumn{
@@ -34,6 +34,15 @@ constexpr auto residual_ns_column(std::string_view name, Get get) {
         return use.said && use.said->residual.freedom > 0 && std::isfinite(get(use.said->residual))
                    ? std::optional{std::int64_t{std::llround(get(use.said->residual) * 1e9)}}
                    : std::nullopt;
+      }};
+}
+
+/// Makes a column about a gap that is too narrow, in ns; null when the edge has none.
+constexpr auto gap_ns_column(std::string_view name, double EdgeGap::*member) {
+  return ProductColumn{
+      name, [member](const PulseUse& use) {
+        return use.gap ? std::optional{std::int64_t{std::llround(*use.gap.*member * 1e9)}}
+                       : std::nullopt;
       }};
 }
 
@@ -53,7 +62,8 @@ struct PulseUseTable {
                   [](const Observation& said) {
                     return std::int64_t{std::llround(1e3 * std::sqrt(said.limit))};
                   }),
-      said_column("used", [](const Observation& said) { return !said.rejected_by; }));
+      said_column("used", [](const Observation& said) { return !said.rejected_by; }),
+      gap_ns_column("gap_ns", &EdgeGap::gap_s), gap_ns_column("least_gap_ns", &EdgeGap::least_s));
   /// An edge that arrived twice keeps its first use, so 'late' does not replace it.
   static constexpr std::string_view kReplaces = "excluded.rejected_by IS NOT 'late'";
 };

@@ -135,7 +135,7 @@ test('tells what the edges say to the filter, and why some were left out', async
   await page.focus('#raster');
   await page.keyboard.press('ArrowRight');
   const said = await text('raster-said');
-  const ofLeftOut = /(rejected: \w+|left out by sequential: innovation)(, -?[\d.e-]+ (deg|s|sigma), limit [\d.e-]+)?$/;
+  const ofLeftOut = /(rejected: \w+|left out by sequential: innovation), -?[\d.e-]+ (deg|s|sigma), (limit|at least) [\d.e-]+$/;
   if (said) assert.match(said, ofLeftOut);
   await eventually(async () => {
     assert.match(await text('series-note'), /^last 30 min, \d+ points, \d+ left out$/);

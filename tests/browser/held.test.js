@@ -4,12 +4,14 @@ import { isLeftOut, nextLeftOut, whatBecameOf } from '../../services/console/web
 
 const taken = { t_tai_ns: 1, channel: 'sun1', accepted: true, used: true, off: 0.51234, limit: 5, off_unit: 'sigma' };
 const leftOut = { ...taken, t_tai_ns: 2, used: false, off: -6.1 };
-const rejected = { ...taken, t_tai_ns: 3, accepted: false, used: null, rejected_by: 'period', off_unit: 's' };
+const spoilt = { ...taken, t_tai_ns: 4, accepted: false, used: null, rejected_by: 'interference', off: 3e-4, limit: 1e-3, off_unit: 's' };
+const rejected = { ...taken, t_tai_ns: 3, accepted: false, used: null, rejected_by: 'period', off: 8, off_unit: 's' };
 
 test('says what the pass and what the filter decided', () => {
   assert.equal(whatBecameOf(taken), 'accepted, 0.512 sigma, limit 5');
   assert.equal(whatBecameOf(leftOut), 'accepted, left out by sequential: innovation, -6.1 sigma, limit 5');
-  assert.equal(whatBecameOf(rejected), 'rejected: period, 0.512 s, limit 5');
+  assert.equal(whatBecameOf(rejected), 'rejected: period, 8 s, limit 5');
+  assert.equal(whatBecameOf(spoilt), 'rejected: interference, 0.0003 s, at least 0.001');
   assert.equal(whatBecameOf({ accepted: true }, 'used'), 'used');
   assert.deepEqual([taken, leftOut, rejected].map(isLeftOut), [false, true, true]);
 });

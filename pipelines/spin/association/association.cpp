@@ -27,10 +27,22 @@ constexpr std::array<PulseChannel, kPulseChannels> kChannels = {
     PulseChannel::Sun1,     PulseChannel::Sun2,    PulseChannel::NorthIn,
     PulseChannel::NorthOut, PulseChannel::SouthIn, PulseChannel::SouthOut};
 
-PulseUse left_over(const Pulse& pulse, std::optional<Rejection> rejected_by = {}) {
-  return {.pulse = pulse,
-          .revolution = {},
-          .rejected_by = rejected_by.value_or(Rejection::Unassociated)};
+PulseUse left_over(const Pulse& pulse, Rejection rejected_by = Rejection::Unassociated) {
+  return {.pulse = pulse, .revolution = {}, .rejected_by = rejected_by};
+}
+
+PulseUse spoilt_use(const Pulse& pulse, const EdgeGap& spoilt_by) {
+  PulseUse use = left_over(pulse, Rejection::Interference);
+  use.gap = spoilt_by;
+  return use;
+}
+
+/// Returns what a test in turns found, in seconds. An edge of a later phase than expected came
+/// late.
+Observation observation(const Pulse& pulse, const DriftTest& tested, double period_s,
+                        Rejection test) {
+  return Observation::of(pulse.t, source_of(pulse.channel), tested.off * period_s,
+                         tested.sigma * period_s, tested.limit * period_s, test);
 }
 
 }  // namespace
@@ -51,12 +63,12 @@ Association Associator::push(const Pulse& pulse) {
   return out;
 }
 
-Association Associator::push_spoilt(const Pulse& pulse) {
+Association Associator::push_spoilt(const Pulse& pulse, const EdgeGap& spoilt_by) {
   Association out;
   if (clock_ && counts(pulse.t)) {
-    place(pulse, true, out);
+    place(pulse, spoilt_by, out);
   } else {
-    out.left_over.push_back(left_over(pulse, Rejection::Interference));
+    out.left_over.push_back(spoilt_use(pulse, spoilt_by));
   }
   return out;
 }
@@ -69,7 +81,7 @@ void Associator::place_or_wait(const Pulse& pulse, Association& out) {
     }
   }
   if (clock_) {
-    place(pulse, false, out);
+    place(pulse, {}, out);
     return;
   }
   waiting_.push_back(pulse);
@@ -221,9 +233,10 @@ bool Associator::is_of_all_channels(const PulseTrain& comb) const {
 bool Associator::is_good_reference(const Pulse& pulse) const {
   const double phase = clock_->phase_turns(pulse.t);
   const double turn = std::round(phase - phases_.at(reference_, phase));
-  return clock_->accepts(turn + phases_.at(reference_, turn), pulse.t,
-                         edge_sigma_s(config_.noise, reference_), reference_wander(),
-                         {.sigma = config_.screening.sigma, .most = gate_turns(reference_)});
+  return clock_
+      ->test(turn + phases_.at(reference_, turn), pulse.t, edge_sigma_s(config_.noise, reference_),
+             reference_wander(), {.sigma = config_.screening.sigma, .most = gate_turns(reference_)})
+      .passed();
 }
 
 /// Sets the clock anew after a step of the spin rate, when the latest reference edges agree with
@@ -286,11 +299,12 @@ double Associator::reach_turns(PulseChannel channel, double phase_turns) const {
                     0.4);
 }
 
-void Associator::place(const Pulse& pulse, bool spoilt, Association& out) {
+void Associator::place(const Pulse& pulse, const std::optional<EdgeGap>& spoilt_by,
+                       Association& out) {
   const auto behind_s = copies_.behind_first_s(pulse, clock_->period_s());
   if (!behind_s) {
     note_recent(pulse);
-    if (pulse.channel == reference_ && !spoilt) {
+    if (pulse.channel == reference_ && !spoilt_by) {
       restart_after_step(pulse);
     }
   } else if (pulse.channel == reference_ && is_good_reference(pulse) &&
@@ -300,16 +314,15 @@ void Associator::place(const Pulse& pulse, bool spoilt, Association& out) {
   const double phase = clock_->phase_turns(pulse.t);
   const double first_phase = clock_->phase_turns(later_by_s(pulse.t, -behind_s.value_or(0.0)));
   close_before(phase, out);
-  const bool lies_near = phases_.knows(pulse.channel) && count_of(pulse).near;
+  const bool lies_near = phases_.knows(pulse.channel) && test_of(pulse).tested.passed();
   // Where copies matter, the first shows where its channel is, but only once a copy has come.
   const bool tells = behind_s.has_value() ==
                      copies_.are_apart(pulse.channel, edge_sigma_s(config_.noise, pulse.channel));
   if (pulse.channel != reference_ && !lies_near && tells) {
     phases_.stray(pulse.channel, first_phase,
-                  spoilt ? interfering_pairs_.displacement_s() / clock_->period_s() : 0.0,
+                  spoilt_by ? interfering_pairs_.displacement_s() / clock_->period_s() : 0.0,
                   clock_sigma_turns(phase));
   }
-  const auto spoilt_by = spoilt ? std::optional{Rejection::Interference} : std::nullopt;
   if (Revolution* const revolution = revolution_of(pulse)) {
     put(*revolution, pulse, spoilt_by, out);
   } else {
@@ -317,12 +330,14 @@ void Associator::place(const Pulse& pulse, bool spoilt, Association& out) {
   }
 }
 
-Associator::Count Associator::count_of(const Pulse& pulse) const {
+Associator::TurnTest Associator::test_of(const Pulse& pulse) const {
   const double phase = clock_->phase_turns(pulse.t);
   const double count = phase - phases_.at(pulse.channel, phase);
   const double turn = std::round(count);
   return {.turn = static_cast<std::int64_t>(turn),
-          .near = std::abs(count - turn) <= reach_turns(pulse.channel, phase)};
+          .tested = {.off = count - turn,
+                     .sigma = phases_.sigma_turns(pulse.channel, phase, clock_sigma_turns(phase)),
+                     .limit = reach_turns(pulse.channel, phase)}};
 }
 
 /// Returns null when no turn is near, its revolution is closed, or its channel is unknown.
@@ -330,19 +345,19 @@ Revolution* Associator::revolution_of(const Pulse& pulse) {
   if (!phases_.knows(pulse.channel)) {
     return nullptr;
   }
-  const Count count = count_of(pulse);
-  return count.near ? open_revolution(count.turn) : nullptr;
+  const auto& [turn, tested] = test_of(pulse);
+  return tested.passed() ? open_revolution(turn) : nullptr;
 }
 
 /// Puts an edge into its revolution. Of two edges of one channel the nearer to its expectation
 /// stays, unless they are copies and the earliest counts.
-void Associator::put(Revolution& revolution, const Pulse& pulse, std::optional<Rejection> spoilt_by,
-                     Association& out) {
+void Associator::put(Revolution& revolution, const Pulse& pulse,
+                     const std::optional<EdgeGap>& spoilt_by, Association& out) {
   const auto turn = static_cast<double>(revolution.number);
   const double expected = turn + phases_.at(pulse.channel, turn);
   const auto off = [&](TaiTime t) { return std::abs(clock_->phase_turns(t) - expected); };
   std::optional<TaiTime>& edge = revolution.edges.at(index_of(pulse.channel));
-  std::optional<Rejection>& rejection = revolution.edge_rejections.at(index_of(pulse.channel));
+  std::optional<EdgeGap>& gap = revolution.edge_gaps.at(index_of(pulse.channel));
   if (edge) {
     const Pulse earlier{.t = *edge, .channel = pulse.channel};
     const double apart_s = elapsed_s(earlier.t, pulse.t);
@@ -358,10 +373,12 @@ void Associator::put(Revolution& revolution, const Pulse& pulse, std::optional<R
       leave_over(pulse, spoilt_by, apart_s, out);
       return;
     }
-    leave_over(earlier, rejection, apart_s, out);
+    leave_over(earlier, gap, apart_s, out);
   }
   edge = pulse.t;
-  rejection = spoilt_by;
+  gap = spoilt_by;
+  revolution.edge_rejections.at(index_of(pulse.channel)) =
+      spoilt_by ? std::optional{Rejection::Interference} : std::nullopt;
 }
 
 /// Tells whether the earliest copy counts although a later one lies nearer to the expectation. It
@@ -379,12 +396,16 @@ bool Associator::earliest_counts(const Revolution& revolution, const Pulse& earl
 bool Associator::is_expected(const Revolution& revolution, const Pulse& pulse) const {
   const auto turn = static_cast<double>(revolution.number);
   if (pulse.channel != reference_) {
-    return phases_.accepts(pulse.channel, revolution.number, clock_->phase_turns(pulse.t) - turn,
-                           clock_sigma_turns(turn));
+    return phases_
+        .test(pulse.channel, revolution.number, clock_->phase_turns(pulse.t) - turn,
+              clock_sigma_turns(turn))
+        .passed();
   }
-  return clock_->accepts(turn + phases_.at(reference_, turn), pulse.t,
-                         edge_sigma_s(config_.noise, reference_), reference_wander(),
-                         {.sigma = config_.screening.sigma, .most = reach_turns(reference_, turn)});
+  return clock_
+      ->test(turn + phases_.at(reference_, turn), pulse.t, edge_sigma_s(config_.noise, reference_),
+             reference_wander(),
+             {.sigma = config_.screening.sigma, .most = reach_turns(reference_, turn)})
+      .passed();
 }
 
 /// @param apart_s Time from another edge of its channel.
@@ -393,16 +414,34 @@ bool Associator::is_copy(const Pulse& pulse, double apart_s) const {
 }
 
 /// @param apart_s Time from the edge of its channel that counts.
-void Associator::leave_over(const Pulse& pulse, std::optional<Rejection> spoilt_by, double apart_s,
-                            Association& out) {
-  const bool copy = !spoilt_by && is_copy(pulse, apart_s);
-  if (copy) {
+void Associator::leave_over(const Pulse& pulse, const std::optional<EdgeGap>& spoilt_by,
+                            double apart_s, Association& out) {
+  PulseUse use = spoilt_by ? spoilt_use(pulse, *spoilt_by) : left_over(pulse);
+  if (!spoilt_by && is_copy(pulse, apart_s)) {
+    use.rejected_by = Rejection::Copy;
+    use.gap = {.gap_s = apart_s, .least_s = kCopies_turns * clock_->period_s()};
     out.copies.push_back({.pulse = pulse, .apart_s = apart_s});
     noise_chose_among_copies_ =
         noise_chose_among_copies_ ||
         copies_.are_in_any_order(pulse.channel, edge_sigma_s(config_.noise, pulse.channel));
   }
-  out.left_over.push_back(left_over(pulse, copy ? Rejection::Copy : spoilt_by));
+  if (use.rejected_by == Rejection::Unassociated && phases_.knows(pulse.channel)) {
+    tell_why_unassociated(use, apart_s);
+  }
+  out.left_over.push_back(use);
+}
+
+/// Adds what was found of an edge whose channel is known: it lies nowhere near its phase, or so
+/// near to another edge of its channel that both cannot be of different turns.
+/// @param apart_s Time from that edge.
+void Associator::tell_why_unassociated(PulseUse& use, double apart_s) const {
+  const DriftTest tested = test_of(use.pulse).tested;
+  const EdgeGap gap{.gap_s = apart_s, .least_s = (1.0 - tested.limit) * clock_->period_s()};
+  if (!tested.passed()) {
+    use.said = observation(use.pulse, tested, clock_->period_s(), Rejection::Unassociated);
+  } else if (gap.gap_s < gap.least_s) {
+    use.gap = gap;
+  }
 }
 
 /// Returns null when that revolution is closed or precedes the first.
@@ -453,7 +492,7 @@ void Associator::close_front(Association& out) {
 /// interfere have it: were it given to spoilt ones only, the channels would seem too far apart.
 double Associator::displaced_turns(const Revolution& revolution, PulseChannel channel) const {
   const bool displaced =
-      interfering_pairs_.contains(channel) || revolution.edge_rejections.at(index_of(channel));
+      interfering_pairs_.gap_of(channel) || revolution.edge_rejections.at(index_of(channel));
   return displaced ? interfering_pairs_.displacement_s() / clock_->period_s() : 0.0;
 }
 
@@ -476,13 +515,30 @@ void Associator::judge_reference(Revolution& revolution) {
   const auto turn = static_cast<double>(revolution.number);
   const double noise_s = std::hypot(edge_sigma_s(config_.noise, reference_),
                                     displaced_turns(revolution, reference_) * clock_->period_s());
-  const bool good =
+  const DriftTest tested =
       clock_->follow(turn + phases_.at(reference_, turn), *edge, noise_s, reference_wander(),
                      {.sigma = config_.screening.sigma, .most = reach_turns(reference_, turn)});
   phases_.set_period(clock_->period_s());
-  std::optional<Rejection>& rejection = revolution.edge_rejections.at(index_of(reference_));
-  if (!good && !rejection) {
-    rejection = Rejection::Phase;
+  if (!tested.passed()) {
+    // The clock tests its own phase at the edge, which is ahead where the edge came early.
+    reject_phase(revolution, reference_,
+                 DriftTest{.off = -tested.off, .sigma = tested.sigma, .limit = tested.limit});
+  }
+}
+
+/// Rejects an edge that the clock has not expected there, unless it is rejected already.
+/// @param tested Empty: no phase is expected of its channel.
+void Associator::reject_phase(Revolution& revolution, PulseChannel channel,
+                              const std::optional<DriftTest>& tested) const {
+  std::optional<Rejection>& rejection = revolution.edge_rejections.at(index_of(channel));
+  if (rejection) {
+    return;
+  }
+  rejection = Rejection::Phase;
+  if (tested) {
+    revolution.edge_places.at(index_of(channel)) =
+        observation({.t = *revolution.edge(channel), .channel = channel}, *tested,
+                    clock_->period_s(), Rejection::Phase);
   }
 }
 
@@ -491,19 +547,20 @@ void Associator::judge_others(Revolution& revolution) {
   const double clock_sigma = clock_sigma_turns(turn);
   for (const PulseChannel channel : kChannels) {
     const std::optional<TaiTime>& edge = revolution.edge(channel);
-    std::optional<Rejection>& rejection = revolution.edge_rejections.at(index_of(channel));
-    if (!edge || channel == reference_ || rejection == Rejection::Copy) {
+    if (!edge || channel == reference_ ||
+        revolution.edge_rejections.at(index_of(channel)) == Rejection::Copy) {
       continue;
     }
     const double count = clock_->phase_turns(*edge);
     const double displaced = displaced_turns(revolution, channel);
-    // Spoilt edges are followed too, since most edges of a channel may be spoilt.
-    const bool believed =
-        (phases_.knows(channel) && phases_.follow(channel, revolution.number, count - turn,
-                                                  std::hypot(clock_sigma, displaced))) ||
-        phases_.stray(channel, count, displaced, clock_sigma);
-    if (!believed && !rejection) {
-      rejection = Rejection::Phase;
+    std::optional<DriftTest> tested;
+    if (phases_.knows(channel)) {
+      // Spoilt edges are followed too, since most edges of a channel may be spoilt.
+      tested = phases_.follow(channel, revolution.number, count - turn,
+                              std::hypot(clock_sigma, displaced));
+    }
+    if (!(tested && tested->passed()) && !phases_.stray(channel, count, displaced, clock_sigma)) {
+      reject_phase(revolution, channel, tested);
     }
   }
 }
@@ -513,8 +570,10 @@ void Associator::judge_others(Revolution& revolution) {
 void Associator::judge_neighbours(Revolution& revolution) const {
   for (const PulseChannel channel : kChannels) {
     std::optional<Rejection>& rejection = revolution.edge_rejections.at(index_of(channel));
-    if (revolution.edge(channel) && !rejection && interfering_pairs_.contains(channel)) {
+    const std::optional<EdgeGap>& gap = interfering_pairs_.gap_of(channel);
+    if (revolution.edge(channel) && !rejection && gap) {
       rejection = Rejection::Interference;
+      revolution.edge_gaps.at(index_of(channel)) = gap;
     }
   }
 }

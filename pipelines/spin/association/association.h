@@ -51,7 +51,7 @@ class Associator {
   Association push(const Pulse& pulse);
 
   /// Takes an edge spoilt by another channel: it is rejected, but shows roughly where its own is.
-  Association push_spoilt(const Pulse& pulse);
+  Association push_spoilt(const Pulse& pulse, const EdgeGap& spoilt_by);
 
   /// Takes the spin period that coded telemetry states, before the edges of its frame. It lets the
   /// clock start in a pass of a few frames, and is the period candidate where no interval ends at
@@ -70,9 +70,9 @@ class Associator {
 
  private:
   /// The turn with the expected edge nearest to a pulse, and whether it is near enough to be it.
-  struct Count {
+  struct TurnTest {
     std::int64_t turn;
-    bool near;
+    DriftTest tested;  ///< In turns.
   };
 
   void place_or_wait(const Pulse& pulse, Association& out);
@@ -86,22 +86,25 @@ class Associator {
   bool is_of_all_channels(const PulseTrain& comb) const;
   bool is_good_reference(const Pulse& pulse) const;
   void restart_after_step(const Pulse& pulse);
-  void place(const Pulse& pulse, bool spoilt, Association& out);
-  Count count_of(const Pulse& pulse) const;
+  void place(const Pulse& pulse, const std::optional<EdgeGap>& spoilt_by, Association& out);
+  TurnTest test_of(const Pulse& pulse) const;
   Revolution* revolution_of(const Pulse& pulse);
-  void put(Revolution& revolution, const Pulse& pulse, std::optional<Rejection> spoilt_by,
+  void put(Revolution& revolution, const Pulse& pulse, const std::optional<EdgeGap>& spoilt_by,
            Association& out);
   bool is_expected(const Revolution& revolution, const Pulse& pulse) const;
   bool earliest_counts(const Revolution& revolution, const Pulse& earliest) const;
   bool is_copy(const Pulse& pulse, double apart_s) const;
-  void leave_over(const Pulse& pulse, std::optional<Rejection> spoilt_by, double apart_s,
+  void leave_over(const Pulse& pulse, const std::optional<EdgeGap>& spoilt_by, double apart_s,
                   Association& out);
+  void tell_why_unassociated(PulseUse& use, double apart_s) const;
   Revolution* open_revolution(std::int64_t number);
   void close_before(double phase_turns, Association& out);
   void close_front(Association& out);
   double displaced_turns(const Revolution& revolution, PulseChannel channel) const;
   void judge_lone(Revolution& revolution) const;
   void judge_reference(Revolution& revolution);
+  void reject_phase(Revolution& revolution, PulseChannel channel,
+                    const std::optional<DriftTest>& tested) const;
   void judge_others(Revolution& revolution);
   void judge_neighbours(Revolution& revolution) const;
   void count_silence(const Revolution& revolution);

@@ -211,20 +211,20 @@ void ExpectedPhases::end_revolution() {
   }
 }
 
-bool ExpectedPhases::accepts(PulseChannel channel, std::int64_t turn, double phase_turns,
-                             double clock_sigma_turns) const {
-  return of(channel).phase->accepts(static_cast<double>(turn), phase_turns,
-                                    drift_noise(channel, clock_sigma_turns),
-                                    {.sigma = gate_sigma_, .most = gate_turns(channel)});
+DriftTest ExpectedPhases::test(PulseChannel channel, std::int64_t turn, double phase_turns,
+                               double clock_sigma_turns) const {
+  return of(channel).phase->test(static_cast<double>(turn), phase_turns,
+                                 drift_noise(channel, clock_sigma_turns),
+                                 {.sigma = gate_sigma_, .most = gate_turns(channel)});
 }
 
-bool ExpectedPhases::follow(PulseChannel channel, std::int64_t turn, double phase_turns,
-                            double clock_sigma_turns) {
+DriftTest ExpectedPhases::follow(PulseChannel channel, std::int64_t turn, double phase_turns,
+                                 double clock_sigma_turns) {
   Channel& own = of(channel);
-  const bool accepted = own.phase->follow(static_cast<double>(turn), phase_turns,
-                                          drift_noise(channel, clock_sigma_turns),
-                                          {.sigma = gate_sigma_, .most = gate_turns(channel)});
-  if (accepted) {
+  const DriftTest tested = own.phase->follow(static_cast<double>(turn), phase_turns,
+                                             drift_noise(channel, clock_sigma_turns),
+                                             {.sigma = gate_sigma_, .most = gate_turns(channel)});
+  if (tested.passed()) {
     own.strays.clear();
     ++own.accepted;
     ++own.in_a_row;
@@ -232,7 +232,7 @@ bool ExpectedPhases::follow(PulseChannel channel, std::int64_t turn, double phas
   } else {
     own.in_a_row = 0;
   }
-  return accepted;
+  return tested;
 }
 
 double ExpectedPhases::phase_sigma(PulseChannel channel, double turn) const {
@@ -243,7 +243,6 @@ double ExpectedPhases::drift_sigma(PulseChannel channel, double turn) const {
   return of(channel).phase->change_sigma_at(turn, {.measured = 0.0, .wander = wander(channel)});
 }
 
-/// Returns one sigma of the next edge, not of a mean of many.
 double ExpectedPhases::sigma_turns(PulseChannel channel, double turn,
                                    double clock_sigma_turns) const {
   const double noise = noise_turns(channel);
@@ -254,15 +253,16 @@ double ExpectedPhases::sigma_turns(PulseChannel channel, double turn,
   return std::hypot(noise, expected);
 }
 
-bool ExpectedPhases::interfere(PulseChannel one, PulseChannel other, double turn,
-                               double clock_sigma_turns) const {
+std::optional<EdgeGap> ExpectedPhases::gap(PulseChannel one, PulseChannel other, double turn,
+                                           double clock_sigma_turns) const {
   if (!knows(one) || !knows(other)) {
-    return false;
+    return std::nullopt;
   }
   const double apart = std::abs(std::remainder(at(one, turn) - at(other, turn), 1.0));
   const double sigma = std::hypot(sigma_turns(one, turn, clock_sigma_turns),
                                   sigma_turns(other, turn, clock_sigma_turns));
-  return apart < interference_s_ / period_s_ + kInterferenceSigmas * sigma;
+  return EdgeGap{.gap_s = apart * period_s_,
+                 .least_s = interference_s_ + kInterferenceSigmas * sigma * period_s_};
 }
 
 bool ExpectedPhases::stray(PulseChannel channel, double count, double displaced_turns,

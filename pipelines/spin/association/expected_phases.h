@@ -13,6 +13,7 @@
 
 #include "pipelines/spin/association/robust_line.h"
 #include "pipelines/spin/types/config.h"
+#include "pipelines/spin/types/products.h"
 #include "pipelines/spin/types/pulse.h"
 #include "pipelines/statistics/drift_filter.h"
 
@@ -66,13 +67,14 @@ class ExpectedPhases {
   bool learn(PulseChannel channel, std::span<const double> counts, std::size_t fewest_turns,
              double clock_sigma_turns);
 
-  /// @return Whether an edge of a known channel lies where it should.
-  bool accepts(PulseChannel channel, std::int64_t turn, double phase_turns,
-               double clock_sigma_turns) const;
+  /// Tests whether an edge of a known channel lies where it should.
+  /// @return In turns.
+  DriftTest test(PulseChannel channel, std::int64_t turn, double phase_turns,
+                 double clock_sigma_turns) const;
 
-  /// Does what `accepts` does, and follows an accepted edge.
-  bool follow(PulseChannel channel, std::int64_t turn, double phase_turns,
-              double clock_sigma_turns);
+  /// Does what `test` does, and follows an edge that passes.
+  DriftTest follow(PulseChannel channel, std::int64_t turn, double phase_turns,
+                   double clock_sigma_turns);
 
   /// Takes an edge that is not where it should be, or whose channel is not known.
   /// @param displaced_turns Standard deviation of its displacement by interference.
@@ -83,8 +85,12 @@ class ExpectedPhases {
   /// place says little.
   void end_revolution();
 
-  /// Whether the edges of two channels are expected so near to each other that some of them meet.
-  bool interfere(PulseChannel one, PulseChannel other, double turn, double clock_sigma_turns) const;
+  /// Returns the expected gap between the edges of two channels, and the least in which none of
+  /// them meet; empty when one of the channels is not known.
+  std::optional<EdgeGap> gap(PulseChannel one, PulseChannel other, double turn,
+                             double clock_sigma_turns) const;
+  /// Returns one sigma of the next edge of a known channel, turns.
+  double sigma_turns(PulseChannel channel, double turn, double clock_sigma_turns) const;
 
   /// How many edges in a row were where they should be.
   int in_a_row(PulseChannel channel) const { return of(channel).in_a_row; }
@@ -123,7 +129,6 @@ class ExpectedPhases {
   double unwrapped(PulseChannel channel, double phase_turns, double turn) const;
   DriftNoise drift_noise(PulseChannel channel, double clock_sigma_turns) const;
   double noise_turns(PulseChannel channel) const;
-  double sigma_turns(PulseChannel channel, double turn, double clock_sigma_turns) const;
   double most_drift(PulseChannel channel) const;
   double wander(PulseChannel channel) const;
 

@@ -8,7 +8,7 @@ namespace spindrift {
 
 std::vector<InterferingChannels> InterferingPairs::expect(const ExpectedPhases& phases, double turn,
                                                           double clock_sigma_turns, TaiTime t) {
-  interfering_pairs_.fill(false);
+  gaps_.fill(std::nullopt);
   std::vector<InterferingChannels> began;
   if (!(window_s_ > 0.0)) {
     return began;
@@ -17,8 +17,9 @@ std::vector<InterferingChannels> InterferingPairs::expect(const ExpectedPhases& 
     for (std::size_t j = i + 1; j < kPulseChannels; ++j) {
       const auto one = static_cast<PulseChannel>(i);
       const auto other = static_cast<PulseChannel>(j);
-      if (phases.interfere(one, other, turn, clock_sigma_turns)) {
-        interfering_pairs_.at(i) = interfering_pairs_.at(j) = true;
+      const auto gap = phases.gap(one, other, turn, clock_sigma_turns);
+      if (gap && gap->gap_s < gap->least_s) {
+        gaps_.at(i) = gaps_.at(j) = gap;
         if (const InterferingChannels& channels = record(one, other, t);
             channels.revolutions == kFewestInterfering) {
           began.push_back(channels);

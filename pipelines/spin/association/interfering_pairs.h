@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "pipelines/spin/association/expected_phases.h"
@@ -37,8 +38,11 @@ class InterferingPairs {
   std::vector<InterferingChannels> expect(const ExpectedPhases& phases, double turn,
                                           double clock_sigma_turns, TaiTime t);
 
-  /// Tells whether the channel is expected to interfere in the revolution that closes.
-  bool contains(PulseChannel channel) const { return interfering_pairs_.at(index_of(channel)); }
+  /// Returns the expected gap to a channel that interferes in the revolution that closes; empty
+  /// when none does.
+  const std::optional<EdgeGap>& gap_of(PulseChannel channel) const {
+    return gaps_.at(index_of(channel));
+  }
 
   /// Returns the pairs so far in the pass.
   const std::vector<InterferingChannels>& interfering() const { return interfering_; }
@@ -51,7 +55,7 @@ class InterferingPairs {
   const InterferingChannels& record(PulseChannel one, PulseChannel other, TaiTime t);
 
   double window_s_;
-  std::array<bool, kPulseChannels> interfering_pairs_{};
+  std::array<std::optional<EdgeGap>, kPulseChannels> gaps_;
   std::vector<InterferingChannels> interfering_;
 };
 

@@ -57,18 +57,18 @@ double SpinClock::sigma_s(double phase_turns, double earth_turns) const {
          period_s();
 }
 
-bool SpinClock::accepts(double phase_turns, TaiTime t, double noise_s, double earth_turns,
-                        const DriftGate& gate_turns) const {
-  return turns_.accepts(elapsed_s(epoch_, t), phase_turns - epoch_turn_,
-                        noise(noise_s, earth_turns), gate_turns);
+DriftTest SpinClock::test(double phase_turns, TaiTime t, double noise_s, double earth_turns,
+                          const DriftGate& gate_turns) const {
+  return turns_.test(elapsed_s(epoch_, t), phase_turns - epoch_turn_, noise(noise_s, earth_turns),
+                     gate_turns);
 }
 
-bool SpinClock::follow(double phase_turns, TaiTime t, double noise_s, double earth_turns,
-                       const DriftGate& gate_turns) {
-  const bool good = turns_.follow(elapsed_s(epoch_, t), phase_turns - epoch_turn_,
-                                  noise(noise_s, earth_turns), gate_turns);
+DriftTest SpinClock::follow(double phase_turns, TaiTime t, double noise_s, double earth_turns,
+                            const DriftGate& gate_turns) {
+  const DriftTest tested = turns_.follow(elapsed_s(epoch_, t), phase_turns - epoch_turn_,
+                                         noise(noise_s, earth_turns), gate_turns);
   usual_ = turns_.supposing_bend(0.0, kUsualDrift_per_s2);
-  return good;
+  return tested;
 }
 
 void SpinClock::shift(std::int64_t turn, double phase_turns, double drift) {

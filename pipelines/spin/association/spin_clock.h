@@ -41,10 +41,12 @@ class SpinClock {
   /// @param phase_turns Expected phase of the edge at `t`.
   /// @param noise_s Standard deviation of t.
   /// @param earth_turns Wander per turn of the phase of the edge's channel.
-  bool accepts(double phase_turns, TaiTime t, double noise_s, double earth_turns,
-               const DriftGate& gate_turns) const;
-  bool follow(double phase_turns, TaiTime t, double noise_s, double earth_turns,
-              const DriftGate& gate_turns);
+  /// @return In turns; positive where the phase is ahead of the clock.
+  DriftTest test(double phase_turns, TaiTime t, double noise_s, double earth_turns,
+                 const DriftGate& gate_turns) const;
+  /// Tests the edge and follows it if it lies within the gate.
+  DriftTest follow(double phase_turns, TaiTime t, double noise_s, double earth_turns,
+                   const DriftGate& gate_turns);
 
   void add_turns(std::int64_t turns) { epoch_turn_ += static_cast<double>(turns); }
 

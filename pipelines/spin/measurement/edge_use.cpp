@@ -104,7 +104,9 @@ std::vector<PulseUse> edge_uses(const SpinConfig& config, const Revolution& revo
       const auto channel = static_cast<PulseChannel>(i);
       all.push_back({.pulse = {.t = *t, .channel = channel},
                      .revolution = revolution.number,
-                     .rejected_by = rejection(config, revolution, channel, verdicts)});
+                     .rejected_by = rejection(config, revolution, channel, verdicts),
+                     .said = revolution.edge_places.at(i),
+                     .gap = revolution.edge_gaps.at(i)});
     }
   }
   return all;

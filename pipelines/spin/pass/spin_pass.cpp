@@ -236,8 +236,8 @@ void SpinPass::sort_out(const std::vector<Pulse>& in_time, SpinOutput& out) {
 }
 
 void SpinPass::associate(const std::vector<InterferenceWindow::Judged>& pulses, SpinOutput& out) {
-  for (const auto& [pulse, spoilt] : pulses) {
-    collect(spoilt ? associator_.push_spoilt(pulse) : associator_.push(pulse), out);
+  for (const auto& [pulse, spoilt_by] : pulses) {
+    collect(spoilt_by ? associator_.push_spoilt(pulse, *spoilt_by) : associator_.push(pulse), out);
   }
 }
 

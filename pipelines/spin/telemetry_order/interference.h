@@ -5,10 +5,11 @@
 
 #include <array>
 #include <chrono>
-#include <cstddef>
 #include <deque>
+#include <optional>
 #include <vector>
 
+#include "pipelines/spin/types/products.h"
 #include "pipelines/spin/types/pulse.h"
 
 namespace spindrift {
@@ -21,7 +22,7 @@ class InterferenceWindow {
 
   struct Judged {
     Pulse pulse;
-    bool spoilt;
+    std::optional<EdgeGap> spoilt_by;  ///< The gap to an edge that spoils it; empty: none does.
     friend bool operator==(const Judged&, const Judged&) = default;
   };
   /// @param pulse Not earlier than the previous pulse.
@@ -32,10 +33,11 @@ class InterferenceWindow {
 
  private:
   void give_front(std::vector<Judged>& out);
+  std::optional<EdgeGap> spoiling(TaiTime one, TaiTime later) const;
 
   std::chrono::nanoseconds window_;
   std::deque<Judged> held_;
-  std::array<std::size_t, kPulseChannels> held_of_{};  ///< Number of held edges by channel.
+  std::array<std::optional<TaiTime>, kPulseChannels> latest_;  ///< Latest edge by channel.
 };
 
 }  // namespace spindrift

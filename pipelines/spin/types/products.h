@@ -38,13 +38,24 @@ constexpr SampleSource source_of(SpinQuantity quantity) {
 /// Returns the rejection that the test of a quantity gives.
 Rejection rejection_of(SpinQuantity quantity);
 
+/// Time between an edge and another, and the least that it must be.
+struct EdgeGap {
+  double gap_s;
+  double least_s;
+  friend bool operator==(const EdgeGap&, const EdgeGap&) = default;
+};
+
 /// What became of one edge.
 struct PulseUse {
   Pulse pulse;
   std::optional<std::int64_t> revolution;
   std::optional<Rejection> rejected_by;  ///< Empty: accepted.
-  /// What the edge told `sequential`, as decided live; empty where no filter was asked.
+  /// What the edge told `sequential`, as decided live, or the clock of turns that rejected it;
+  /// empty where neither was asked.
   std::optional<Observation> said = {};
+  /// The gap to an edge of another channel that interferes, or to the edge of its channel that
+  /// counts.
+  std::optional<EdgeGap> gap = {};
 };
 
 /// One turn of the body, from one sun1 edge to the next.

@@ -24,7 +24,7 @@ TEST(DriftFilter, OfSteadyMotionIsLeastSquares) {
   for (int i = 0; i < kMeasured; ++i) {
     const double x = 0.7 * i + 0.1 * (i % 3);
     design.row(i) << 1.0, x, 0.5 * x * x;
-    EXPECT_TRUE(filter.follow(x, 3.0 - 2.0 * x + 0.5 * 0.25 * x * x, kNoise, kOpen));
+    EXPECT_TRUE(filter.follow(x, 3.0 - 2.0 * x + 0.5 * 0.25 * x * x, kNoise, kOpen).passed());
   }
   const double last = design(kMeasured - 1, 1);
   EXPECT_NEAR(filter.at(0.0), 3.0, 1e-6);
@@ -72,13 +72,17 @@ TEST(DriftFilter, TakesNothingFromBeyondItsGateNorFromThePast) {
   DriftFilter filter{
       {.x = 0.0, .value = 0.0, .value_sigma = 1.0, .change = 0.0, .change_sigma = 0.0}};
   const DriftNoise noise{.measured = 1.0, .wander = 0.0};
-  EXPECT_FALSE(filter.follow(1.0, 4.3, noise, {.sigma = 3.0, .most = 10.0}));
-  EXPECT_FALSE(filter.follow(1.0, 2.1, noise, {.sigma = 3.0, .most = 2.0}));
+  const DriftTest far = filter.test(1.0, 2.1, noise, {.sigma = 3.0, .most = 2.0});
+  EXPECT_DOUBLE_EQ(far.off, 2.1);
+  EXPECT_DOUBLE_EQ(far.sigma, std::sqrt(2.0));
+  EXPECT_EQ(far.limit, 2.0);
+  EXPECT_FALSE(filter.follow(1.0, 4.3, noise, {.sigma = 3.0, .most = 10.0}).passed());
+  EXPECT_FALSE(filter.follow(1.0, 2.1, noise, {.sigma = 3.0, .most = 2.0}).passed());
   EXPECT_EQ(filter.value(), 0.0);
-  EXPECT_TRUE(filter.follow(1.0, 2.0, noise, {.sigma = 3.0, .most = 2.0}));
+  EXPECT_TRUE(filter.follow(1.0, 2.0, noise, {.sigma = 3.0, .most = 2.0}).passed());
   const double taken = filter.value();
   EXPECT_GT(taken, 0.5);
-  EXPECT_TRUE(filter.follow(0.5, 1.0, noise, kOpen));
+  EXPECT_TRUE(filter.follow(0.5, 1.0, noise, kOpen).passed());
   EXPECT_EQ(filter.value(), taken);
 }
 

@@ -1,9 +1,9 @@
 // What became of something that was measured, in words, and the way by keyboard through what was left out.
 const short = value => Number(value.toPrecision(3));
 
-// How far off it was, and what that was held against.
-const heldAgainst = ({ off, limit, off_unit }) => Number.isFinite(off) && Number.isFinite(limit)
-  ? `, ${short(off)} ${off_unit}, limit ${short(limit)}` : '';
+// How far off it was, and what that was held against: the most, or for a gap between two edges the least that it may be.
+const heldAgainst = ({ accepted, off, limit, off_unit }) => Number.isFinite(off) && Number.isFinite(limit)
+  ? `, ${short(off)} ${off_unit}, ${accepted === false && Math.abs(off) < limit ? 'at least' : 'limit'} ${short(limit)}` : '';
 
 // The pass rejects; what it accepts the filter may still leave out, by its innovation.
 export const isRejected = ({ accepted }) => accepted === false;

@@ -215,6 +215,11 @@ TEST(AssociationDirt, ASpoiltSun1IsRejectedAloneAndKeptWithItsRevolution) {
   const Revolution& spoilt = all.closed.at(40);
   EXPECT_EQ(spoilt.edge(Sun1), spoilt_t);
   EXPECT_EQ(spoilt.edge_rejections.at(index_of(Sun1)), Rejection::Phase);
+  const Observation& place = spoilt.edge_places.at(index_of(Sun1)).value();
+  EXPECT_EQ(place.t, spoilt_t);
+  EXPECT_NEAR(place.residual.value[0], 0.005, 5e-4);
+  EXPECT_EQ(place.rejected_by, Rejection::Phase);
+  EXPECT_GT(place.nis, place.limit);
   EXPECT_EQ(spoilt.period_candidate.value().rejected_by, Rejection::Phase);
   // The start of the revolution is the clock's expectation, within five sigmas of the edge.
   EXPECT_NEAR(seconds_between(kStart, spoilt.t_start), 40.0, 5e-4);

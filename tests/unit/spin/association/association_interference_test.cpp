@@ -90,8 +90,8 @@ Association associate(const std::vector<Edge>& edges, const SpinConfig& config, 
   Associator associator{config};
   Association all;
   const auto associate_all = [&](const std::vector<InterferenceWindow::Judged>& judged) {
-    for (const auto& [pulse, spoilt] : judged) {
-      append(all, spoilt ? associator.push_spoilt(pulse) : associator.push(pulse));
+    for (const auto& [pulse, spoilt_by] : judged) {
+      append(all, spoilt_by ? associator.push_spoilt(pulse, *spoilt_by) : associator.push(pulse));
     }
   };
   for (const Pulse& pulse : pulses) {
@@ -104,11 +104,22 @@ Association associate(const std::vector<Edge>& edges, const SpinConfig& config, 
   return all;
 }
 
+void expect_gaps_of_spoilt_edges(const Association& all) {
+  for (const Revolution& revolution : all.closed) {
+    for (std::size_t i = 0; i < kPulseChannels; ++i) {
+      const auto& gap = revolution.edge_gaps.at(i);
+      ASSERT_EQ(gap.has_value(), revolution.edge_rejections.at(i) == Rejection::Interference);
+      ASSERT_TRUE(!gap || gap->gap_s < gap->least_s);
+    }
+  }
+}
+
 Outcome outcome_of(const Crossing& crossing, const std::vector<Edge>& edges) {
   SpinConfig config = usual_config();
   config.screening.interference_s = crossing.window_s;
   Outcome outcome;
   const Association all = associate(edges, config, outcome);
+  expect_gaps_of_spoilt_edges(all);
   const auto good = good_edges(all);
   const double noise_s = config.noise.infrared_s;
   const double far_s = crossing.window_s + 4.0 * std::hypot(noise_s, noise_s);

@@ -156,10 +156,10 @@ TEST_F(ExpectedPhasesTest, OfTwoPlacesTheSunIsOnTheSideOfTheOtherSlit) {
 TEST_F(ExpectedPhasesTest, OnlyEdgesWithinTheGateAreFollowed) {
   learn_north_in();
   for (int turn = 20; turn < 25; ++turn) {
-    EXPECT_TRUE(phases_.follow(NorthIn, turn, 0.3, 0.0));
+    EXPECT_TRUE(phases_.follow(NorthIn, turn, 0.3, 0.0).passed());
   }
   EXPECT_EQ(phases_.in_a_row(NorthIn), 5);
-  EXPECT_FALSE(phases_.follow(NorthIn, 25, 0.3 + 1.01 * gate_turns(NorthIn), 0.0));
+  EXPECT_FALSE(phases_.follow(NorthIn, 25, 0.3 + 1.01 * gate_turns(NorthIn), 0.0).passed());
   EXPECT_EQ(phases_.in_a_row(NorthIn), 0);
   EXPECT_NEAR(phases_.at(NorthIn, 26.0), 0.3, 1e-6);
 }
@@ -211,10 +211,13 @@ TEST_F(ExpectedPhasesTest, ChannelsInterfereWhereTheirEdgesMeetAcrossTheTurnToo)
   for (const auto& [phase, meet] : {std::pair{0.005, true}, std::pair{0.995, true},
                                     std::pair{0.05, false}, std::pair{0.5, false}}) {
     phases_.define(NorthIn, 0, phase);
-    EXPECT_EQ(phases_.interfere(Sun1, NorthIn, 1.0, 0.0), meet) << phase;
-    EXPECT_EQ(phases_.interfere(NorthIn, Sun1, 1.0, 0.0), meet) << phase;
+    for (const auto& gap : {phases_.gap(Sun1, NorthIn, 1.0, 0.0).value(),
+                            phases_.gap(NorthIn, Sun1, 1.0, 0.0).value()}) {
+      EXPECT_NEAR(gap.gap_s, std::min(phase, 1.0 - phase) * kPeriod_s, 1e-12);
+      EXPECT_EQ(gap.gap_s < gap.least_s, meet) << phase;
+    }
   }
-  EXPECT_FALSE(phases_.interfere(Sun1, SouthIn, 1.0, 0.0));
+  EXPECT_FALSE(phases_.gap(Sun1, SouthIn, 1.0, 0.0));
 }
 
 TEST_F(ExpectedPhasesTest, TheLatestIsThatOfAllChannels) {

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "pipelines/time/time_span.h"
 #include "tests/support/matchers.h"
 
 namespace spindrift::interference_test {
@@ -45,6 +46,21 @@ TEST(Interference, EdgesOfDifferentChannelsCloserThanTheWindowSpoilEachOther) {
   EXPECT_THAT(spoilt, ElementsAre(pulse_at(5000, NorthIn), pulse_at(5999, SouthIn)));
 }
 
+TEST(Interference, SaysHowNearTheEdgeIsThatSpoilsAnother) {
+  InterferenceWindow window{kWindow_s};
+  std::vector<double> gaps_s;
+  for (const auto& [t_us, channel] :
+       {std::pair{0, NorthIn}, std::pair{700, Sun1}, std::pair{900, SouthIn}}) {
+    EXPECT_THAT(window.push(pulse_at(t_us, channel)), IsEmpty());
+  }
+  for (const auto& judged : window.finish()) {
+    EXPECT_EQ(judged.spoilt_by.value().least_s, kWindow_s);
+    gaps_s.push_back(judged.spoilt_by->gap_s);
+  }
+  EXPECT_THAT(gaps_s, ElementsAre(::testing::DoubleEq(7e-4), ::testing::DoubleEq(7e-4),
+                                  ::testing::DoubleEq(2e-4)));
+}
+
 TEST(Interference, SpoilsAllOfAChainOrNothing) {
   const std::vector<std::pair<std::vector<Pulse>, bool>> all_edges = {
       // The window itself is not closer, and edges of one channel do not spoil each other.
@@ -63,7 +79,7 @@ TEST(Interference, SpoilsAllOfAChainOrNothing) {
 TEST(Interference, WithoutAWindowEverythingPassesAtOnce) {
   InterferenceWindow window{0.0};
   for (const PulseChannel channel : {Sun1, Sun2}) {
-    const InterferenceWindow::Judged clean{.pulse = pulse_at(0, channel), .spoilt = false};
+    const InterferenceWindow::Judged clean{.pulse = pulse_at(0, channel), .spoilt_by = {}};
     EXPECT_THAT(window.push(clean.pulse), ElementsAre(clean));
   }
   EXPECT_THAT(window.finish(), IsEmpty());
@@ -77,9 +93,11 @@ TEST(Interference, SpoiltEdgesComeOutInOrderAmongTheOthers) {
     const auto some = window.push(pulse);
     all.insert(all.end(), some.begin(), some.end());
   }
-  EXPECT_THAT(all, ElementsAre(InterferenceWindow::Judged{pulse_at(0, Sun1), false},
-                               InterferenceWindow::Judged{pulse_at(2000, NorthIn), true},
-                               InterferenceWindow::Judged{pulse_at(2400, SouthIn), true}));
+  const EdgeGap gap{.gap_s = elapsed_s(tai_from_ns(0), tai_from_ns(400 * kMicrosecond_ns)),
+                    .least_s = kWindow_s};
+  EXPECT_THAT(all, ElementsAre(InterferenceWindow::Judged{pulse_at(0, Sun1), {}},
+                               InterferenceWindow::Judged{pulse_at(2000, NorthIn), gap},
+                               InterferenceWindow::Judged{pulse_at(2400, SouthIn), gap}));
 }
 
 // The test ends only if the cost of an edge does not grow with the number of held edges.
