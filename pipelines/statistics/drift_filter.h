@@ -18,7 +18,7 @@ struct DriftNoise {
 
 /// The largest deviation of a measurement from its prediction.
 struct DriftGate {
-  double sigma;  ///< In standard deviations of the deviation.
+  double sigma;  ///< Largest deviation, in its standard deviations.
   double most;   ///< Absolute limit.
 };
 

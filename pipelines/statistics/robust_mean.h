@@ -10,7 +10,7 @@ namespace spindrift {
 
 /// The largest deviation of a value from the mean.
 struct ClipRule {
-  double sigma;   ///< In empirical standard deviations.
+  double sigma;   ///< Largest deviation, in empirical standard deviations.
   double stated;  ///< Standard deviation that the noise model states; same unit as the values.
 };
 

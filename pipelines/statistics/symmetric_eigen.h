@@ -8,7 +8,7 @@
 namespace spindrift {
 
 struct SymmetricEigen {
-  Eigen::VectorXd values;   ///< In rising order.
+  Eigen::VectorXd values;   ///< Eigenvalues in rising order.
   Eigen::MatrixXd vectors;  ///< Unit columns, in the order of the values.
 };
 

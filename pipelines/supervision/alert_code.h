@@ -20,7 +20,7 @@ enum class AlertCode {
   LinkRestarted,
   LinkContradiction,
   ServiceTwice,
-  ChannelSilent,  ///< Per channel.
+  ChannelSilent,  ///< One alert for each channel.
   SpinInterference,
   SpinPeriod,
   SpinRejection,
@@ -34,7 +34,7 @@ enum class AlertCode {
   AttitudeLost,
   AttitudeDiverged,
   ReconstructionLauncher,
-  ModelDeparture,  ///< Per channel.
+  ModelDeparture,  ///< One alert for each channel.
   ArchiveBacklog,
   ArchiveWrite,
   ArchiveDisk,

@@ -20,7 +20,7 @@ namespace spindrift {
 
 /// Holds the spin axis of the answer in force.
 struct AxisSeen {
-  Eigen::Vector3d axis_icrf;  ///< Unit.
+  Eigen::Vector3d axis_icrf;  ///< Unit vector.
   double sigma_rad;
 };
 
@@ -43,7 +43,7 @@ class ChannelPresence {
   struct Channel {
     ConditionWatch watch;
     int edges = 0;
-    bool was_in_view = false;  ///< In view at its last edge or at the last check.
+    bool was_in_view = false;  ///< The channel was in view at its last edge or at the last check.
     std::array<int, kPulseChannels> of_others = {};  ///< Edges of each other channel since then.
   };
   SpinConfig config_;

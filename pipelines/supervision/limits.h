@@ -54,7 +54,7 @@ struct Contact {
 
 /// The axis and rate that a spinner should have.
 struct SpinTarget {
-  Eigen::Vector3d axis_icrf;  ///< Unit.
+  Eigen::Vector3d axis_icrf;  ///< Unit vector.
   struct Rate {
     double rad_s;
     double tolerance_rad_s;

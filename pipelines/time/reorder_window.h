@@ -67,7 +67,7 @@ class BasicReorderWindow {
   std::vector<Sample> fall_silent();
 
   struct Rest {
-    std::vector<Sample> in_time;      ///< In time order.
+    std::vector<Sample> in_time;      ///< Samples in order of time.
     std::vector<Sample> out_of_time;  ///< Far ahead or far before, and too few to be accepted.
   };
   /// Ends the pass and returns all samples that are held.

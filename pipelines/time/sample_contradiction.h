@@ -22,7 +22,7 @@ struct SampleContradiction {
 
   TaiTime t = {};
   std::string_view kind = {};
-  std::vector<By> by = {};  ///< Each sender once.
+  std::vector<By> by = {};  ///< The senders, each named once.
   /// True if the first value was processed and stays; `by` then has its sender and the late one.
   bool late = false;
 };

@@ -61,7 +61,7 @@ class ContradictionWriter {
                 const Entry& came, const char* what);
 
   std::vector<SQLite::Statement> find_;  ///< One per kind of telemetry, in kTelemetryKind order.
-  std::vector<SQLite::Statement> take_over_;  ///< In the same order.
+  std::vector<SQLite::Statement> take_over_;  ///< Statements in the same order.
   SQLite::Statement find_first_arrival_;
   std::pair<std::string, RunPlace> first_arrival_;  ///< Cached for the run asked for last.
   SQLite::Statement contested_;

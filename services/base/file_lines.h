@@ -15,7 +15,7 @@
 namespace spindrift {
 
 struct FileLine {
-  std::int64_t number;    ///< From 1.
+  std::int64_t number;    ///< Counted from 1.
   std::string_view text;  ///< Without CR LF or LF; valid until the next line is read.
   bool too_long;          ///< `text` has only the beginning of the line.
 };

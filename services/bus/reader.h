@@ -21,7 +21,7 @@ namespace spindrift::bus {
 
 /// Cyclone's counts since the reader was created.
 struct ReaderStatus {
-  std::uint32_t writers;   ///< Currently matched.
+  std::uint32_t writers;   ///< Number matched now.
   std::uint32_t lost;      ///< Lost samples that Cyclone knows of, which need not be all.
   std::uint32_t rejected;  ///< Attempts that a full reader refused; the writer tries again.
   std::vector<std::string> incompatible_writers;  ///< Currently visible; see endpoints.h.

@@ -16,7 +16,7 @@
 namespace spindrift::bus {
 
 struct WriterStatus {
-  std::uint32_t readers;                          ///< Currently matched.
+  std::uint32_t readers;                          ///< Number matched now.
   std::vector<std::string> incompatible_readers;  ///< Currently visible; see endpoints.h.
 };
 

@@ -23,13 +23,13 @@ struct Standing {
   std::optional<double> data_age_s = {};
   PassVerdict verdict = {};                  ///< Verdict on the run in force.
   std::optional<double> to_target_deg = {};  ///< Empty without target or axis.
-  std::vector<Alert> alerts = {};            ///< Only open ones.
+  std::vector<Alert> alerts = {};            ///< Alerts that are open.
 };
 
 /// One reason against acting.
 struct Objection {
   std::string_view code;
-  std::string text;  ///< For people.
+  std::string text;  ///< Sentence for people.
 };
 
 /// Anything unknown is an objection.

@@ -72,7 +72,7 @@ class ShownSpacecraft {
   /// Latest measurements that failed their test.
   std::map<std::pair<std::int64_t, SpinQuantity>, SpinMeasurement> failed_;
   Ledger ledger_;  ///< Residuals of edges in `sequential`, or of samples in the filter.
-  std::deque<OperatorAction> actions_;                   ///< Latest ones.
+  std::deque<OperatorAction> actions_;                   ///< The latest actions.
   std::map<TaiTime, SpinPrior> priors_;                  ///< Set by actions, by start time.
   std::optional<std::pair<TaiTime, double>> bound_deg_;  ///< From the last batch solution.
   ApparentSun sun_;

@@ -31,7 +31,8 @@ struct RunSummary {
   std::int64_t edges_stored = 0;           ///< Filled in by the caller that reads the archive.
   std::int64_t coded_frames_received = 0;  ///< A frame holds up to six edges.
   std::int64_t edges_accepted = 0;
-  std::map<std::string_view, std::int64_t> edges_rejected;  ///< By name of the rejecting test.
+  std::map<std::string_view, std::int64_t>
+      edges_rejected;               ///< Number of edges by the test that rejected them.
   std::int64_t input_rejected = 0;  ///< Rows and samples that are not valid input.
   std::int64_t revolutions = 0;
   std::int64_t fixes = 0;
@@ -46,7 +47,7 @@ struct RunSummary {
   /// Rejected samples by kind, then by name of the rejecting test.
   std::array<std::map<std::string_view, std::int64_t>, kSampleKinds> samples_rejected = {};
   std::optional<AttitudeEstimate> attitude;                 ///< The latest estimate.
-  std::vector<ReconstructionProduct> reconstructions = {};  ///< One per method.
+  std::vector<ReconstructionProduct> reconstructions = {};  ///< One reconstruction for each method.
   /// @}
   std::vector<Disagreement> disagreements = {};  ///< Read from the archive.
   std::vector<RunFault> faults = {};             ///< Read from the archive.

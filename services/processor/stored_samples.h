@@ -64,7 +64,7 @@ class StoredSamples {
     return {order_of(value), digest};
   }
 
-  std::vector<Key> keys_;  ///< Sorted.
+  std::vector<Key> keys_;  ///< Keys in rising order.
 };
 
 }  // namespace spindrift

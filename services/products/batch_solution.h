@@ -56,7 +56,7 @@ struct SpinBatchTable {
 template <class Value>
 struct NumberedRow {
   std::int64_t t_tai_ns;
-  std::int64_t position;  ///< From 1.
+  std::int64_t position;  ///< Counted from 1.
   Value value;
 };
 

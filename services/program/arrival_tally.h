@@ -19,7 +19,7 @@ struct TalliedArrivals {
   std::string run_id = {};   ///< Run that the other members except `samples` describe.
   std::int64_t samples = 0;  ///< Number of edges (coded frames included) or sensor samples.
   std::optional<std::int64_t> revolution = {};    ///< Latest one known in the run.
-  std::map<std::string_view, TaiTime> last = {};  ///< By channel or kind of sensor.
+  std::map<std::string_view, TaiTime> last = {};  ///< Last arrival by channel or kind of sensor.
 };
 
 /// Safe to use from any thread.

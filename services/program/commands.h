@@ -116,7 +116,7 @@ Expected<bool> run_doctor(const DoctorOptions& options);
 
 /// `spindrift geomag field`: evaluates the Earth's main magnetic field at points.
 struct GeomagFieldOptions {
-  double year = 0.0;             ///< Decimal year.
+  double year = 0.0;             ///< The year with its fraction.
   std::filesystem::path points;  ///< CSV: lat_deg,lon_deg,height_km, geodetic WGS-84.
   bool json = false;
 };

@@ -19,7 +19,7 @@ namespace spindrift {
 struct Announcement {
   std::string spacecraft;
   std::string run_id;
-  Product product;                                                 ///< Of a kind that is announced.
+  Product product;  ///< A product of a kind that is announced.
   std::optional<std::chrono::steady_clock::time_point> came = {};  ///< As ArchiveBatch::came.
 };
 

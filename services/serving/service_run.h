@@ -47,8 +47,8 @@ struct ServiceParts {
   ThreadFailures& failures;
   /// Called with alerts of the service. Must not wait.
   std::function<void(const ArchiveBatch&)> announce;
-  std::function<void(const Health&)> on_health;  ///< Must not wait.
-  VerdictWatch::OnVerdict on_verdict;            ///< Must not wait.
+  std::function<void(const Health&)> on_health;  ///< The function must not wait.
+  VerdictWatch::OnVerdict on_verdict;            ///< The function must not wait.
   /// Called when the last batch of the runs is submitted.
   std::function<Expected<void>()> on_finished;
 };

@@ -43,7 +43,7 @@ class VerdictWatch {
   const OnVerdict on_verdict_;
   KeptConnection archive_;  ///< Used by the thread only.
   mutable std::mutex mutex_;
-  std::map<std::string, PassVerdict> verdicts_;  ///< By spacecraft.
+  std::map<std::string, PassVerdict> verdicts_;  ///< Verdict in force by spacecraft.
   std::jthread thread_;                          // Declared last because it uses the other members.
 };
 

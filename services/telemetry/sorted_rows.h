@@ -81,7 +81,7 @@ class SortedRows {
   std::size_t sorted_ = 0;  ///< Rows before here are in order.
   std::uint64_t read_ = 0;  ///< Good rows read so far.
   bool ended_ = false;
-  std::deque<Stray> strays_;        ///< In file order.
+  std::deque<Stray> strays_;        ///< Strays in the order of the file.
   TelemetryOrder given_{};          ///< Order of the last row in order.
   bool gave_one_in_order_ = false;  ///< Since the last stray.
 };

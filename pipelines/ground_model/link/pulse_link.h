@@ -50,7 +50,7 @@ struct ReceivedPulse {
 };
 
 struct ReceivedPass {
-  std::vector<ReceivedPulse> pulses;  ///< In order of time and channel.
+  std::vector<ReceivedPulse> pulses;  ///< Pulses in order of time and channel.
   std::vector<Pulse> silenced;  ///< Edges seen on board but lost in a silence; in the same order.
   std::int64_t missing = 0;     ///< Number of true edges that did not arrive.
 };

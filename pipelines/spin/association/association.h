@@ -72,7 +72,7 @@ class Associator {
   /// The turn with the expected edge nearest to a pulse, and whether it is near enough to be it.
   struct TurnTest {
     std::int64_t turn;
-    DriftTest tested;  ///< In turns.
+    DriftTest tested;  ///< Phase test, turns.
   };
 
   void place_or_wait(const Pulse& pulse, Association& out);

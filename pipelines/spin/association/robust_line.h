@@ -19,7 +19,7 @@ struct PhasePoint {
 struct RobustLine {
   double turn;     ///< Mean turn of the points that agree.
   double phase;    ///< Phase on that turn, turns.
-  double drift;    ///< Turns per turn.
+  double drift;    ///< Drift, turns per turn.
   double scatter;  ///< Standard deviation about the line, at least the stated one.
   std::vector<PhasePoint> agreeing;
 

@@ -24,7 +24,7 @@ double squared_distance(const Eigen::Vector3d& axis_icrf, const AxisCandidate& c
 
 /// An axis that stays where it is, the mean of `count` candidates.
 struct StationaryAxis {
-  Eigen::Vector3d axis_icrf;  ///< Unit.
+  Eigen::Vector3d axis_icrf;  ///< Unit vector.
   double count;
 };
 

@@ -46,9 +46,9 @@ class PassEvents {
 struct PassRequest {
   TaiTime from;
   TaiTime to;                 ///< Later than `from`.
-  double step_s;              ///< Positive.
-  Eigen::Vector3d axis_icrf;  ///< Unit.
-  double rate_rad_s;          ///< Positive.
+  double step_s;              ///< The value is positive.
+  Eigen::Vector3d axis_icrf;  ///< Unit vector.
+  double rate_rad_s;          ///< The value is positive.
 };
 
 struct PassStep {

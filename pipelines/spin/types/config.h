@@ -70,7 +70,7 @@ struct SpinGeometry {
 
 /// Spin axis as expected beforehand.
 struct SpinPrior {
-  Eigen::Vector3d axis_icrf;  ///< Unit length.
+  Eigen::Vector3d axis_icrf;  ///< Unit vector.
   double sigma_rad;
 };
 

@@ -79,7 +79,7 @@ std::string_view name_of(Resolution resolution);
 
 /// Another axis that the same revolution leaves possible.
 struct SpinAlternate {
-  Eigen::Vector3d axis_icrf;  ///< Unit.
+  Eigen::Vector3d axis_icrf;  ///< Unit vector.
   /// Covariance in the tangent plane at this axis (east, north); zero where it was not kept.
   Eigen::Matrix2d covariance_rad2 = Eigen::Matrix2d::Zero();
   double misfit = 0.0;  ///< Chi-square of the measurements about the axis, by the edges' noise.
@@ -143,7 +143,7 @@ using SpinProduct = std::variant<PulseUse, RevolutionProduct, SpinMeasurement, S
 
 /// An axis that is known beforehand, or from what the pass has shown so far.
 struct KnownAxis {
-  Eigen::Vector3d axis_icrf;  ///< Unit.
+  Eigen::Vector3d axis_icrf;  ///< Unit vector.
   double sigma_rad;
   /// States what separated this axis from the other candidates. A fix that is chosen by this axis
   /// takes it over. Edges count as Dispersion, because over many turns only one axis fits them.

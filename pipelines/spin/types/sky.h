@@ -16,7 +16,7 @@ struct Sky {
   TaiTime t;
   OrbitState spacecraft;            ///< Orbit state at `t`.
   Eigen::Vector3d sun_icrf;         ///< Unit, apparent.
-  Eigen::Vector3d earth_pole_icrf;  ///< Unit.
+  Eigen::Vector3d earth_pole_icrf;  ///< Unit vector.
 };
 
 /// Returns Earth's centre -> spacecraft at a time near that of the sky: free fall, second order.
@@ -33,7 +33,7 @@ struct SunEarthDirections {
   Eigen::Vector3d sun_icrf;         ///< Unit, apparent, at sun1.
   Eigen::Vector3d earth_icrf;       ///< Unit, to the Earth's centre, at `t_earth`.
   double disc_rad;                  ///< rho, half-angle of the Earth's disc.
-  Eigen::Vector3d earth_pole_icrf;  ///< Unit.
+  Eigen::Vector3d earth_pole_icrf;  ///< Unit vector.
   TaiTime t_earth = {};             ///< Time half way between the chords.
   /// Apparent velocity of the Earth, in ranges per second.
   Eigen::Vector3d earth_motion_icrf_s = Eigen::Vector3d::Zero();

@@ -14,7 +14,7 @@ namespace spindrift {
 
 /// States that the true axis is the nearest to this of those that a revolution leaves possible.
 struct ChooseRoot {
-  Eigen::Vector3d axis_icrf;  ///< Unit.
+  Eigen::Vector3d axis_icrf;  ///< Unit vector.
 };
 
 /// Replaces the mission's prior.
@@ -27,7 +27,7 @@ struct MarkManoeuvre {};
 
 /// Sets where the axis should be; no estimate depends on it.
 struct SetTarget {
-  Eigen::Vector3d axis_icrf;  ///< Unit.
+  Eigen::Vector3d axis_icrf;  ///< Unit vector.
 };
 
 using SpinAction =
