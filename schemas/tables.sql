@@ -286,12 +286,19 @@ CREATE TABLE pulse_use (
   sigma_ns       INTEGER,
   residual_limit_milli INTEGER,  -- thousandths take a quarter of the room of a number
   used           INTEGER CHECK (used IN (0, 1)),
-  -- Of interference: the time to the edge of another channel (measured; expected where that is too narrow for both
-  -- channels) and the least that it must be; of a copy, or a second edge of its turn: the same to the edge that counts.
-  gap_ns         INTEGER,
-  least_gap_ns   INTEGER,
   PRIMARY KEY (run_id, t_tai_ns, channel),  -- a run has one spacecraft
   CHECK (accepted = (rejected_by IS NULL))
+) STRICT, WITHOUT ROWID;
+
+-- Edges that were left out for a gap: of interference to the edge of another channel (measured; expected where that is too
+-- narrow for both channels), of a copy or a second edge of its turn to the edge that counts. least_gap_s: what it must be.
+CREATE TABLE pulse_gap (
+  run_id      TEXT NOT NULL REFERENCES run,
+  t_tai_ns    INTEGER NOT NULL,
+  channel     TEXT NOT NULL,
+  gap_s       REAL NOT NULL CHECK (gap_s >= 0),
+  least_gap_s REAL NOT NULL,
+  PRIMARY KEY (run_id, t_tai_ns, channel)
 ) STRICT, WITHOUT ROWID;
 
 CREATE INDEX pulse_use_of_revolution ON pulse_use (run_id, revolution) WHERE revolution IS NOT NULL;

@@ -40,18 +40,18 @@ Quantity phase(std::string_view channel) {
       .sql = fmt::format(
           "SELECT t_tai_ns, 360 * (turns - floor(turns)), accepted, rejected_by, off, \"limit\", "
           "unit, used FROM (SELECT edge.t_tai_ns, (edge.t_tai_ns - turn.t_tai_ns) / (1e9 * "
-          "period_s) "
-          "AS turns, edge.accepted, edge.rejected_by, edge.used, coalesce(value - expected, "
-          "gap_ns / 1e9, residual_ns * 1.0 / sigma_ns) AS off, coalesce(\"limit\", "
-          "least_gap_ns / 1e9, residual_limit_milli / 1e3) AS \"limit\", coalesce(unit, iif(gap_ns "
-          "IS NULL, 'sigma', 's')) AS unit FROM pulse_use AS edge CROSS JOIN revolution AS turn "
+          "period_s) AS turns, edge.accepted, edge.rejected_by, edge.used, coalesce(value - "
+          "expected, gap_s, residual_ns * 1.0 / sigma_ns) AS off, coalesce(\"limit\", least_gap_s, "
+          "residual_limit_milli / 1e3) AS \"limit\", coalesce(unit, iif(gap_s IS NULL, 'sigma', "
+          "'s')) AS unit FROM pulse_use AS edge CROSS JOIN revolution AS turn "
           "ON turn.run_id = edge.run_id AND turn.revolution = coalesce(edge.revolution, (SELECT "
           "revolution FROM pulse_use AS before WHERE before.run_id = edge.run_id AND "
           "before.t_tai_ns < edge.t_tai_ns AND before.revolution IS NOT NULL ORDER BY "
-          "before.t_tai_ns DESC LIMIT 1)) LEFT JOIN spin_measurement AS test ON test.run_id = "
-          "edge.run_id AND test.revolution = edge.revolution AND test.quantity = "
-          "edge.rejected_by WHERE edge.run_id = ?1 AND channel = '{}' AND edge.t_tai_ns <= ?2) "
-          "ORDER BY t_tai_ns DESC",
+          "before.t_tai_ns DESC LIMIT 1)) LEFT JOIN pulse_gap AS gap ON gap.run_id = edge.run_id "
+          "AND gap.t_tai_ns = edge.t_tai_ns AND gap.channel = edge.channel LEFT JOIN "
+          "spin_measurement AS test ON test.run_id = edge.run_id AND test.revolution = "
+          "edge.revolution AND test.quantity = edge.rejected_by WHERE edge.run_id = ?1 AND "
+          "edge.channel = '{}' AND edge.t_tai_ns <= ?2) ORDER BY t_tai_ns DESC",
           channel)};
 }
 

@@ -37,15 +37,6 @@ constexpr auto residual_ns_column(std::string_view name, Get get) {
       }};
 }
 
-/// Makes a column about a gap that is too narrow, in ns; null when the edge has none.
-constexpr auto gap_ns_column(std::string_view name, double EdgeGap::*member) {
-  return ProductColumn{
-      name, [member](const PulseUse& use) {
-        return use.gap ? std::optional{std::int64_t{std::llround(*use.gap.*member * 1e9)}}
-                       : std::nullopt;
-      }};
-}
-
 struct PulseUseTable {
   static constexpr std::string_view kName = "pulse_use";
   static constexpr bool kOfSpacecraft = true;
@@ -62,16 +53,29 @@ struct PulseUseTable {
                   [](const Observation& said) {
                     return std::int64_t{std::llround(1e3 * std::sqrt(said.limit))};
                   }),
-      said_column("used", [](const Observation& said) { return !said.rejected_by; }),
-      gap_ns_column("gap_ns", &EdgeGap::gap_s), gap_ns_column("least_gap_ns", &EdgeGap::least_s));
+      said_column("used", [](const Observation& said) { return !said.rejected_by; }));
   /// An edge that arrived twice keeps its first use, so 'late' does not replace it.
   static constexpr std::string_view kReplaces = "excluded.rejected_by IS NOT 'late'";
+};
+
+/// A table of its own, since few edges have a gap that is too narrow.
+struct PulseGapTable {
+  static constexpr std::string_view kName = "pulse_gap";
+  static constexpr std::array<std::string_view, 2> kKey{"t_tai_ns", "channel"};
+
+  static bool has_row(const PulseUse& use) { return use.gap.has_value(); }
+
+  static constexpr auto kColumns = columns(
+      ProductColumn{"t_tai_ns", [](const PulseUse& use) { return tai_ns(use.pulse.t); }},
+      ProductColumn{"channel", [](const PulseUse& use) { return name_of(use.pulse.channel); }},
+      ProductColumn{"gap_s", [](const PulseUse& use) { return use.gap->gap_s; }},
+      ProductColumn{"least_gap_s", [](const PulseUse& use) { return use.gap->least_s; }});
 };
 
 template <>
 struct ProductKind<PulseUse> {
   static constexpr ProductWeight kWeight = ProductWeight::Detail;
-  using Tables = std::tuple<PulseUseTable>;
+  using Tables = std::tuple<PulseUseTable, PulseGapTable>;
   static PulseUse without_residuals(PulseUse use) {
     use.said.reset();
     return use;

@@ -230,13 +230,19 @@ bool Associator::is_of_all_channels(const PulseTrain& comb) const {
                      [&](double period_s) { return !is_another_period(period_s, comb.period_s); });
 }
 
+/// Tells whether an edge of the reference at `t` lies within the limits of its expectation.
+/// @param most_turns Absolute limit.
+bool Associator::lies_within(double most_turns, double turn, TaiTime t) const {
+  return clock_
+      ->test(turn + phases_.at(reference_, turn), t, edge_sigma_s(config_.noise, reference_),
+             reference_wander(), {.sigma = config_.screening.sigma, .most = most_turns})
+      .passed();
+}
+
 bool Associator::is_good_reference(const Pulse& pulse) const {
   const double phase = clock_->phase_turns(pulse.t);
   const double turn = std::round(phase - phases_.at(reference_, phase));
-  return clock_
-      ->test(turn + phases_.at(reference_, turn), pulse.t, edge_sigma_s(config_.noise, reference_),
-             reference_wander(), {.sigma = config_.screening.sigma, .most = gate_turns(reference_)})
-      .passed();
+  return lies_within(gate_turns(reference_), turn, pulse.t);
 }
 
 /// Sets the clock anew after a step of the spin rate, when the latest reference edges agree with
@@ -401,11 +407,7 @@ bool Associator::is_expected(const Revolution& revolution, const Pulse& pulse) c
               clock_sigma_turns(turn))
         .passed();
   }
-  return clock_
-      ->test(turn + phases_.at(reference_, turn), pulse.t, edge_sigma_s(config_.noise, reference_),
-             reference_wander(),
-             {.sigma = config_.screening.sigma, .most = reach_turns(reference_, turn)})
-      .passed();
+  return lies_within(reach_turns(reference_, turn), turn, pulse.t);
 }
 
 /// @param apart_s Time from another edge of its channel.

@@ -50,8 +50,8 @@ struct PulseUse {
   Pulse pulse;
   std::optional<std::int64_t> revolution;
   std::optional<Rejection> rejected_by;  ///< Empty: accepted.
-  /// What the edge told `sequential`, as decided live, or the clock of turns that rejected it;
-  /// empty where neither was asked.
+  /// Observation that the edge gave to `sequential`, as decided live, or to the clock of turns that
+  /// rejected it; empty where neither was asked.
   std::optional<Observation> said = {};
   /// The gap to an edge of another channel that interferes, or to the edge of its channel that
   /// counts.

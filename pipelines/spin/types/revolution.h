@@ -20,8 +20,9 @@ struct Revolution {
   std::array<std::optional<TaiTime>, kPulseChannels> edges;
   /// Why a received edge is not used: it lies where those of its channel do not. Empty: it is good.
   std::array<std::optional<Rejection>, kPulseChannels> edge_rejections = {};
-  /// What the test of a rejected edge found: its place against the expected one, or the gap.
+  /// Observations that the edges rejected by `phase` gave to the clock.
   std::array<std::optional<Observation>, kPulseChannels> edge_places = {};
+  /// Gaps that rejected the edges by `interference`.
   std::array<std::optional<EdgeGap>, kPulseChannels> edge_gaps = {};
   /// Whether another edge of the channel came so near that one is a copy.
   std::array<bool, kPulseChannels> has_copy = {};
