@@ -23,10 +23,12 @@ constexpr std::int64_t kSamplesAProduct = 8;
 
 std::int64_t signed_size(std::size_t size) { return static_cast<std::int64_t>(size); }
 
-/// The first batch of a run goes with the samples, whatever else is in it: the rows of all others
-/// refer to the run and the spacecraft that it begins.
+/// Two kinds of batches go with the samples, whatever else is in them: the first of a run, because
+/// the rows of all others refer to the run and the spacecraft that it begins, and one with counts
+/// of sources, because these are cumulative and the last ones stored hold.
 bool waits_as_product(const ArchiveBatch& batch) {
-  return !batch.start && (!batch.products.empty() || batch.continuation || batch.finished_utc);
+  return !batch.start && batch.source_counts.empty() &&
+         (!batch.products.empty() || batch.continuation || batch.finished_utc);
 }
 
 bool has_details(const ArchiveBatch& batch) {

@@ -75,6 +75,15 @@ TEST(BatchQueue, BeginsARunBeforeItsSamplesWhateverIsToldWithIt) {
   EXPECT_THAT(names_of(queue.take()), ElementsAre("first", "samples"));
 }
 
+TEST(BatchQueue, KeepsCountsOfSourcesInOrderWhateverIsToldWithThem) {
+  BatchQueue queue{1000};
+  ArchiveBatch noticed = batch_of("noticed");
+  noticed.source_counts.push_back({.source = "station", .received = 1});
+  noticed.products.emplace_back(RunNotice{});
+  push(queue, std::move(noticed), samples(10));
+  EXPECT_THAT(names_of(queue.take()), ElementsAre("noticed", "samples"));
+}
+
 TEST_F(LongBatchQueue, LetsProductsWaitInABurstOfSamplesButNotForEver) {
   push(queue, results(500), results(500), samples(3200));
   EXPECT_THAT(names_of(queue.take()), ElementsAre("samples", "results"));
