@@ -21,4 +21,11 @@ inline double upper_median(std::span<double> values) {
   return values.empty() ? 0.0 : in_order_at(values, values.size() / 2);
 }
 
+/// Returns the nearest-rank percentile, the least value that `percent` % of the values do not
+/// exceed. @param values Not empty; reordered.
+inline double percentile(std::span<double> values, std::size_t percent) {
+  const std::size_t rank = (values.size() * percent + 99) / 100;
+  return in_order_at(values, std::max(rank, std::size_t{1}) - 1);
+}
+
 }  // namespace spindrift

@@ -3,10 +3,11 @@
 
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
 #include <optional>
 #include <vector>
+
+#include "pipelines/statistics/median.h"
 
 namespace spindrift {
 
@@ -24,17 +25,13 @@ class RecentDurations {
     oldest_ = (oldest_ + 1) % capacity_;
   }
 
-  /// Returns the nearest-rank percentile, ms: the smallest duration that `percent` % of the
-  /// durations do not exceed. Empty before the first.
+  /// Returns the nearest-rank percentile, ms; empty before the first duration.
   std::optional<double> percentile_ms(std::size_t percent) const {
     if (durations_ms_.empty()) {
       return std::nullopt;
     }
-    std::vector<double> sorted_ms = durations_ms_;
-    const std::size_t rank = (sorted_ms.size() * percent + 99) / 100;
-    const auto nth = sorted_ms.begin() + static_cast<std::ptrdiff_t>(rank - 1);
-    std::nth_element(sorted_ms.begin(), nth, sorted_ms.end());
-    return *nth;
+    std::vector<double> reordered_ms = durations_ms_;
+    return percentile(reordered_ms, percent);
   }
 
  private:

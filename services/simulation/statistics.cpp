@@ -1,29 +1,23 @@
 #include "services/simulation/statistics.h"
 
-#include <algorithm>
 #include <cmath>
 #include <numeric>
+
+#include "pipelines/statistics/median.h"
 
 namespace spindrift {
 namespace {
 
-/// Returns the least value that the given share does not exceed. @param values Sorted, not empty.
-double quantile(const std::vector<double>& values, double share) {
-  const double place = std::ceil(share * static_cast<double>(values.size()));
-  return values.at(static_cast<std::size_t>(std::max(place, 1.0)) - 1);
-}
-
 Spread spread_of(std::vector<double> values) {
-  std::sort(values.begin(), values.end());
   const auto count = static_cast<double>(values.size());
   const double sum = std::accumulate(values.begin(), values.end(), 0.0);
   const double squares = std::inner_product(values.begin(), values.end(), values.begin(), 0.0);
   return {.mean = sum / count,
           .rms = std::sqrt(squares / count),
-          .least = values.front(),
-          .median = quantile(values, 0.5),
-          .most_of_95 = quantile(values, 0.95),
-          .most = values.back()};
+          .least = percentile(values, 0),
+          .median = percentile(values, 50),
+          .most_of_95 = percentile(values, 95),
+          .most = percentile(values, 100)};
 }
 
 }  // namespace
