@@ -5,6 +5,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <string_view>
 
 namespace spindrift {
 
@@ -23,5 +24,13 @@ inline constexpr int kSpinAlignmentErrors = 8;
 
 /// Prior covariance of the errors, in their units; zero where the file counts as exact.
 using SpinAlignment = Eigen::Matrix<double, kSpinAlignmentErrors, kSpinAlignmentErrors>;
+
+/// How the mission file names an error.
+struct SpinAlignmentKey {
+  std::string_view name;   ///< Dotted key of the value that is off, as in [calibration].
+  std::string_view sigma;  ///< Key of the sigma in [spin.alignment].
+  double unit;             ///< One unit of both keys in the unit of the error.
+};
+const SpinAlignmentKey& key_of(SpinAlignmentError error);
 
 }  // namespace spindrift
