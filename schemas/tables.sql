@@ -573,6 +573,18 @@ CREATE TABLE run_fault (
   PRIMARY KEY (run_id, t_tai_ns)
 ) STRICT, WITHOUT ROWID;
 
+-- What the last solution of a run says of the values of the mission file that it cannot check (names, keys as in
+-- [calibration]): its whitened normal equations about the file's values b0 in the units of the names, with all that the
+-- pass itself is asked for eliminated. The ground of a calibration over many passes.
+CREATE TABLE normal_equations (
+  run_id   TEXT PRIMARY KEY NOT NULL REFERENCES run,
+  t_tai_ns INTEGER NOT NULL,
+  names    TEXT NOT NULL,  -- JSON: an array of texts; the others are arrays of numbers
+  b0       TEXT NOT NULL,  -- one a name
+  n        TEXT NOT NULL,  -- information: a square of names, row by row
+  g        TEXT NOT NULL   -- score at b0, one a name
+) STRICT, WITHOUT ROWID;
+
 -- What a person should know of a run beside its numbers: what `--json` gives as `warnings`.
 CREATE TABLE notice (
   run_id    TEXT NOT NULL REFERENCES run,
