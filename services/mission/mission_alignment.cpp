@@ -38,13 +38,16 @@ struct StatedError {
 using StatedErrors = std::vector<StatedError>;
 
 StatedErrors spin_errors() {
+  static constexpr std::array<std::string_view, kSpinAlignmentErrors> kSigmas = {
+      "slit_cant_deg",     "slit_separation_deg", "north_mount_angle_deg", "south_mount_angle_deg",
+      "north_azimuth_deg", "south_azimuth_deg",   "co2_altitude_km",       "time_tag_s"};
   StatedErrors errors;
-  for (int i = 0; i < kSpinAlignmentErrors; ++i) {
-    const SpinAlignmentKey& key = key_of(static_cast<SpinAlignmentError>(i));
-    errors.push_back({.name = key.name,
-                      .unit = key.unit,
-                      .sigma_key = fmt::format("spin.alignment.{}", key.sigma),
-                      .needs = std::string{key.name}});
+  for (std::size_t i = 0; i < kSigmas.size(); ++i) {
+    const std::string_view name = kSpinAlignmentKeys.at(i);
+    errors.push_back({.name = name,
+                      .unit = name.ends_with("_deg") ? kRadPerDeg : 1.0,
+                      .sigma_key = fmt::format("spin.alignment.{}", kSigmas.at(i)),
+                      .needs = std::string{name}});
   }
   return errors;
 }

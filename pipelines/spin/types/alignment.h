@@ -5,6 +5,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <string_view>
 
 namespace spindrift {
@@ -22,15 +23,20 @@ enum SpinAlignmentError {
 };
 inline constexpr int kSpinAlignmentErrors = 8;
 
+/// The mission file's key of each error, whose unit ends it: deg, km or s.
+inline constexpr std::array<std::string_view, kSpinAlignmentErrors> kSpinAlignmentKeys = {
+    "spin.sun_sensor.slit_cant_deg", "spin.sun_sensor.slit_separation_deg",
+    "spin.ir.north.mount_angle_deg", "spin.ir.south.mount_angle_deg",
+    "spin.ir.north.azimuth_deg",     "spin.ir.south.azimuth_deg",
+    "spin.horizon.co2_altitude_km",  "spin.alignment.time_tag_s"};
+
+/// Values of the errors, or of anything per error.
+using SpinAlignmentVector = Eigen::Matrix<double, kSpinAlignmentErrors, 1>;
+
 /// Prior covariance of the errors, in their units; zero where the file counts as exact.
 using SpinAlignment = Eigen::Matrix<double, kSpinAlignmentErrors, kSpinAlignmentErrors>;
 
-/// How the mission file names an error.
-struct SpinAlignmentKey {
-  std::string_view name;   ///< Dotted key of the value that is off, as in [calibration].
-  std::string_view sigma;  ///< Key of the sigma in [spin.alignment].
-  double unit;             ///< One unit of both keys in the unit of the error.
-};
-const SpinAlignmentKey& key_of(SpinAlignmentError error);
+/// Returns whether the mission file states that it may be off.
+inline bool is_stated(const SpinAlignment& alignment) { return (alignment.array() != 0.0).any(); }
 
 }  // namespace spindrift
