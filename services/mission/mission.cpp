@@ -12,7 +12,6 @@
 #include "services/mission/document.h"
 #include "services/mission/igrf.h"
 #include "services/mission/mission_alerts.h"
-#include "services/mission/mission_alignment.h"
 #include "services/mission/mission_orbit.h"
 #include "services/mission/mission_schema.h"
 #include "services/mission/mission_spin.h"
@@ -86,6 +85,7 @@ Expected<Mission> parse(const std::filesystem::path& path, std::string text,
   if (auto allowed = allow(*document, only); !allowed) {
     return Unexpected{std::move(allowed.error())};
   }
+  auto defaults = default_sigmas(*document, kind_of(values));
   auto spacecraft_id = std::get<std::string>(values.at("spacecraft.id"));
   const OrbitEphemeris* const ephemeris = orbit->orbit ? orbit->orbit->ephemeris() : nullptr;
   auto doubts =
@@ -110,6 +110,7 @@ Expected<Mission> parse(const std::filesystem::path& path, std::string text,
       .preferred_source = value_if<std::string>(values, "sources.prefer").value_or(std::string{}),
       .stores_residuals = value_of<bool>(values, "archive.residuals"),
       .ground_model = ground_model(values, path.parent_path()),
+      .default_sigmas = std::move(defaults),
       .path = std::filesystem::absolute(path)};
 }
 

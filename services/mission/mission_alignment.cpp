@@ -272,6 +272,24 @@ AttitudeAlignment three_axis_alignment(const TomlValues& values) {
   return stated_covariance(values, three_axis_errors(values));
 }
 
+std::vector<DefaultSigma> default_sigmas(const TomlDocument& document, SpacecraftKind kind) {
+  const StatedErrors errors = errors_of(kind, document.values);
+  const std::vector<std::string> named = calibrated_names(document.values);
+  std::vector<DefaultSigma> defaults;
+  for (std::size_t i = 0; i < errors.size(); ++i) {
+    const StatedError& error = errors[i];
+    const bool counts = document.values.contains(error.needs) &&
+                        std::ranges::find(named, error.name) == named.end();
+    if (counts && !document.table.at_path(error.sigma_key) &&
+        std::ranges::find(defaults, error.sigma_key, &DefaultSigma::key) == defaults.end()) {
+      defaults.push_back({.key = error.sigma_key,
+                          .value = number(document.values, error.sigma_key),
+                          .error = static_cast<int>(i)});
+    }
+  }
+  return defaults;
+}
+
 void check_calibration(TomlDocument& document, const TableRule& schema, SpacecraftKind kind) {
   if (document.values.contains(kNames)) {
     CalibrationCheck{document, schema, kind}.check();

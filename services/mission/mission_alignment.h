@@ -3,6 +3,9 @@
 
 #pragma once
 
+#include <string>
+#include <vector>
+
 #include "pipelines/spin/types/alignment.h"
 #include "pipelines/three_axis/alignment.h"
 #include "services/mission/document.h"
@@ -17,6 +20,18 @@ namespace spindrift {
 /// @param values Values of a mission file without problems.
 SpinAlignment spin_alignment(const TomlValues& values);
 AttitudeAlignment three_axis_alignment(const TomlValues& values);
+
+/// A key of alignment that counts though the mission file does not say it.
+struct DefaultSigma {
+  std::string key;  ///< Dotted.
+  double value;     ///< In the unit of the key.
+  int error;        ///< Index of the first error whose sigma it is.
+};
+
+/// Returns the keys that stand at their default, of sensors that the mission has and not taken the
+/// place of by [calibration].
+/// @param document Valid.
+std::vector<DefaultSigma> default_sigmas(const TomlDocument& document, SpacecraftKind kind);
 
 /// Adds the problems of [calibration] that the schema cannot express: names of nothing that this
 /// spacecraft may be off by, and a matrix that is no covariance of them.
