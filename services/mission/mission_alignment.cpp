@@ -163,38 +163,39 @@ class CalibrationCheck {
   }
 
  private:
+  const std::string& name(Eigen::Index i) const { return names_[static_cast<std::size_t>(i)]; }
+
   void problem(std::string_view key, std::string text) {
     add_problem(document_, key, std::move(text));
     sound_ = false;
   }
 
   std::string objection_to_name(std::size_t i) const {
-    const std::string& name = names_[i];
-    const std::size_t at = numbered(errors_, name);
+    const std::string& named = names_[i];
+    const std::size_t at = numbered(errors_, named);
     if (at == errors_.size()) {
-      return unknown(name);
+      return unknown(named);
     }
     if (!document_.values.contains(errors_[at].needs)) {
       return fmt::format("must be of a sensor that this mission has: {} is missing",
                          errors_[at].needs);
     }
-    return std::find(names_.begin(), names_.begin() + i, name) == names_.begin() + i
-               ? std::string{}
-               : "must be named once";
+    const auto first = std::ranges::find(names_, named) - names_.begin();
+    return first == static_cast<std::ptrdiff_t>(i) ? std::string{} : "must be named once";
   }
 
-  std::string unknown(const std::string& name) const {
+  std::string unknown(const std::string& named) const {
     const auto other =
         kind_ == SpacecraftKind::Spin ? SpacecraftKind::ThreeAxis : SpacecraftKind::Spin;
     const auto others = errors_of(other, document_.values);
-    if (numbered(others, name) != others.size()) {
+    if (numbered(others, named) != others.size()) {
       return fmt::format("is of a spacecraft of kind \"{}\", this one is \"{}\"", name_of(other),
                          name_of(kind_));
     }
     std::vector<std::string> all;
     std::ranges::transform(errors_, std::back_inserter(all),
                            [](const StatedError& error) { return std::string{error.name}; });
-    const std::string nearest = nearest_name(shown(name), all);
+    const std::string nearest = nearest_name(shown(named), all);
     return nearest.empty() ? fmt::format("unknown; allowed here: {}", fmt::join(all, ", "))
                            : fmt::format("unknown; did you mean {}?", nearest);
   }
@@ -202,10 +203,10 @@ class CalibrationCheck {
   void check_elements() {
     const Eigen::Index size = covariance_.rows();
     for (Eigen::Index i = 0; i < size; ++i) {
-      const double most = most_sigma(schema_, errors_[numbered(errors_, names_[i])].sigma_key);
+      const double most = most_sigma(schema_, errors_[numbered(errors_, name(i))].sigma_key);
       if (const double variance = covariance_(i, i); variance < 0.0 || variance > most * most) {
         element_problem(
-            i, i, fmt::format("the variance of {} must lie in [0, {}]", names_[i], most * most));
+            i, i, fmt::format("the variance of {} must lie in [0, {}]", name(i), most * most));
       }
     }
     for (Eigen::Index i = 0; sound_ && i < size; ++i) {
@@ -227,7 +228,7 @@ class CalibrationCheck {
       element_problem(i, j,
                       fmt::format("the correlation of {} and {} must lie in [-1, 1]: at most "
                                   "{} by their variances",
-                                  names_[j], names_[i], most));
+                                  name(j), name(i), most));
     }
   }
 

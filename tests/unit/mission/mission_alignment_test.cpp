@@ -19,7 +19,8 @@ namespace {
 
 constexpr double kDeg2 = kRadPerDeg * kRadPerDeg;
 
-/// Returns the contract's example of a spinner with a [calibration], whose names are in line `kLine`.
+/// Returns the contract's example of a spinner with a [calibration], whose names are in line
+/// `kLine`.
 std::string calibrated(std::string_view names, std::string_view covariance) {
   return fmt::format("{}[calibration]\nnames = {}\ncovariance = {}\n", contract() + "\n", names,
                      covariance);
@@ -115,6 +116,35 @@ TEST(MissionAlignment, OfThreeAxesIsWithCalibrationThatOfTheKeysItNames) {
   EXPECT_NEAR(config.alignment(InertiaError + 1, InertiaError + 1), 1e-4, 1e-18);
   EXPECT_EQ(config.alignment(InertiaError, InertiaError), 0.0);  // Of its own table.
   EXPECT_NEAR(config.alignment(GyroAxisError, GyroAxisError), 9.0 * kDeg2, 1e-15);
+}
+
+std::vector<std::string> defaults_of(const std::string& toml) {
+  std::vector<std::string> keys;
+  for (const DefaultSigma& sigma : value_or_throw(load(toml)).default_sigmas) {
+    keys.push_back(fmt::format("{} = {}", sigma.key, sigma.value));
+  }
+  return keys;
+}
+
+TEST(MissionAlignment, ListsWhatStandsAtItsDefaultOfTheSensorsThatThereAre) {
+  EXPECT_THAT(defaults_of(contract()), IsEmpty());
+  EXPECT_THAT(defaults_of(without("spin.alignment")),
+              ElementsAre("spin.alignment.slit_cant_deg = 0.05",
+                          "spin.alignment.slit_separation_deg = 0.05",
+                          "spin.alignment.north_mount_angle_deg = 0.05",
+                          "spin.alignment.north_azimuth_deg = 0.05",
+                          "spin.alignment.co2_altitude_km = 3", "spin.alignment.time_tag_s = 0"));
+  EXPECT_THAT(
+      defaults_of(as_three_axis(without("three_axis.alignment"))),
+      ElementsAre("three_axis.alignment.star_tracker_deg = 0.01",
+                  "three_axis.alignment.sun_sensor_deg = 0.2",
+                  "three_axis.alignment.magnetometer_deg = 0.3",
+                  "three_axis.alignment.magnetometer_bias_nt = 100",
+                  "three_axis.alignment.gyro_scale = 0.001", "three_axis.alignment.gyro_deg = 0.05",
+                  "three_axis.alignment.time_tag_s = 0.01"));
+  EXPECT_THAT(defaults_of(replaced(calibrated(R"(["spin.sun_sensor.slit_cant_deg"])", "[[1e-4]]"),
+                                   "\nslit_cant_deg = 0.05", "")),
+              IsEmpty());
 }
 
 TEST(MissionAlignment, NeedNotBePositiveDefinite) {
