@@ -447,6 +447,7 @@ CREATE TABLE spin_estimate (
   ra_deg               REAL NOT NULL CHECK (ra_deg >= 0 AND ra_deg < 360),
   dec_deg              REAL NOT NULL CHECK (dec_deg BETWEEN -90 AND 90),
   sigma_deg            REAL NOT NULL CHECK (sigma_deg >= 0),
+  noise_sigma_deg      REAL CHECK (noise_sigma_deg >= 0),  -- what sigma_deg would be if the mission file were exact
   cov_east_east_deg2   REAL NOT NULL,
   cov_east_north_deg2  REAL NOT NULL,
   cov_north_north_deg2 REAL NOT NULL,
@@ -573,6 +574,18 @@ CREATE TABLE run_fault (
   PRIMARY KEY (run_id, t_tai_ns)
 ) STRICT, WITHOUT ROWID;
 
+-- What the last solution of a run says of the values of the mission file that it cannot check (names, keys as in
+-- [calibration]): its whitened normal equations about the file's values b0 in the units of the names, with all that the
+-- pass itself is asked for eliminated. The ground of a calibration over many passes.
+CREATE TABLE normal_equations (
+  run_id   TEXT PRIMARY KEY NOT NULL REFERENCES run,
+  t_tai_ns INTEGER NOT NULL,
+  names    TEXT NOT NULL,  -- JSON: an array of texts; the others are arrays of numbers
+  b0       TEXT NOT NULL,  -- one a name
+  n        TEXT NOT NULL,  -- information: a square of names, row by row
+  g        TEXT NOT NULL   -- score at b0, one a name
+) STRICT, WITHOUT ROWID;
+
 -- What a person should know of a run beside its numbers: what `--json` gives as `warnings`.
 CREATE TABLE notice (
   run_id    TEXT NOT NULL REFERENCES run,
@@ -621,6 +634,7 @@ CREATE TABLE attitude (
   rate_y_rad_s REAL,
   rate_z_rad_s REAL,
   sigma_deg    REAL NOT NULL CHECK (sigma_deg >= 0),
+  noise_sigma_deg REAL CHECK (noise_sigma_deg >= 0),  -- what sigma_deg would be if the mission file were exact
   cov_xx_deg2  REAL NOT NULL,  -- of a small turn about the axes of the body; sigma_deg is the root of its trace
   cov_xy_deg2  REAL NOT NULL,
   cov_xz_deg2  REAL NOT NULL,
@@ -707,6 +721,7 @@ CREATE TABLE reconstruction_event (
   euler312_orbit_deg_2 REAL,
   euler312_orbit_deg_3 REAL,
   sigma_deg            REAL NOT NULL CHECK (sigma_deg >= 0),
+  noise_sigma_deg      REAL CHECK (noise_sigma_deg >= 0),  -- what sigma_deg would be if the mission file were exact
   cov_xx_deg2          REAL NOT NULL,  -- as in attitude
   cov_xy_deg2          REAL NOT NULL,
   cov_xz_deg2          REAL NOT NULL,

@@ -257,14 +257,15 @@ FROM run;
 -- to qw NULL, an attitude ra_deg, dec_deg and the rates. `why` is first what speaks against the answer, then its own status;
 -- `against` what speaks against it alone, with its own status unless that is OK: empty where nothing does.
 -- Answers are joined by the key of their table: SQLite would find those of all runs to join one of a view.
--- consider_sigma_deg: what the sigma would be were no sensor's error known better than beforehand; NULL: the
--- estimator does not say. cov_*: of a spin axis east and north in the tangent plane, of an attitude about the axes of
+-- sigma_deg is of noise and of what the mission file may be off by, noise_sigma_deg of noise alone, NULL: the estimator
+-- does not say; `why` ends with the part that is alignment, if that is a hundredth or more. consider_sigma_deg: the same as sigma_deg. cov_*: of a spin axis east and north in the tangent plane, of an attitude about the axes of
 -- the body; the others NULL. start_utc, end_utc: of the telemetry. contact_share: as in run.
 CREATE VIEW pass_verdict AS
 SELECT run_id, spacecraft_id, started_utc, finished, estimator, quality, ra_deg, dec_deg, qx, qy, qz, qw, sigma_deg,
-  consider_sigma_deg, cov_east_east_deg2, cov_east_north_deg2, cov_north_north_deg2, cov_xx_deg2, cov_xy_deg2,
+  noise_sigma_deg, sigma_deg AS consider_sigma_deg, cov_east_east_deg2, cov_east_north_deg2, cov_north_north_deg2, cov_xx_deg2, cov_xy_deg2,
   cov_xz_deg2, cov_yy_deg2, cov_yz_deg2, cov_zz_deg2, spin_rate_rpm, sigma_rpm, start_utc, end_utc, contact_share,
-  others || status AS why,
+  others || status || iif(noise_sigma_deg < 0.99995 * sigma_deg, format('; %.2g of %.2g deg is alignment',
+    sqrt(pow(sigma_deg, 2) - pow(noise_sigma_deg, 2)), sigma_deg), '') AS why,
   CASE own_quality WHEN 'OK' THEN rtrim(others, '; ') ELSE others || status END AS against
 FROM (
   SELECT run.run_id, run.spacecraft_id, run.started_utc, run.finished_utc IS NOT NULL AS finished,
@@ -278,9 +279,9 @@ FROM (
     coalesce(axis.quality, attitude.quality, separation.quality) AS own_quality,
     ra_deg, dec_deg, ifnull(attitude.qx, event.qx) AS qx, ifnull(attitude.qy, event.qy) AS qy,
     ifnull(attitude.qz, event.qz) AS qz, ifnull(attitude.qw, event.qw) AS qw,
-    coalesce(axis.sigma_deg, attitude.sigma_deg, event.sigma_deg) AS sigma_deg, spin_rate_rpm, sigma_rpm,
-    (SELECT consider_sigma_deg FROM spin_batch WHERE axis.estimator = 'batch'
-     AND spin_batch.run_id = axis.run_id AND spin_batch.t_tai_ns = axis.t_tai_ns) AS consider_sigma_deg,
+    coalesce(axis.sigma_deg, attitude.sigma_deg, event.sigma_deg) AS sigma_deg,
+    coalesce(axis.noise_sigma_deg, attitude.noise_sigma_deg, event.noise_sigma_deg) AS noise_sigma_deg,
+    spin_rate_rpm, sigma_rpm,
     cov_east_east_deg2, cov_east_north_deg2, cov_north_north_deg2,
     ifnull(attitude.cov_xx_deg2, event.cov_xx_deg2) AS cov_xx_deg2, ifnull(attitude.cov_xy_deg2, event.cov_xy_deg2) AS cov_xy_deg2,
     ifnull(attitude.cov_xz_deg2, event.cov_xz_deg2) AS cov_xz_deg2, ifnull(attitude.cov_yy_deg2, event.cov_yy_deg2) AS cov_yy_deg2,
@@ -309,8 +310,9 @@ FROM (
 -- The attitude at separation, one row a run with a reconstruction: by `batch`, where there is none by `sequential`.
 CREATE VIEW separation_verdict AS
 SELECT run_id, method, quality, reconstruction_event.t_tai_ns AS t1_tai_ns, qx, qy, qz, qw, sigma_deg,
-  cov_xx_deg2, cov_xy_deg2, cov_xz_deg2, cov_yy_deg2, cov_yz_deg2, cov_zz_deg2, launcher_angle_deg, launcher_chance,
-  status AS why
+  noise_sigma_deg, cov_xx_deg2, cov_xy_deg2, cov_xz_deg2, cov_yy_deg2, cov_yz_deg2, cov_zz_deg2, launcher_angle_deg, launcher_chance,
+  status || iif(noise_sigma_deg < 0.99995 * sigma_deg, format('; %.2g of %.2g deg is alignment',
+    sqrt(pow(sigma_deg, 2) - pow(noise_sigma_deg, 2)), sigma_deg), '') AS why
 FROM reconstruction JOIN reconstruction_event USING (run_id, method)
 WHERE event = 'T1'
   AND method = (SELECT min(method) FROM reconstruction AS one WHERE one.run_id = reconstruction.run_id);

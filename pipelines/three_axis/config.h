@@ -7,6 +7,8 @@
 #include <Eigen/Geometry>
 #include <optional>
 
+#include "pipelines/three_axis/alignment.h"
+
 namespace spindrift {
 
 /// All noise values are one standard deviation per axis and sample.
@@ -44,6 +46,7 @@ struct ThreeAxisConfig {
   std::optional<StarTracker> star_tracker;
   std::optional<Magnetometer> magnetometer;
   std::optional<Inertia> inertia;
+  AttitudeAlignment alignment = AttitudeAlignment::Zero();
 };
 
 }  // namespace spindrift

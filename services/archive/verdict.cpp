@@ -34,6 +34,7 @@ PassVerdict verdict_of(SQLite::Statement& query, const std::string& run_id) {
           .estimator = query.getColumn(1).getString(),
           .quality = quality_named(query.getColumn(2).getString()),
           .sigma_deg = number(3),
+          .noise_sigma_deg = number(10),
           .ra_deg = number(4),
           .dec_deg = number(5),
           .spin_rate_rpm = number(6),
@@ -51,7 +52,8 @@ std::vector<PassVerdict> verdicts_in(SQLite::Database& archive,
   SQLite::Statement query{
       archive,
       "SELECT finished, ifnull(estimator, ''), ifnull(quality, ''), sigma_deg, ra_deg, dec_deg,"
-      " spin_rate_rpm, sigma_rpm, why, against FROM pass_verdict WHERE run_id = ?"};
+      " spin_rate_rpm, sigma_rpm, why, against, noise_sigma_deg FROM pass_verdict WHERE run_id = "
+      "?"};
   std::vector<PassVerdict> verdicts;
   verdicts.reserve(run_ids.size());
   for (const std::string& run_id : run_ids) {

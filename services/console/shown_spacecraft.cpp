@@ -84,6 +84,7 @@ nlohmann::json verdict_json(const PassVerdict& verdict) {
     object["quality"] = name_of(*verdict.quality);
   }
   add(object, "sigma_deg", verdict.sigma_deg);
+  add(object, "noise_sigma_deg", verdict.noise_sigma_deg);
   add(object, "ra_deg", verdict.ra_deg);
   add(object, "dec_deg", verdict.dec_deg);
   add(object, "spin_rate_rpm", verdict.spin_rate_rpm);

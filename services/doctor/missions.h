@@ -21,6 +21,20 @@ struct Coverage {
   TaiTime to;
 };
 
+/// A key of alignment at its default, and what it adds to sigma.
+struct DefaultAlignment {
+  std::string key;  ///< Dotted.
+  double value;
+  std::optional<double> cost_deg = {};  ///< Empty where it is not known.
+  std::string_view where = {};          ///< Circumstances of the cost.
+};
+
+/// The coming pass; when none is given, both times are now.
+struct ComingPass {
+  TaiTime from;
+  TaiTime to;
+};
+
 struct MissionFacts {
   std::string spacecraft;
   SpacecraftKind kind = SpacecraftKind::Spin;
@@ -35,12 +49,8 @@ struct MissionFacts {
   std::vector<std::string> orbit_doubts = {};  ///< See mission.h.
   std::optional<Coverage> ground_model = {};   ///< Empty without a usable ground model.
   std::string model_problem = {};              ///< Empty when the model has no problem.
-};
-
-/// The coming pass; when none is given, both times are now.
-struct ComingPass {
-  TaiTime from;
-  TaiTime to;
+  std::vector<DefaultAlignment> defaults = {};
+  std::optional<ComingPass> planned = {};  ///< Pass of a spinner for which `defaults` have costs.
 };
 
 MissionFacts mission_facts(const Mission& mission, const ComingPass& pass);

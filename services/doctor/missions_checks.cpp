@@ -4,6 +4,7 @@
 #include <set>
 
 #include "pipelines/time/utc.h"
+#include "services/base/decimals.h"
 #include "services/base/duration.h"
 #include "services/doctor/missions.h"
 #include "services/mission/igrf.h"
@@ -112,6 +113,37 @@ std::vector<Check> check_settings(const MissionFacts& mission) {
   return checks;
 }
 
+std::string default_text(const DefaultAlignment& one) {
+  const std::string said = fmt::format("{} = {}", one.key, one.value);
+  return one.cost_deg ? fmt::format("{}: {} deg{}{}", said, to_its_digits(*one.cost_deg, 2),
+                                    one.where.empty() ? "" : " ", one.where)
+                      : said;
+}
+
+/// A default of 0 costs nothing and needs no attention.
+Check check_alignment(const MissionFacts& mission) {
+  const std::string name = fmt::format("alignment of {}", mission.spacecraft);
+  if (mission.defaults.empty()) {
+    return ok(name, "stated in the mission file");
+  }
+  std::string found = "defaults in force, and what each adds to sigma";
+  if (mission.planned) {
+    found += fmt::format(" of the axis from {} to {}", format_utc(mission.planned->from, 0),
+                         format_utc(mission.planned->to, 0));
+  } else if (mission.kind == SpacecraftKind::Spin) {
+    found = "defaults in force ([spin.target] and an orbit would tell what each adds to sigma)";
+  }
+  bool all_exact = true;
+  for (const DefaultAlignment& one : mission.defaults) {
+    found += (&one == &mission.defaults.front() ? ":\n" : "\n") + default_text(one);
+    all_exact = all_exact && one.value == 0.0;
+  }
+  return all_exact ? ok(name, found)
+                   : warning(name, found,
+                             fmt::format("say in [{}.alignment] how well the sensors are known",
+                                         name_of(mission.kind)));
+}
+
 }  // namespace
 
 std::vector<Check> check_missions(std::span<const MissionFacts> missions, const ComingPass& pass) {
@@ -127,6 +159,7 @@ std::vector<Check> check_missions(std::span<const MissionFacts> missions, const 
     for (Check& check : check_settings(mission)) {
       checks.push_back(std::move(check));
     }
+    checks.push_back(check_alignment(mission));
     if (mission.kind == SpacecraftKind::Spin || mission.field_to) {
       checks.push_back(check_orbit(mission, pass));
     }

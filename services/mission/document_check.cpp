@@ -97,6 +97,11 @@ class Check {
       if (rule.keys.contains(name) || rule.tables.contains(name)) {
         continue;
       }
+      if (const auto moved = rule.moved.find(name); moved != rule.moved.end()) {
+        problem(key.source(), fmt::format("{} = {}: moved to {}", joined(path, name), shown(node),
+                                          moved->second));
+        continue;
+      }
       const std::string nearest = nearest_name(shown(name), absent);
       problem(key.source(),
               fmt::format("{}: unknown; {}", joined(path, shown(name)),

@@ -22,11 +22,6 @@ namespace {
 
 constexpr double kTypedUnitTolerance = 1e-4;  // A typed 0.7071 is rounded by less.
 
-double as_number(const Scalar& value) {
-  const auto* const integer = std::get_if<std::int64_t>(&value);
-  return integer != nullptr ? static_cast<double>(*integer) : std::get<double>(value);
-}
-
 std::string range_of(const KeyRule& rule) {
   return fmt::format("{}{}, {}{}{}{}", rule.lower->inclusive ? '[' : '(',
                      text_of(rule.lower->value), text_of(rule.upper->value),
@@ -55,25 +50,56 @@ bool is_allowed_text(const KeyRule& rule, const std::string& text) {
          std::find(rule.one_of.begin(), rule.one_of.end(), text) != rule.one_of.end();
 }
 
+/// Returns the value, without regard to a shape; empty if it breaks the rule.
+std::optional<Scalar> single(const KeyRule& rule, const toml::node& node) {
+  auto value = typed(rule.type, node);
+  const auto* const text = value ? std::get_if<std::string>(&*value) : nullptr;
+  const bool good =
+      value && (text != nullptr ? is_allowed_text(rule, *text) : in_range(rule, *value));
+  return good ? std::move(value) : std::nullopt;
+}
+
 /// Returns the elements row by row if the shape fits and all are valid; empty otherwise.
-std::vector<double> elements(const KeyRule& rule, const toml::node& node, std::size_t depth) {
+/// @param any What a size of 0 in the shape stands for.
+std::vector<Scalar> elements(const KeyRule& rule, const toml::node& node, std::size_t any,
+                             std::size_t depth) {
   if (depth == rule.shape.size()) {
-    const auto value = typed(rule.type, node);
-    return value && in_range(rule, *value) ? std::vector{as_number(*value)} : std::vector<double>{};
+    const auto value = single(rule, node);
+    return value ? std::vector{*value} : std::vector<Scalar>{};
   }
   const toml::array* const array = node.as_array();
-  if (array == nullptr || array->size() != rule.shape[depth]) {
+  const std::size_t size = rule.shape[depth] == 0 ? any : rule.shape[depth];
+  if (array == nullptr || array->size() != size) {
     return {};
   }
-  std::vector<double> all;
+  std::vector<Scalar> all;
   for (const toml::node& element : *array) {
-    const auto inner = elements(rule, element, depth + 1);
+    const auto inner = elements(rule, element, any, depth + 1);
     if (inner.empty()) {
       return {};
     }
     all.insert(all.end(), inner.begin(), inner.end());
   }
   return all;
+}
+
+/// Returns the elements of a whole array.
+std::vector<Scalar> elements(const KeyRule& rule, const toml::node& node) {
+  const toml::array* const array = node.as_array();
+  return array == nullptr ? std::vector<Scalar>{} : elements(rule, node, array->size(), 0);
+}
+
+std::vector<double> as_numbers(const std::vector<Scalar>& values) {
+  std::vector<double> numbers(values.size());
+  std::ranges::transform(values, numbers.begin(), as_number);
+  return numbers;
+}
+
+std::vector<std::string> as_texts(const std::vector<Scalar>& values) {
+  std::vector<std::string> texts(values.size());
+  std::ranges::transform(values, texts.begin(),
+                         [](const Scalar& value) { return std::get<std::string>(value); });
+  return texts;
 }
 
 bool is_unit_quaternion(const std::vector<double>& q) {
@@ -99,15 +125,21 @@ std::string form_text(const KeyRule& rule) {
 }
 
 std::optional<std::string> array_objection(const KeyRule& rule, const toml::node& value) {
-  const auto numbers = elements(rule, value, 0);
-  const bool good = !numbers.empty() &&
-                    (rule.form != ValueForm::UnitQuaternion || is_unit_quaternion(numbers)) &&
-                    (rule.form != ValueForm::Inertia ||
-                     is_inertia(Eigen::Map<const Eigen::Matrix3d>{numbers.data()}));
+  const auto all = elements(rule, value);
+  const bool good =
+      !all.empty() &&
+      (rule.form != ValueForm::UnitQuaternion || is_unit_quaternion(as_numbers(all))) &&
+      (rule.form != ValueForm::Inertia ||
+       is_inertia(Eigen::Map<const Eigen::Matrix3d>{as_numbers(all).data()}));
   return good ? std::nullopt : std::optional{"must be " + allowed_by(rule)};
 }
 
 }  // namespace
+
+double as_number(const Scalar& value) {
+  const auto* const integer = std::get_if<std::int64_t>(&value);
+  return integer != nullptr ? static_cast<double>(*integer) : std::get<double>(value);
+}
 
 std::string text_of(const Scalar& number) {
   const auto* const integer = std::get_if<std::int64_t>(&number);
@@ -143,7 +175,11 @@ std::optional<Scalar> typed(ValueType type, const toml::node& value) {
 }
 
 Scalar value_by(const KeyRule& rule, const toml::node& value) {
-  return rule.shape.empty() ? *typed(rule.type, value) : Scalar{elements(rule, value, 0)};
+  if (rule.shape.empty()) {
+    return *typed(rule.type, value);
+  }
+  const auto all = elements(rule, value);
+  return rule.type == ValueType::Text ? Scalar{as_texts(all)} : Scalar{as_numbers(all)};
 }
 
 std::string allowed_by(const KeyRule& rule) {
@@ -156,9 +192,15 @@ std::string allowed_by(const KeyRule& rule) {
                                                             "numbers"};
   const auto type = static_cast<std::size_t>(rule.type);
   const std::string range = rule.lower ? " in " + range_of(rule) : "";
-  return rule.shape.empty() ? fmt::format("{}{}{}", kOne.at(type), range, form_text(rule))
-                            : fmt::format("an array of {} {}{}{}", fmt::join(rule.shape, " x "),
-                                          kMany.at(type), range, form_text(rule));
+  if (rule.shape.empty()) {
+    return fmt::format("{}{}{}", kOne.at(type), range, form_text(rule));
+  }
+  std::vector<std::string> sizes;
+  for (const std::size_t size : rule.shape) {
+    sizes.push_back(size == 0 ? "n" : fmt::format("{}", size));
+  }
+  return fmt::format("an array of {} {}{}{}", fmt::join(sizes, " x "), kMany.at(type), range,
+                     form_text(rule));
 }
 
 std::string shown(const toml::node& value) {
@@ -176,16 +218,11 @@ std::optional<std::string> objection(const KeyRule& rule, const toml::node& valu
   if (!rule.shape.empty()) {
     return array_objection(rule, value);
   }
-  const auto scalar = typed(rule.type, value);
-  if (!scalar) {
-    return "must be " + allowed_by(rule);
+  if (single(rule, value)) {
+    return std::nullopt;
   }
-  const auto* const text = std::get_if<std::string>(&*scalar);
-  if (text != nullptr) {
-    return is_allowed_text(rule, *text) ? std::nullopt
-                                        : std::optional{"must be " + allowed_by(rule)};
-  }
-  return in_range(rule, *scalar) ? std::nullopt : std::optional{"must lie in " + range_of(rule)};
+  const bool out_of_range = rule.lower && typed(rule.type, value);
+  return out_of_range ? "must lie in " + range_of(rule) : "must be " + allowed_by(rule);
 }
 
 }  // namespace spindrift

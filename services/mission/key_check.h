@@ -29,6 +29,9 @@ std::optional<Scalar> typed(ValueType type, const toml::node& value);
 /// elements row by row.
 Scalar value_by(const KeyRule& rule, const toml::node& value);
 
+/// Returns an integer or number as a number.
+double as_number(const Scalar& number);
+
 /// Formats an integer or number for people.
 std::string text_of(const Scalar& number);
 

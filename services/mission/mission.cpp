@@ -21,8 +21,10 @@
 namespace spindrift {
 namespace {
 
-bool is_spinner(const TomlValues& values) {
-  return std::get<std::string>(values.at("spacecraft.kind")) == name_of(SpacecraftKind::Spin);
+SpacecraftKind kind_of(const TomlValues& values) {
+  return value_of<std::string>(values, "spacecraft.kind") == name_of(SpacecraftKind::Spin)
+             ? SpacecraftKind::Spin
+             : SpacecraftKind::ThreeAxis;
 }
 
 std::set<std::string> tables_of(const TomlValues& values) {
@@ -41,7 +43,7 @@ std::optional<std::filesystem::path> ground_model(const TomlValues& values,
 
 /// @param only The only kind allowed; empty allows any.
 Expected<void> allow(TomlDocument& document, std::optional<SpacecraftKind> only) {
-  const auto kind = is_spinner(document.values) ? SpacecraftKind::Spin : SpacecraftKind::ThreeAxis;
+  const auto kind = kind_of(document.values);
   if (only && kind != *only) {
     add_problem(document, "spacecraft.kind",
                 fmt::format(R"(spacecraft.kind = "{}": must be "{}" for this command)",
@@ -76,12 +78,14 @@ Expected<Mission> parse(const std::filesystem::path& path, std::string text,
   }
   auto separation = separation_plan(*document);
   const auto contact = planned_contact(*document);
+  check_calibration(*document, *schema, kind_of(values));
   if (auto sound = soundness(*document); !sound) {
     return Unexpected{std::move(sound.error())};
   }
   if (auto allowed = allow(*document, only); !allowed) {
     return Unexpected{std::move(allowed.error())};
   }
+  auto defaults = default_sigmas(*document, kind_of(values));
   auto spacecraft_id = std::get<std::string>(values.at("spacecraft.id"));
   const OrbitEphemeris* const ephemeris = orbit->orbit ? orbit->orbit->ephemeris() : nullptr;
   auto doubts =
@@ -90,8 +94,9 @@ Expected<Mission> parse(const std::filesystem::path& path, std::string text,
           : orbit_doubts(*ephemeris, value_of<std::string>(values, "orbit.oem"), spacecraft_id);
   return Mission{
       .spacecraft_id = std::move(spacecraft_id),
-      .config = is_spinner(values) ? std::variant<SpinConfig, ThreeAxisConfig>{spin_config(values)}
-                                   : three_axis_config(values),
+      .config = kind_of(values) == SpacecraftKind::Spin
+                    ? std::variant<SpinConfig, ThreeAxisConfig>{spin_config(values)}
+                    : three_axis_config(values),
       .separation = separation,
       .orbit = std::move(orbit->orbit),
       .toml_text = std::move(document->text),
@@ -105,6 +110,7 @@ Expected<Mission> parse(const std::filesystem::path& path, std::string text,
       .preferred_source = value_if<std::string>(values, "sources.prefer").value_or(std::string{}),
       .stores_residuals = value_of<bool>(values, "archive.residuals"),
       .ground_model = ground_model(values, path.parent_path()),
+      .default_sigmas = std::move(defaults),
       .path = std::filesystem::absolute(path)};
 }
 

@@ -16,6 +16,7 @@
 #include "pipelines/spin/types/config.h"
 #include "pipelines/supervision/limits.h"
 #include "pipelines/three_axis/config.h"
+#include "services/mission/mission_alignment.h"
 #include "services/mission/mission_reconstruction.h"
 #include "services/mission/spacecraft_kind.h"
 
@@ -37,7 +38,8 @@ struct Mission {
   std::string preferred_source = {};                       ///< Value of [sources] prefer, or empty.
   bool stores_residuals = true;                            ///< Value of [archive] residuals.
   std::optional<std::filesystem::path> ground_model = {};  ///< Path of the scenario file.
-  std::filesystem::path path = {};  ///< Absolute; an orbit file is relative to it.
+  std::vector<DefaultSigma> default_sigmas = {};  ///< Keys of alignment that the file does not say.
+  std::filesystem::path path = {};                ///< Absolute; an orbit file is relative to it.
 
   SpacecraftKind kind() const { return static_cast<SpacecraftKind>(config.index()); }
   /// Returns null for any other spacecraft, as does `three_axis`.

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "pipelines/frames/celestial.h"
+#include "services/mission/mission_alignment.h"
 #include "services/mission/values.h"
 
 namespace spindrift {
@@ -62,7 +63,8 @@ SpinConfig spin_config(const TomlValues& values) {
       .geometry = {.determinant_usable = number(values, "spin.geometry.determinant_usable"),
                    .determinant_ambiguous = number(values, "spin.geometry.determinant_ambiguous")},
       .prior = prior(values),
-      .batch = batch(values)};
+      .batch = batch(values),
+      .alignment = spin_alignment(values)};
 }
 
 }  // namespace spindrift

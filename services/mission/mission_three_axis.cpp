@@ -1,7 +1,9 @@
 #include "services/mission/mission_three_axis.h"
 
+#include <cmath>
 #include <vector>
 
+#include "services/mission/mission_alignment.h"
 #include "services/mission/values.h"
 
 namespace spindrift {
@@ -18,11 +20,7 @@ std::optional<GyroSensor> gyro(const TomlValues& values) {
 
 std::optional<DigitalSunSensor> sun_sensor(const TomlValues& values) {
   const auto noise_rad = radians_if(values, "three_axis.sun_sensor.noise_deg");
-  return noise_rad ? std::optional{DigitalSunSensor{
-                         .noise_rad = *noise_rad,
-                         .misalignment_sigma_rad =
-                             radians_if(values, "three_axis.sun_sensor.misalignment_sigma_deg")}}
-                   : std::nullopt;
+  return noise_rad ? std::optional{DigitalSunSensor{.noise_rad = *noise_rad}} : std::nullopt;
 }
 
 std::optional<StarTracker> star_tracker(const TomlValues& values) {
@@ -41,24 +39,26 @@ std::optional<Magnetometer> magnetometer(const TomlValues& values) {
   return noise_nt ? std::optional{Magnetometer{*noise_nt}} : std::nullopt;
 }
 
-std::optional<Inertia> inertia(const TomlValues& values) {
+std::optional<Inertia> inertia(const TomlValues& values, const AttitudeAlignment& alignment) {
   const auto kg_m2 = value_if<std::vector<double>>(values, "three_axis.inertia.kg_m2");
   if (!kg_m2) {
     return std::nullopt;
   }
   // The matrix is symmetric, so row or column order is the same.
   return Inertia{.kg_m2 = Eigen::Map<const Eigen::Matrix3d>{kg_m2->data()},
-                 .sigma_fraction = number(values, "three_axis.inertia.sigma_fraction")};
+                 .sigma_fraction = std::sqrt(alignment.diagonal().segment<3>(InertiaError).mean())};
 }
 
 }  // namespace
 
 ThreeAxisConfig three_axis_config(const TomlValues& values) {
+  const AttitudeAlignment alignment = three_axis_alignment(values);
   return {.gyro = gyro(values),
           .sun_sensor = sun_sensor(values),
           .star_tracker = star_tracker(values),
           .magnetometer = magnetometer(values),
-          .inertia = inertia(values)};
+          .inertia = inertia(values, alignment),
+          .alignment = alignment};
 }
 
 }  // namespace spindrift

@@ -128,6 +128,7 @@ Expected<TableRule> table_rule(const toml::table& table, const std::string& path
                  .required = text_of(table, "required"),
                  .many = table["many"].value_or(false),
                  .exactly_one_of = texts_of(table, "exactly_one_of"),
+                 .moved = {},
                  .keys = {},
                  .tables = {}};
   for (const auto& [key, node] : table) {
@@ -138,6 +139,8 @@ Expected<TableRule> table_rule(const toml::table& table, const std::string& path
       if (!contains(kTableProperties, name)) {
         return refused(path, fmt::format("no meaning is known for '{}'", name));
       }
+    } else if (inner->contains("moved")) {
+      rule.moved.emplace(name, text_of(*inner, "moved"));
     } else if (inner->contains("type")) {
       auto key_of = key_rule(*inner, inner_path);
       if (!key_of) {

@@ -27,7 +27,7 @@ struct Bound {
 
 struct KeyRule {
   ValueType type;
-  std::vector<std::size_t> shape;  ///< Array dimensions; empty for one value.
+  std::vector<std::size_t> shape;  ///< Empty for one value; a size of 0 is any.
   std::string unit;
   std::string about;
   std::optional<Scalar> default_value;
@@ -44,6 +44,8 @@ struct TableRule {
   std::string required;  ///< Empty, "always", or a spacecraft.kind.
   bool many = false;     ///< Whether it is an array of tables.
   std::vector<std::string> exactly_one_of;
+  /// Keys that no longer stand here, and where they went.
+  std::map<std::string, std::string, std::less<>> moved;
   std::map<std::string, KeyRule, std::less<>> keys;
   std::map<std::string, TableRule, std::less<>> tables;
 };

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "pipelines/core/assessment.h"
+#include "pipelines/statistics/normal_equations.h"
 #include "services/products/product_kind.h"
 
 namespace spindrift {
@@ -26,6 +27,10 @@ inline bool is_finite(const Reason& reason) {
     const auto* const number = std::get_if<double>(&value.value);
     return number == nullptr || std::isfinite(*number);
   });
+}
+
+inline bool is_finite(const NormalEquations& equations) {
+  return equations.b0.allFinite() && equations.n.allFinite() && equations.g.allFinite();
 }
 
 /// Place of a number that is not finite.
@@ -57,6 +62,11 @@ std::optional<NotFinite> not_finite(const Kind& product) {
     look_at(product.assessment.reasons);
   } else if constexpr (requires { product->solution.assessment; }) {
     look_at(product->solution.assessment.reasons);
+  } else if constexpr (requires { product.equations; }) {
+    // These too are text in their columns.
+    if (!is_finite(product.equations)) {
+      found = NotFinite{.table = MainTable<Kind>::kName, .column = "n"};
+    }
   }
   for_each_table<Kind>([&]<class Table>() {
     for_each_row<Table>(product, [&](const auto& row) {

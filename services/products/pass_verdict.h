@@ -18,6 +18,8 @@ struct PassVerdict {
   std::string estimator = {};           ///< Estimator whose answer to report.
   std::optional<Quality> quality = {};  ///< May be set for a failed run.
   std::optional<double> sigma_deg = {};
+  /// What sigma_deg would be if the mission file were exact; also empty where it is not known.
+  std::optional<double> noise_sigma_deg = {};
   /// @}
   /// @name Spin axis (ICRF) and spin rate of that estimator, empty when it gives none
   /// @{

@@ -14,6 +14,7 @@
 #include "services/products/attitude.h"
 #include "services/products/batch_solution.h"
 #include "services/products/model_comparison.h"
+#include "services/products/normal_equations.h"
 #include "services/products/product_kind.h"
 #include "services/products/pulse_use.h"
 #include "services/products/reconstruction.h"
@@ -32,7 +33,7 @@ namespace spindrift {
 using Product = std::variant<PulseUse, RevolutionProduct, SpinMeasurement, SpinFix, SpinEstimate,
                              BatchProduct, RunFault, RejectedSample, AttitudeEstimate,
                              SampleObservation, ReconstructionProduct, ChannelComparison,
-                             SampleContradiction, Alert, RunNotice, AxisChoice>;
+                             SampleContradiction, Alert, RunNotice, AxisChoice, RunNormalEquations>;
 
 /// Index of a kind in Product.
 template <class Kind>

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -249,9 +250,13 @@ nlohmann::json to_json(const PassVerdict& verdict) {
   const auto known = [](std::string_view text) {
     return text.empty() ? nlohmann::json{} : nlohmann::json(text);
   };
+  const auto number = [](const std::optional<double>& value) {
+    return value ? nlohmann::json(*value) : nlohmann::json{};
+  };
   return {{"estimator", known(verdict.estimator)},
           {"quality", known(verdict.quality ? name_of(*verdict.quality) : "")},
-          {"sigma_deg", verdict.sigma_deg ? nlohmann::json(*verdict.sigma_deg) : nlohmann::json{}},
+          {"sigma_deg", number(verdict.sigma_deg)},
+          {"noise_sigma_deg", number(verdict.noise_sigma_deg)},
           {"why", verdict.why},
           {"against", verdict.against}};
 }

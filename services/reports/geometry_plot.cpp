@@ -101,7 +101,9 @@ void add_sigma(TimePage& page, const PlannedPass& pass) {
       curve_of("fix of one turn", plot::kGrey, pass.plan.steps,
                [](const PassStep& step) { return deg(step.geometry.fix.sigma_rad); }),
       curve_of("all edges so far", kNorth, pass.plan.steps,
-               [](const PassStep& step) { return deg(step.sigma_rad); })};
+               [](const PassStep& step) { return deg(step.sigma_rad); }),
+      curve_of("noise alone", kEarth, pass.plan.steps,
+               [](const PassStep& step) { return deg(step.noise_sigma_rad); })};
   const auto [least, most] = range_of(curves, 0.1, 1.0);
   const double low = std::pow(10.0, std::floor(std::log10(least)));
   const double high = std::pow(10.0, std::ceil(std::log10(most)));

@@ -22,7 +22,9 @@ constexpr std::string_view kLegend =
     "angles and sigma in deg. s-e: between Sun and Earth; rho: half-angle of the Earth's disc;\n"
     "Delta: ? two roots to tell apart, ! ambiguous; edges: sun 1 2, in and out of north N n and\n"
     "south S s, x spoilt by interference; case: * several axes; sigma: both directions together,\n"
-    "1 turn: of the fix that one turn gives, all: the least that all edges so far allow\n";
+    "1 turn: of the fix that one turn gives, all: after all edges so far, noise: the part of it "
+    "that\n"
+    "would be left if the mission file were exact ([spin.alignment])\n";
 
 using enum PassConditionCode;
 constexpr std::array<Pattern<PassConditionCode>, kPassConditionCodes> kConditionPatterns{{
@@ -136,14 +138,15 @@ std::string row(const PlannedPass& pass, const PassStep& step) {
   const auto deg = [](double angle_rad) { return angle_rad * kDegPerRad; };
   return fmt::format(
       "{:<20} {:7.1f} {:9.1f} {:7.2f} {:7.2f} {:7.2f} {:6.2f} {:8.2f} {:>7} {:>7} {:>8} {:>8}  {} "
-      "{:>4}{} {:>8} {:>8}\n",
+      "{:>4}{} {:>8} {:>8} {:>8}\n",
       format_utc(geometry.t, 0), minutes(pass, geometry.t), geometry.range_km,
       deg(geometry.angles.sun_angle_rad), deg(geometry.angles.earth_angle_rad),
       deg(geometry.sun_earth_rad), deg(geometry.disc_rad), deg(geometry.angles.dihedral_rad),
       chord_text(north), chord_text(south), delta_text(limits, north), delta_text(limits, south),
       edges_text(geometry), geometry.fix.geometry_case,
       geometry.fix.axes > 0 && !geometry.fix.told_apart ? '*' : ' ',
-      sigma_text(geometry.fix.sigma_rad), sigma_text(step.sigma_rad));
+      sigma_text(geometry.fix.sigma_rad), sigma_text(step.sigma_rad),
+      sigma_text(step.noise_sigma_rad));
 }
 
 std::string event_text(const PlannedPass& pass, const PassEvent& event) {
@@ -198,7 +201,8 @@ nlohmann::json to_json(const PlannedPass& pass, const PassStep& step) {
           {"axes", geometry.fix.axes},
           {"told_apart", geometry.fix.told_apart},
           {"fix_sigma_deg", degrees_or_null(geometry.fix.sigma_rad)},
-          {"sigma_deg", degrees_or_null(step.sigma_rad)}};
+          {"sigma_deg", degrees_or_null(step.sigma_rad)},
+          {"noise_sigma_deg", degrees_or_null(step.noise_sigma_rad)}};
 }
 
 nlohmann::json to_json(const PassEvent& event) {
@@ -227,9 +231,9 @@ std::string to_text(const PlannedPass& pass) {
   std::string text = fmt::format("{}  {}\n", pass.spacecraft_id, title_of(pass));
   text += fmt::format(
       "{:<20} {:>7} {:>9} {:>7} {:>7} {:>7} {:>6} {:>8} {:>7} {:>7} {:>8} {:>8}  {:<6} {:>4}  "
-      "{:>8} {:>8}\n",
+      "{:>8} {:>8} {:>8}\n",
       "UTC", "minutes", "range, km", "sun", "earth", "s-e", "rho", "dihedral", "chord N", "chord S",
-      "Delta N ", "Delta S ", "edges", "case", "1 turn", "all");
+      "Delta N ", "Delta S ", "edges", "case", "1 turn", "all", "noise");
   for (const PassStep& step : pass.plan.steps) {
     text += row(pass, step);
   }

@@ -50,6 +50,21 @@ TEST_F(ArchiveAnswers, VerdictHasTheEllipseAndHowFarTheTelemetryReaches) {
             "1 1 1 2017-01-01T00:00:00.000Z 2017-01-01T00:00:01.500Z 0.75");
 }
 
+TEST_F(ArchiveAnswers, VerdictSaysWhichPartOfSigmaIsAlignment) {
+  store_run({estimate_at(1, SpinEstimator::Mean, 20.0)});
+  SQLite::Database database{path().string(), SQLite::OPEN_READWRITE};
+  const auto with = [&](const std::string& sigma, const std::string& noise) {
+    database.exec("UPDATE spin_estimate SET sigma_deg = " + sigma + ", noise_sigma_deg = " + noise);
+    return text("SELECT format('%s: %s', why, against) FROM pass_verdict");
+  };
+  EXPECT_EQ(with("0.42", "0.09"), "OK; 0.41 of 0.42 deg is alignment: ");
+  EXPECT_EQ(with("0.0005", "0.0003"), "OK; 0.0004 of 0.0005 deg is alignment: ");
+  EXPECT_EQ(with("0.5", "0.49999"), "OK: ");
+  EXPECT_EQ(with("0.5", "0.5"), "OK: ");
+  EXPECT_EQ(with("0.5", "NULL"), "OK: ");
+  EXPECT_EQ(text("SELECT consider_sigma_deg FROM pass_verdict"), "0.5");
+}
+
 /// Returns the number of virtual-machine steps of SQLite for the verdict of run-1.
 int steps_to_verdict(const SQLite::Database& database) {
   sqlite3_stmt* query = nullptr;

@@ -436,6 +436,39 @@ TEST_F(ArchiveProducts, TheChoiceOfARunIsThatOfBatchUntilItIsMadeAgain) {
   EXPECT_EQ(after(made(200, SpinEstimator::Sequential)), "sequential 200");
 }
 
+TEST_F(ArchiveProducts, NormalEquationsOfARunAreThoseOfItsLastSolution) {
+  const auto archive = open();
+  commit(*archive, start_of("run-1"));
+  const auto after = [&](const ArchiveBatch& batch) {
+    commit(*archive, batch);
+    return text(
+        "SELECT ifnull(group_concat(t_tai_ns || ' ' || names || ' ' || b0 || ' ' || n || ' ' || "
+        "g), '') FROM "
+        "normal_equations");
+  };
+  const auto told = [](std::int64_t t_tai_ns, double mount_angle_deg) {
+    Eigen::Matrix2d information;
+    information << 4.0, 0.5, 0.25, 0.1;  // Not symmetric, so that rows and columns differ.
+    return with_products(
+        testing::batch_of("run-1"),
+        {RunNormalEquations{
+            .t = tai_from_ns(t_tai_ns),
+            .equations = {.names = {"spin.ir.north.mount_angle_deg", "spin.alignment.time_tag_s"},
+                          .b0 = Eigen::Vector2d{mount_angle_deg, 0.0},
+                          .n = information,
+                          .g = Eigen::Vector2d{-1.0, 1e-300}}}});
+  };
+  const auto stored = [](std::string_view t_tai_ns, std::string_view mount_angle_deg) {
+    return fmt::format(R"({} ["spin.ir.north.mount_angle_deg","spin.alignment.time_tag_s"] )"
+                       "[{},0.0] [4.0,0.5,0.25,0.1] [-1.0,1e-300]",
+                       t_tai_ns, mount_angle_deg);
+  };
+  EXPECT_EQ(after(told(100, 85.0)), stored("100", "85.0"));
+  EXPECT_EQ(after(told(200, 85.5)), stored("200", "85.5"));
+  EXPECT_EQ(after(told(150, 85.0)), stored("200", "85.5"));
+  EXPECT_EQ(after(going_on_from(200)), "");
+}
+
 TEST_F(ArchiveProducts, BiasThatIsNotObservableHasNoValue) {
   store({start_of("run-1"),
          with_solution(solution_at(100, {{NorthChordBias, 0.0, 0.001, false, true}}))});

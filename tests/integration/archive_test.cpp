@@ -74,9 +74,11 @@ TEST_F(ArchiveTest, ANewFileHasTheTablesAndColumnsOfTheContract) {
       {"operator_action", "action_id spacecraft_id t_tai_ns made_utc by action arguments"},
       {"pass_verdict",
        "run_id spacecraft_id started_utc finished estimator quality ra_deg dec_deg qx qy qz qw "
-       "sigma_deg consider_sigma_deg start_utc end_utc contact_share why against"},
+       "sigma_deg noise_sigma_deg consider_sigma_deg start_utc end_utc contact_share why against"},
       {"separation_verdict",
-       "run_id method quality t1_tai_ns qx qy qz qw sigma_deg launcher_angle_deg why"}};
+       "run_id method quality t1_tai_ns qx qy qz qw sigma_deg noise_sigma_deg launcher_angle_deg "
+       "why"},
+      {"normal_equations", "run_id names b0 n g"}};
   const auto archive = open();
 
   for (const auto& [table, columns] : contract) {

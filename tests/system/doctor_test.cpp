@@ -149,6 +149,25 @@ TEST(Doctor, JudgesForTheComingPass) {
   EXPECT_EQ(judged("2026-11-20T03:13:00Z").verdict("orbit of SPINNER"), "warning");
 }
 
+TEST(Doctor, SaysWhatTheDefaultsOfAlignmentCost) {
+  const TemporaryFolder folder;
+  folder.write("orbit.oem", text_of(std::filesystem::path{kMission}.parent_path() / "orbit.oem"));
+  const std::string mission =
+      folder
+          .write("mission.toml", text_of(kMission) +
+                                     "\n[spin.target]\nra_deg = 100\ndec_deg = -55\n"
+                                     "[spin.alignment]\nco2_altitude_km = 0\n")
+          .string();
+  const auto diagnosis = diagnose(
+      bus_of_its_own(),
+      {"--mission", mission, "--from", "2026-11-20T03:00:00Z", "--to", "2026-11-20T03:10:00Z"});
+  EXPECT_EQ(diagnosis.verdict("alignment of SPINNER"), "warning");
+  const std::string found = diagnosis.found("alignment of SPINNER");
+  EXPECT_THAT(found, HasSubstr("from 2026-11-20T03:00:00Z to 2026-11-20T03:10:00Z"));
+  EXPECT_THAT(found, HasSubstr("\nspin.alignment.north_mount_angle_deg = 0.05: "));
+  EXPECT_THAT(found, Not(HasSubstr("co2_altitude_km")));
+}
+
 TEST(Doctor, EndsWithTwoForABadMissionOrCommandLine) {
   const TemporaryFolder folder;
   const auto bad = folder.write("mission.toml", "[spacecraft]\nid = \"X\"\nkind = \"kite\"\n");

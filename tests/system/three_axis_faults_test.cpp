@@ -5,6 +5,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cctype>
 #include <cstdint>
 #include <filesystem>
 #include <map>
@@ -111,6 +112,28 @@ INSTANTIATE_TEST_SUITE_P(
       std::replace(name.begin(), name.end(), '-', '_');
       return name;
     });
+
+/// Passes of a mission file that is off by five and ten times its stated alignment: no sensor
+/// contradicts another much, so that noise alone would not cover the error.
+class ThreeAxisMisaligned : public ::testing::TestWithParam<const char*> {};
+
+TEST_P(ThreeAxisMisaligned, HasNoRowThatSaysOkBeyondFiveSigma) {
+  const std::filesystem::path pass = kFaults / GetParam();
+  const std::vector<Row> rows = rows_beside_truth(pass, Processed{pass}.db);
+  ASSERT_GT(rows.size(), 150U);
+  for (const Row& row : rows) {
+    EXPECT_TRUE(row.quality != "OK" || row.error_sigmas < 5.0) << row.error_sigmas;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Each, ThreeAxisMisaligned,
+                         ::testing::Values("star-mounted-0.05-off", "gyro-scale-1-percent"),
+                         [](const auto& pass) {
+                           std::string name = pass.param;
+                           std::ranges::replace_if(
+                               name, [](char c) { return std::isalnum(c) == 0; }, '_');
+                           return name;
+                         });
 
 TEST(ThreeAxisWithoutGyro, SunAndFieldGiveAnAttitude) {
   const TemporaryFolder pass;

@@ -41,9 +41,8 @@ class Planner {
         return Unexpected{passed.error()};
       }
     }
-    return stretch_to(t).map([this](PassGeometry geometry) {
-      return PassStep{.geometry = std::move(geometry), .sigma_rad = sigma_rad()};
-    });
+    return stretch_to(t).map(
+        [this](PassGeometry geometry) { return step_of(std::move(geometry)); });
   }
 
   std::vector<PassEvent> finish() { return events_.finish(); }
@@ -86,9 +85,21 @@ class Planner {
     }
   }
 
-  std::optional<double> sigma_rad() const {
-    const auto covariance_rad2 = information_.axis_covariance_rad2();
-    return covariance_rad2 ? std::optional{std::sqrt(covariance_rad2->trace())} : std::nullopt;
+  PassStep step_of(PassGeometry geometry) const {
+    PassStep step{.geometry = std::move(geometry), .sigma_rad = {}, .noise_sigma_rad = {}};
+    const auto noise_rad2 = information_.axis_covariance_rad2();
+    const auto per_alignment = information_.axis_per_alignment();
+    if (noise_rad2 && per_alignment) {
+      const SpinAlignment& alignment = scene_.config().alignment;
+      const double noise = noise_rad2->trace();
+      step.noise_sigma_rad = std::sqrt(noise);
+      step.sigma_rad =
+          std::sqrt(noise + (*per_alignment * alignment * per_alignment->transpose()).trace());
+      step.alignment_sigma_rad = (per_alignment->colwise().squaredNorm().transpose().array() *
+                                  alignment.diagonal().array())
+                                     .sqrt();
+    }
+    return step;
   }
 
   PassScene scene_;

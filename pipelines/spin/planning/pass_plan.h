@@ -53,10 +53,14 @@ struct PassRequest {
 
 struct PassStep {
   PassGeometry geometry;
-  /// One standard deviation of the axis, both directions together, that all edges since the
-  /// beginning of the pass allow (Cramer-Rao bound with phase, rate and drift unknown). Empty: they
-  /// do not determine it.
+  /// One standard deviation of the axis, both directions together, after all edges since the
+  /// beginning of the pass. Empty: they do not determine it.
   std::optional<double> sigma_rad;
+  /// The part of it that the noise of the edges leaves (Cramer-Rao bound with phase, rate and drift
+  /// unknown): all of it where the mission file is exact.
+  std::optional<double> noise_sigma_rad;
+  /// The part of it that each error of the mission file alone would make; zero where it is empty.
+  SpinAlignmentVector alignment_sigma_rad = SpinAlignmentVector::Zero();
 };
 
 struct PassPlan {
@@ -64,9 +68,9 @@ struct PassPlan {
   std::vector<PassEvent> events;  ///< Events by beginning.
 };
 
-/// Plans a pass. Edges are as noisy as the mission file says, and none is lost, but edges of
-/// interfering channels are left out. Events, which are looked for every second, and sigma do not
-/// depend on the step.
+/// Plans a pass. Edges are as noisy and the sensors as well known as the mission file says, and
+/// no edge is lost, but edges of interfering channels are left out. Events, which are looked for
+/// every second, and sigma do not depend on the step.
 /// @return NoCoverage where the orbit does not reach from `from` to `to`; Unobservable where it
 /// dips below the horizon's height.
 Expected<PassPlan> plan_pass(const SpinConfig& config, const Orbit& orbit,

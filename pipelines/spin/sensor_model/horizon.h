@@ -38,6 +38,7 @@ struct LimbCrossing {
   double azimuth_per_limb;       ///< Change per radian of limb, outwards.
   double azimuth_per_mount;      ///< Change per mounting angle.
   double azimuth_per_height_km;  ///< Change per km of horizon height.
+  Eigen::Vector3d azimuth_per_position_km;  ///< Change per motion of the spacecraft.
 };
 
 /// Holds the position of the spacecraft and the Earth's pole in the frame `spin`.

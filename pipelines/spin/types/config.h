@@ -8,6 +8,7 @@
 #include <numbers>
 #include <optional>
 
+#include "pipelines/spin/types/alignment.h"
 #include "pipelines/spin/types/pulse.h"
 #include "pipelines/spin/types/sensor_biases.h"
 
@@ -90,6 +91,7 @@ struct SpinConfig {
   SpinGeometry geometry;
   std::optional<SpinPrior> prior;
   SpinBatch batch = {};
+  SpinAlignment alignment = SpinAlignment::Zero();
 };
 
 }  // namespace spindrift

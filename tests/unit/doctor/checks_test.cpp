@@ -131,6 +131,35 @@ TEST(DoctorMissions, JudgesASpinnerInAPassOfNow) {
         "mission SPINNER", Warning, "GMS-5"}});
 }
 
+TEST(DoctorMissions, SaysWhichAlignmentStandsAtItsDefaultAndWhatItCosts) {
+  expect_judged<MissionFacts>(
+      spinner(24h), check_one,
+      {{"all stated", [](auto&) {}, "alignment of SPINNER", Ok, "stated in the mission file"},
+       {"one at its default",
+        [](auto& f) {
+          f.defaults = {{.key = "spin.alignment.slit_cant_deg", .value = 0.05, .cost_deg = 0.123}};
+          f.planned = {kNow, kNow + 600s};
+        },
+        "alignment of SPINNER", Warning,
+        "defaults in force, and what each adds to sigma of the axis from 2026-11-20T03:00:00Z to "
+        "2026-11-20T03:10:00Z:\nspin.alignment.slit_cant_deg = 0.05: 0.12 deg"},
+       {"one at a default that costs nothing",
+        [](auto& f) { f.defaults = {{.key = "spin.alignment.time_tag_s", .value = 0.0}}; },
+        "alignment of SPINNER", Ok, "spin.alignment.time_tag_s = 0"},
+       {"no axis to plan with",
+        [](auto& f) { f.defaults = {{.key = "spin.alignment.slit_cant_deg", .value = 0.05}}; },
+        "alignment of SPINNER", Warning, "[spin.target] and an orbit would tell"},
+       {"three axes",
+        [](auto& f) {
+          f.kind = SpacecraftKind::ThreeAxis;
+          f.defaults = {{.key = "three_axis.alignment.gyro_scale",
+                         .value = 0.001,
+                         .cost_deg = 0.36,
+                         .where = "a turn"}};
+        },
+        "alignment of SPINNER", Warning, "gyro_scale = 0.001: 0.36 deg a turn"}});
+}
+
 TEST(DoctorMissions, FailsOnAPassOfWhichNoTimeHasAnOrbit) {
   const ComingPass pass{.from = kNow + 30 * 24h, .to = kNow + 31 * 24h};
   MissionFacts facts = spinner(24h);

@@ -18,11 +18,15 @@ TEST(Schema, GivesTheRulesAsTheyAreWritten) {
       exactly_one_of = ["n", "t"]
       n = { type = "number", unit = "deg", above = 0, at_most = 90.5, default = 3, about = "N" }
       t = { type = "text", one_of = ["x", "y"], optional = true, about = "T" }
+      old = { moved = "[b] new" }
       i = { type = "integer", shape = [3, 2], at_least = -1, below = 4, not_below_keys = ["n"], about = "I" }
   )"));
   const TableRule& a = schema.tables.at("a");
   EXPECT_EQ(a.required, "spin");
   EXPECT_THAT(a.exactly_one_of, ElementsAre("n", "t"));
+
+  EXPECT_EQ(a.moved.at("old"), "[b] new");
+  EXPECT_FALSE(a.keys.contains("old"));
 
   const KeyRule& n = a.keys.at("n");
   EXPECT_EQ(n.type, ValueType::Number);

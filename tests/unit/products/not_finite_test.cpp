@@ -84,6 +84,17 @@ TEST(NotFinite, LooksAtTheValuesOfReasons) {
   EXPECT_EQ(place_in(estimate), "spin_estimate.reasons");
 }
 
+TEST(NotFinite, LooksAtNumbersThatAreStoredAsText) {
+  RunNormalEquations said{.t = tai_from_ns(7),
+                          .equations = {.names = {"gyro_scale_x"},
+                                        .b0 = Eigen::VectorXd::Zero(1),
+                                        .n = Eigen::MatrixXd::Ones(1, 1),
+                                        .g = Eigen::VectorXd::Zero(1)}};
+  EXPECT_EQ(place_in(said), "");
+  said.equations.g[0] = kNone;
+  EXPECT_EQ(place_in(said), "normal_equations.n");
+}
+
 TEST(NotFinite, LooksAtEveryTableAndRowOfAProduct) {
   BatchSolution solution = a_solution();
   solution.biases.push_back(BiasEstimate{DihedralBias, 0.01, kEndless, true, true});

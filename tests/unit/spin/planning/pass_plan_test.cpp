@@ -57,6 +57,27 @@ TEST(PassPlan, ExpectsTheLimitOfTheOraclesEdges) {
               1.0, 0.02);
 }
 
+TEST(PassPlan, ExpectsAWorseAxisWhereTheMissionFileMayBeOff) {
+  RecordedPass pass = recorded_pass("nominal");
+  const PassStep exact = plan(pass, 100.0, 50.0).value().steps.back();
+  EXPECT_EQ(exact.sigma_rad, exact.noise_sigma_rad);
+  EXPECT_TRUE(exact.alignment_sigma_rad.isZero(0.0));
+  const double mounted_rad = 0.05 * kRadPerDeg;
+  pass.config.alignment(NorthMountAngleError, NorthMountAngleError) = mounted_rad * mounted_rad;
+  pass.config.alignment(Co2AltitudeError, Co2AltitudeError) = 9.0;
+  const PassStep stated = plan(pass, 100.0, 50.0).value().steps.back();
+  EXPECT_EQ(stated.noise_sigma_rad, exact.noise_sigma_rad);
+  EXPECT_GT(stated.alignment_sigma_rad[NorthMountAngleError], mounted_rad);
+  EXPECT_NEAR(stated.sigma_rad.value(),
+              std::hypot(stated.noise_sigma_rad.value(), stated.alignment_sigma_rad.norm()), 1e-12);
+  // An error that always comes with another may take its effect back.
+  pass.config.alignment(NorthMountAngleError, Co2AltitudeError) = -3.0 * mounted_rad;
+  pass.config.alignment(Co2AltitudeError, NorthMountAngleError) = -3.0 * mounted_rad;
+  const PassStep together = plan(pass, 100.0, 50.0).value().steps.back();
+  EXPECT_EQ(together.alignment_sigma_rad, stated.alignment_sigma_rad);
+  EXPECT_GT(std::abs(*together.sigma_rad - *stated.sigma_rad), 0.01 * *stated.sigma_rad);
+}
+
 TEST(PassPlan, StepsFromTheBeginningToTheEnd) {
   const auto steps = plan(0.0, 100.0, 30.0).steps;
   std::vector<double> times_s;

@@ -125,4 +125,54 @@ TEST(EdgeInformation, DoesNotDependOnWhenTimeBeginsNorOnTheFrame) {
   EXPECT_LT((turned.axis_covariance_rad2().value() - expected).norm(), 1e-6 * expected.norm());
 }
 
+/// Returns what a sensor is where the mission file is off by `value`.
+SpinConfig off_by(SpinConfig config, SpinAlignmentError error, double value) {
+  const std::array<double*, 7> values = {
+      &config.sun_sensor.slit_cant_rad, &config.sun_sensor.slit_separation_rad,
+      &config.north->mount_angle_rad,   &config.south->mount_angle_rad,
+      &config.north->azimuth_rad,       &config.south->azimuth_rad,
+      &config.horizon.co2_altitude_km};
+  *values.at(error) += value;
+  return config;
+}
+
+/// Three edges of a turn at a known rate determine axis and phase without a residual: those that
+/// the mission file predicts about the axis that they give are those that came, but for the phase.
+TEST(EdgeInformation, TellsHowFarAWrongMissionFileMovesTheAxis) {
+  const Turn turn;
+  const SpinConfig& file = turn.pass.config;
+  const std::array channels = {Sun1, Sun2, NorthIn};
+  EdgeInformation information;
+  turn.add_to(information, channels, 0.0, 1e6);
+  const auto per_error = information.axis_per_alignment().value();
+  constexpr double kTiny = 1e-6;
+  for (const auto error : {SlitCantError, SlitSeparationError, NorthMountAngleError,
+                           NorthAzimuthError, Co2AltitudeError}) {
+    SCOPED_TRACE(kSpinAlignmentKeys.at(error));
+    const double value = error == Co2AltitudeError ? 1000.0 * kTiny : kTiny;
+    const SpinConfig truth = off_by(file, error, value);
+    const Eigen::Vector2d moved = per_error.col(error) * value;
+    EXPECT_GT(moved.norm(), 0.1 * kTiny);
+    const Eigen::Vector3d tilt{-moved.y(), moved.x(), 0.0};
+    const Eigen::Matrix3d R_found_icrf =
+        Eigen::AngleAxisd{-tilt.norm(), tilt.normalized()}.toRotationMatrix() * turn.R_spin_icrf;
+    std::array<double, 3> off_rad{};
+    for (std::size_t i = 0; i < channels.size(); ++i) {
+      const Pulse edge{.t = turn.sky.t, .channel = channels.at(i)};
+      off_rad.at(i) = wrapped_rad(predict_edge(file, turn.sky, R_found_icrf, edge)->phase_rad -
+                                  predict_edge(truth, turn.sky, turn.R_spin_icrf, edge)->phase_rad);
+    }
+    EXPECT_NEAR(off_rad[1], off_rad[0], 1e-3 * kTiny);
+    EXPECT_NEAR(off_rad[2], off_rad[0], 1e-3 * kTiny);
+  }
+  EXPECT_EQ(per_error.col(SouthMountAngleError).norm(), 0.0);
+}
+
+TEST(EdgeInformation, OfOneSensorAloneDoesNotSayWhatAMissionFileMoves) {
+  const Turn turn;
+  EdgeInformation sun;
+  turn.add_to(sun, std::array{Sun1, Sun2}, 0.0, 1e6);
+  EXPECT_FALSE(sun.axis_per_alignment());
+}
+
 }  // namespace spindrift::testing::edge_information_test
