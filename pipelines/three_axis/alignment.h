@@ -1,10 +1,14 @@
 /// @file
-/// What the mission file of a three-axis spacecraft may be off by: parameters b that one pass cannot
-/// check, with their prior covariance B (total covariance: P = P_noise + S B S').
+/// What the mission file of a three-axis spacecraft may be off by: parameters b that one pass
+/// cannot check, with their prior covariance B (total covariance: P = P_noise + S B S').
 
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
+#include <string_view>
+
+#include "pipelines/frames/angle.h"
 
 namespace spindrift {
 
@@ -25,8 +29,46 @@ enum AttitudeAlignmentError {
 };
 inline constexpr int kAttitudeAlignmentErrors = 27;
 
-/// Prior covariance of the errors, in their units; zero where the file counts as exact.
-using AttitudeAlignment =
-    Eigen::Matrix<double, kAttitudeAlignmentErrors, kAttitudeAlignmentErrors>;
+/// Prior covariance of the errors in their units; zero where the file counts as exact.
+using AttitudeAlignment = Eigen::Matrix<double, kAttitudeAlignmentErrors, kAttitudeAlignmentErrors>;
+
+/// Holds the name of an error in [calibration] of the mission file, and one unit of the name in the
+/// unit of the error.
+struct AttitudeAlignmentName {
+  std::string_view name;
+  double unit;
+};
+
+/// Names in the order of AttitudeAlignmentError.
+inline constexpr std::array<AttitudeAlignmentName, kAttitudeAlignmentErrors>
+    kAttitudeAlignmentNames{{
+        {"star_tracker_x_deg", kRadPerDeg},
+        {"star_tracker_y_deg", kRadPerDeg},
+        {"star_tracker_z_deg", kRadPerDeg},
+        {"sun_sensor_x_deg", kRadPerDeg},
+        {"sun_sensor_y_deg", kRadPerDeg},
+        {"sun_sensor_z_deg", kRadPerDeg},
+        {"magnetometer_x_deg", kRadPerDeg},
+        {"magnetometer_y_deg", kRadPerDeg},
+        {"magnetometer_z_deg", kRadPerDeg},
+        {"magnetometer_bias_x_nt", 1.0},
+        {"magnetometer_bias_y_nt", 1.0},
+        {"magnetometer_bias_z_nt", 1.0},
+        {"gyro_scale_x", 1.0},
+        {"gyro_scale_y", 1.0},
+        {"gyro_scale_z", 1.0},
+        {"gyro_xy_deg", kRadPerDeg},
+        {"gyro_xz_deg", kRadPerDeg},
+        {"gyro_yx_deg", kRadPerDeg},
+        {"gyro_yz_deg", kRadPerDeg},
+        {"gyro_zx_deg", kRadPerDeg},
+        {"gyro_zy_deg", kRadPerDeg},
+        {"star_tracker_time_tag_s", 1.0},
+        {"sun_sensor_time_tag_s", 1.0},
+        {"magnetometer_time_tag_s", 1.0},
+        {"inertia_x_fraction", 1.0},
+        {"inertia_y_fraction", 1.0},
+        {"inertia_z_fraction", 1.0},
+    }};
 
 }  // namespace spindrift
