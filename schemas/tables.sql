@@ -707,6 +707,7 @@ CREATE TABLE reconstruction_event (
   euler312_orbit_deg_2 REAL,
   euler312_orbit_deg_3 REAL,
   sigma_deg            REAL NOT NULL CHECK (sigma_deg >= 0),
+  noise_sigma_deg      REAL NOT NULL CHECK (noise_sigma_deg >= 0),  -- what would be left if the mission file were exact
   cov_xx_deg2          REAL NOT NULL,  -- as in attitude
   cov_xy_deg2          REAL NOT NULL,
   cov_xz_deg2          REAL NOT NULL,

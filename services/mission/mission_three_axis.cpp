@@ -18,11 +18,7 @@ std::optional<GyroSensor> gyro(const TomlValues& values) {
 
 std::optional<DigitalSunSensor> sun_sensor(const TomlValues& values) {
   const auto noise_rad = radians_if(values, "three_axis.sun_sensor.noise_deg");
-  return noise_rad ? std::optional{DigitalSunSensor{
-                         .noise_rad = *noise_rad,
-                         .misalignment_sigma_rad =
-                             radians_if(values, "three_axis.sun_sensor.misalignment_sigma_deg")}}
-                   : std::nullopt;
+  return noise_rad ? std::optional{DigitalSunSensor{*noise_rad}} : std::nullopt;
 }
 
 std::optional<StarTracker> star_tracker(const TomlValues& values) {

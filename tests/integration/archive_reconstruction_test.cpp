@@ -18,6 +18,7 @@ ReconstructedAttitude attitude_at(std::int64_t t_s) {
           .q_icrf_body = Eigen::Quaterniond{0.5, -0.5, 0.1, 0.7},
           .rate_body_rad_s = {0.25, -0.5, 1.0},
           .covariance_rad2 = 4.0 / 3.0 * kRadPerDeg * kRadPerDeg * Eigen::Matrix3d::Identity(),
+          .noise_covariance_rad2 = kRadPerDeg * kRadPerDeg * Eigen::Matrix3d::Identity() / 3.0,
           .rate_covariance_rad2_s2 = Eigen::Matrix3d::Zero()};
 }
 

@@ -369,7 +369,7 @@ TEST(ReconstructBatch, OrderRepetitionAndSignOfSamplesChangeNothing) {
   EXPECT_LT(apart_rad(found, expected), 1e-9);
 }
 
-TEST(ReconstructBatch, EstimatesAMisalignmentOfTheSunSensorWhenAsked) {
+TEST(ReconstructBatch, EstimatesAMisalignmentOfTheSunSensorWithItsPrior) {
   const Vector3d misalignment{0.01, -0.015, 0.0};
   SeparationFlight flight =
       separation_flight({.star_fix_step_s = 1.0, .end_s = 500.0, .sun_noise_deg = 0.1}, 10);
@@ -377,7 +377,7 @@ TEST(ReconstructBatch, EstimatesAMisalignmentOfTheSunSensorWhenAsked) {
     sun.sun_body = quaternion_by(misalignment) * sun.sun_body;
   }
   ReconstructionRequest request = flight.request();
-  request.sensors.sun_sensor->misalignment_sigma_rad = 0.02;
+  request.sensors.alignment.diagonal().segment<3>(SunSensorError).setConstant(0.02 * 0.02);
   const Reconstruction found = batch(request);
   const Vector3d off = found.misalignment->vector_rad - misalignment;
   EXPECT_LT(std::sqrt(off.dot(found.misalignment->covariance_rad2.llt().solve(off))), 3.5);
