@@ -621,6 +621,7 @@ CREATE TABLE attitude (
   rate_y_rad_s REAL,
   rate_z_rad_s REAL,
   sigma_deg    REAL NOT NULL CHECK (sigma_deg >= 0),
+  noise_sigma_deg REAL CHECK (noise_sigma_deg >= 0),  -- what sigma_deg would be if the mission file were exact
   cov_xx_deg2  REAL NOT NULL,  -- of a small turn about the axes of the body; sigma_deg is the root of its trace
   cov_xy_deg2  REAL NOT NULL,
   cov_xz_deg2  REAL NOT NULL,

@@ -57,6 +57,7 @@ std::string_view name_of(ReasonCode code) {
       "gyro_unit",
       "sensor_gated",
       "sensor_noise",
+      "alignment_off",
       "orbit_steps",
       "withheld",
       "computing_failed",

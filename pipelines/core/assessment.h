@@ -92,6 +92,7 @@ enum class ReasonCode {
   GyroUnit,             ///< factor
   SensorGated,          ///< sensor
   SensorNoise,          ///< sensor, factor
+  AlignmentOff,         ///< key, sigmas
   OrbitSteps,           ///< t_tai_ns, km, m_s
   Withheld,             ///< table, column
   ComputingFailed,      ///< what

@@ -36,8 +36,8 @@ Matrix3d any_attitude_rad2() {
 }
 
 /// Returns the projector on the axes about which a measurement determines the attitude, ICRF.
-Matrix3d axes_of(const ObservedDirection& direction) {
-  const Vector3d along = direction.ref.normalized();
+Matrix3d axes_of(const SeenDirection& seen) {
+  const Vector3d along = seen.direction.ref.normalized();
   return Matrix3d::Identity() - along * along.transpose();
 }
 Matrix3d axes_of(const ObservedAttitude& /*attitude*/) { return Matrix3d::Identity(); }
@@ -48,17 +48,9 @@ bool is_unknown(const Mekf& filter) {
 
 double square_of(const std::optional<double>& sigmas) { return sigmas ? *sigmas * *sigmas : 0.0; }
 
-/// The strength of a measured field adds one degree of freedom.
 template <class Observed>
-Observation observation_of(const Mekf& filter, const Observed& observed,
-                           const std::optional<double>& stronger) {
-  auto [residual, nis] = filter.innovation(observed);
-  if (stronger) {
-    residual.value[residual.freedom] = *stronger * observed.sigma_rad;
-    residual.sigma[residual.freedom] = observed.sigma_rad;
-    ++residual.freedom;
-  }
-  nis += square_of(stronger);
+Observation observation_of(const Mekf& filter, const Observed& observed) {
+  const auto [residual, nis] = filter.innovation(observed);
   Observation observation{
       .residual = residual, .nis = nis, .limit = innovation_gate(residual.freedom)};
   if (nis > observation.limit) {
@@ -68,10 +60,10 @@ Observation observation_of(const Mekf& filter, const Observed& observed,
 }
 
 /// Returns the field strength for a magnetometer sample, and 1 for the other sensors.
-double length_of(SampleKind kind, const ObservedDirection& direction) {
-  return kind == SampleKind::Magnetometer ? direction.body.norm() : 1.0;
+double length_of(const SeenDirection& seen) {
+  return seen.kind == SampleKind::Magnetometer ? seen.direction.body.norm() : 1.0;
 }
-double length_of(SampleKind /*kind*/, const ObservedAttitude& /*attitude*/) { return 1.0; }
+double length_of(const ObservedAttitude& /*attitude*/) { return 1.0; }
 
 TaiTime time_of(const std::variant<StarFix, SeenDirection>& sample) {
   return std::visit([](const auto& is) { return is.t; }, sample);
@@ -81,8 +73,10 @@ TaiTime time_of(const std::variant<StarFix, SeenDirection>& sample) {
 
 AttitudeEstimator::AttitudeEstimator(const ThreeAxisConfig& config)
     : config_{config},
+      alignment_{config.alignment.topLeftCorner<kFilterErrors, kFilterErrors>()},
       gyro_{config.gyro.value_or(GyroSensor{})},
       gyro_unit_{config.gyro.value_or(GyroSensor{}).bias_sigma_rad_s},
+      carried_{alignment_},
       ledger_{kSampleRules} {}
 
 void AttitudeEstimator::push(const GyroSample& sample, Products& out) {
@@ -339,16 +333,17 @@ ObservedAttitude AttitudeEstimator::observed_by(const StarFix& fix) const {
 void AttitudeEstimator::take_in_star(const StarFix& fix, Products& out) {
   const StarTracker& tracker = *config_.star_tracker;
   const ObservedAttitude observed = observed_by(fix);
-  const UncertainAttitude alone{
-      .q_ref_body = observed.q_icrf_body,
-      .covariance_rad2 = tracker.noise_rad * tracker.noise_rad * Matrix3d::Identity()};
+  const SensitiveAttitude alone{
+      {.q_ref_body = observed.q_icrf_body,
+       .covariance_rad2 = tracker.noise_rad * tracker.noise_rad * Matrix3d::Identity()},
+      -star_per_error(rate_body_rad_s())};
   if (!filter_) {
     note_accepted(SampleKind::Star, fix.t);
     has_fixes_ = true;
     begin(alone, out);
     return;
   }
-  if (work_in(fix.t, SampleKind::Star, observed, std::nullopt, out)) {
+  if (work_in(fix.t, SampleKind::Star, observed, out)) {
     has_fixes_ = true;
     return;
   }
@@ -364,7 +359,7 @@ void AttitudeEstimator::take_in_star(const StarFix& fix, Products& out) {
 
 void AttitudeEstimator::take_in_direction(const SeenDirection& seen, Products& out) {
   if (filter_) {
-    work_in(seen.t, seen.kind, seen.direction, seen.stronger, out);
+    work_in(seen.t, seen.kind, seen, out);
     if (rival_ && rival_->is_proven()) {
       overrule(out);
     }
@@ -380,7 +375,7 @@ void AttitudeEstimator::take_in_direction(const SeenDirection& seen, Products& o
     return;
   }
   note_accepted(seen.kind, seen.t);
-  carried_.add(seen.kind, seen.t, seen.direction);
+  carried_.add(seen, rate_body_rad_s());
   const SensorHealth& star = sensors_.at(index_of(SampleKind::Star));
   if (!rate_rad_s_ && star.last_seen && star.rejected_in_a_row == 0 &&
       elapsed_s(*star.last_seen, seen.t) <= kAtOnce_s) {
@@ -395,15 +390,14 @@ void AttitudeEstimator::take_in_direction(const SeenDirection& seen, Products& o
 /// @return True if the filter accepts the sample.
 template <class Observed>
 bool AttitudeEstimator::work_in(TaiTime t, SampleKind kind, const Observed& observed,
-                                const std::optional<double>& stronger, Products& out) {
-  Observation said = observation_of(*filter_, observed, stronger);
+                                Products& out) {
+  Observation said = observation_of(*filter_, observed);
   said.t = t;
   said.source = source_of(kind);
   if (rival_) {
-    ask_rival(observed, !observation_of(rival_->filter, observed, stronger).rejected_by,
-              !said.rejected_by);
+    ask_rival(observed, !observation_of(rival_->filter, observed).rejected_by, !said.rejected_by);
   }
-  const double length = length_of(kind, observed);
+  const double length = length_of(observed);
   said.residual.value *= length;
   said.residual.sigma *= length;
   out.emplace_back(SampleObservation{.estimator = AttitudeSource::Mekf, .said = said});
@@ -419,7 +413,8 @@ bool AttitudeEstimator::work_in(TaiTime t, SampleKind kind, const Observed& obse
     }
     return false;
   }
-  filter_->update(observed);
+  // An error of the mission file is one draw a pass. What it explains is no noise.
+  said.nis = filter_->update(observed);
   ledger_.add({&said, 1});
   since_given_.squared += said.nis;
   since_given_.freedom += said.residual.freedom;
@@ -453,12 +448,11 @@ void AttitudeEstimator::ask_rival(const ObservedAttitude& fix, bool fits, bool f
 }
 
 /// Drops a rival that was once in force as soon as it is refuted.
-void AttitudeEstimator::ask_rival(const ObservedDirection& direction, bool fits,
-                                  bool fits_in_force) {
+void AttitudeEstimator::ask_rival(const SeenDirection& seen, bool fits, bool fits_in_force) {
   rival_->against = std::clamp(rival_->against + (fits_in_force ? 1 : 0) - (fits ? 1 : 0),
                                -kLostInARow, kLostInARow);
   if (fits) {
-    rival_->filter.update(direction);
+    rival_->filter.update(seen);
   }
   if (rival_->was_in_force && rival_->is_refuted()) {
     rival_.reset();
@@ -509,20 +503,16 @@ void AttitudeEstimator::leave_out(const RejectedSample& rejected, Products& out)
   out.emplace_back(rejected);
 }
 
-Mekf AttitudeEstimator::filter_at(const UncertainAttitude& attitude) const {
-  return {attitude, config_.gyro ? config_.gyro->bias_sigma_rad_s : 0.0};
+Mekf AttitudeEstimator::filter_at(const SensitiveAttitude& attitude) const {
+  return {attitude, config_.gyro ? config_.gyro->bias_sigma_rad_s : 0.0, alignment_};
 }
 
 /// Drops the rival, which is the lost attitude, if the new attitude agrees with it.
-void AttitudeEstimator::begin(const UncertainAttitude& attitude, Products& out) {
-  if (rival_ && rival_->filter
-                        .innovation(ObservedAttitude{
-                            .q_icrf_body = attitude.q_ref_body,
-                            .sigma_rad = std::sqrt(attitude.covariance_rad2.trace() / 3.0)})
-                        .nis <= innovation_gate(3)) {
+void AttitudeEstimator::begin(const SensitiveAttitude& attitude, Products& out) {
+  filter_ = filter_at(attitude);
+  if (rival_ && rival_->filter.innovation(*filter_).nis <= innovation_gate(3)) {
     rival_.reset();
   }
-  filter_ = filter_at(attitude);
   start(out);
 }
 
@@ -562,6 +552,7 @@ void AttitudeEstimator::lose(Products& out) {
                                     .q_icrf_body = filter_->q_icrf_body(),
                                     .rate_body_rad_s = std::nullopt,
                                     .covariance_rad2 = any_attitude_rad2(),
+                                    .noise_sigma_rad = std::sqrt(any_attitude_rad2().trace()),
                                     .assessment = std::move(assessment)});
   if (!rival_ || !rival_->was_in_force) {
     rival_.reset();
@@ -583,12 +574,15 @@ void AttitudeEstimator::give_where_due(Products& out) {
 
 void AttitudeEstimator::give(Products& out) {
   given_ = t_;
-  AttitudeEstimate estimate{.t = *t_,
-                            .q_icrf_body = filter_->q_icrf_body(),
-                            .rate_body_rad_s = std::nullopt,
-                            .covariance_rad2 = excess_noise() * filter_->attitude_covariance_rad2(),
-                            .assessment = assess(),
-                            .innovations = std::exchange(since_given_, {})};
+  const Matrix3d covariance_rad2 = filter_->attitude_covariance_rad2(excess_noise());
+  AttitudeEstimate estimate{
+      .t = *t_,
+      .q_icrf_body = filter_->q_icrf_body(),
+      .rate_body_rad_s = std::nullopt,
+      .covariance_rad2 = covariance_rad2,
+      .noise_sigma_rad = std::sqrt(excess_noise() * filter_->attitude_noise_rad2().trace()),
+      .assessment = assess(std::sqrt(covariance_rad2.trace())),
+      .innovations = std::exchange(since_given_, {})};
   if (rate_rad_s_ && !gyro_is_out()) {
     estimate.rate_body_rad_s = *rate_rad_s_ - filter_->bias_rad_s();
   }
@@ -614,6 +608,10 @@ void AttitudeEstimator::forget_gyro() {
   gyro_ = GyroWatch{*config_.gyro};
   rate_rad_s_.reset();
   coasting_ = false;
+}
+
+Vector3d AttitudeEstimator::rate_body_rad_s() const {
+  return rate_rad_s_.value_or(Vector3d::Zero());
 }
 
 bool AttitudeEstimator::gyro_is_out() const {
@@ -648,7 +646,7 @@ Reason AttitudeEstimator::why_no_gyro() const {
            {"since_tai_ns", tai_ns(gyro_.last() ? gyro_.last()->t : gyro_.out_since())}}};
 }
 
-Assessment AttitudeEstimator::assess() const {
+Assessment AttitudeEstimator::assess(double sigma_rad) const {
   Assessment assessment{.quality = Quality::Ok};
   std::vector<Reason>& reasons = assessment.reasons;
   std::vector<Reason> known;  // Reasons that cast no doubt on the attitude.
@@ -682,7 +680,11 @@ Assessment AttitudeEstimator::assess() const {
   if (rival_ && rival_->stands() && !rival_->is_refuted()) {
     reasons.push_back({ReasonCode::StarFixesContradict, {}});
   }
-  const double sigma_rad = std::sqrt(excess_noise() * filter_->attitude_covariance_rad2().trace());
+  if (const auto beyond = filter_->evidence().beyond()) {
+    reasons.push_back({ReasonCode::AlignmentOff,
+                       {{"key", "three_axis.alignment." + std::string{beyond->key}},
+                        {"sigmas", beyond->sigmas}}});
+  }
   if (sigma_rad > kOpen_rad) {
     reasons.push_back({ReasonCode::AttitudeOpen, {{"deg", degrees(sigma_rad)}}});
   }

@@ -48,6 +48,7 @@
 #include "pipelines/three_axis/mekf.h"
 #include "pipelines/three_axis/products.h"
 #include "pipelines/three_axis/samples.h"
+#include "pipelines/three_axis/sensor_errors.h"
 #include "pipelines/time/tai_time.h"
 
 namespace spindrift {
@@ -73,16 +74,6 @@ struct RivalAttitude {
   bool stands() const { return was_in_force || star_fixes >= kEnough; }
   bool is_refuted() const { return against >= kEnough; }
   bool is_proven() const { return against <= -kEnough; }
-};
-
-/// Holds a direction measured by one sensor and its reference in ICRF.
-struct SeenDirection {
-  TaiTime t;
-  SampleKind kind;
-  ObservedDirection direction;
-  /// How far the measured field strength exceeds the model, in standard deviations; tested together
-  /// with the direction. Empty for sensors other than the magnetometer.
-  std::optional<double> stronger = std::nullopt;
 };
 
 class AttitudeEstimator {
@@ -139,10 +130,9 @@ class AttitudeEstimator {
   void take_in_star(const StarFix& fix, Products& out);
   void take_in_direction(const SeenDirection& seen, Products& out);
   template <class Observed>
-  bool work_in(TaiTime t, SampleKind kind, const Observed& observed,
-               const std::optional<double>& stronger, Products& out);
+  bool work_in(TaiTime t, SampleKind kind, const Observed& observed, Products& out);
   void ask_rival(const ObservedAttitude& fix, bool fits, bool fits_in_force);
-  void ask_rival(const ObservedDirection& direction, bool fits, bool fits_in_force);
+  void ask_rival(const SeenDirection& seen, bool fits, bool fits_in_force);
   bool rival_overrules() const;
   void overrule(Products& out);
 
@@ -159,8 +149,8 @@ class AttitudeEstimator {
   double coasted_rad2(TaiTime measured, TaiTime t) const;
   void turn(const GyroSample& to, double turn_rad2);
 
-  Mekf filter_at(const UncertainAttitude& attitude) const;
-  void begin(const UncertainAttitude& attitude, Products& out);
+  Mekf filter_at(const SensitiveAttitude& attitude) const;
+  void begin(const SensitiveAttitude& attitude, Products& out);
   void start(Products& out);
   void lose_where_unknown(Products& out);
   void lose_where_rejected(Products& out);
@@ -170,14 +160,16 @@ class AttitudeEstimator {
   const ObservationRecord& record_of(SampleKind kind) const { return ledger_.of(source_of(kind)); }
   double excess_noise() const;
   void forget_gyro();
+  Eigen::Vector3d rate_body_rad_s() const;
   bool gyro_is_out() const;
   bool is_confirmed() const;
   bool is_held() const;
   bool is_out(SampleKind kind) const;
   Reason why_no_gyro() const;
-  Assessment assess() const;
+  Assessment assess(double sigma_rad) const;
 
   ThreeAxisConfig config_;
+  FilterAlignment alignment_;
   GyroWatch gyro_;
   GyroUnit gyro_unit_;
   std::optional<GyroSample> suspect_;  ///< Outlier candidate; the next gyro sample decides.

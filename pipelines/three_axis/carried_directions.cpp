@@ -6,48 +6,44 @@
 #include <cmath>
 #include <cstddef>
 
-#include "pipelines/frames/celestial.h"
 #include "pipelines/frames/rotation_vector.h"
+#include "pipelines/frames/shortest_turn.h"
 #include "pipelines/observation/innovation_gate.h"
 #include "pipelines/time/time_span.h"
 
 namespace spindrift {
 namespace {
 
-/// Returns the chi-square of the misfits.
-double misfit_of(const std::vector<ObservedDirection>& directions,
-                 const Eigen::Quaterniond& q_ref_body) {
-  double squares = 0.0;
-  for (const ObservedDirection& direction : directions) {
-    const double off_rad = angle_between_rad(q_ref_body * direction.body, direction.ref);
-    squares += off_rad * off_rad / (direction.sigma_rad * direction.sigma_rad);
-  }
-  return squares;
-}
-
 /// Each direction gives two numbers; the attitude uses up three of them.
 int freedom_of(std::size_t directions) { return 2 * static_cast<int>(directions) - 3; }
 
 }  // namespace
 
-void CarriedDirections::add(SampleKind kind, TaiTime t, const ObservedDirection& direction) {
-  std::erase_if(directions_, [kind](const Carried& carried) { return carried.kind == kind; });
+void CarriedDirections::add(const SeenDirection& seen, const Eigen::Vector3d& rate_body_rad_s) {
+  std::erase_if(directions_, [&](const Carried& carried) { return carried.kind == seen.kind; });
   const auto place = std::find_if(directions_.begin(), directions_.end(),
-                                  [kind](const Carried& carried) { return carried.kind > kind; });
-  directions_.insert(place, {.kind = kind, .t = t, .direction = direction, .error = {}});
+                                  [&](const Carried& carried) { return carried.kind > seen.kind; });
+  directions_.insert(place, {.kind = seen.kind,
+                             .t = seen.t,
+                             .direction = seen.direction,
+                             .per_error = -direction_per_error(seen, rate_body_rad_s),
+                             .error = {}});
 }
 
 void CarriedDirections::turn(TaiTime t, const Eigen::Vector3d& turned_rad, const CarryError& error,
                              double longest_s) {
   std::erase_if(directions_,
                 [&](const Carried& carried) { return elapsed_s(carried.t, t) > longest_s; });
+  const Eigen::Quaterniond back = quaternion_by(-turned_rad);
   for (Carried& carried : directions_) {
-    carried.direction.body = quaternion_by(-turned_rad) * carried.direction.body;
+    carried.direction.body = back * carried.direction.body;
+    carried.per_error =
+        turned(carried.per_error, turned_rad, back.toRotationMatrix(), right_jacobian(turned_rad));
     carried.error.add(error);
   }
 }
 
-Expected<UncertainAttitude> CarriedDirections::attitude() const {
+Expected<SensitiveAttitude> CarriedDirections::attitude() const {
   std::vector<ObservedDirection> directions;
   for (const Carried& carried : directions_) {
     directions.push_back(carried.direction);
@@ -55,15 +51,37 @@ Expected<UncertainAttitude> CarriedDirections::attitude() const {
     sigma_rad = std::hypot(sigma_rad, std::sqrt(carried.error.variance_rad2()));
   }
   return q_method(directions)
-      .and_then([&](const UncertainAttitude& attitude) -> Expected<UncertainAttitude> {
-        const double misfit = misfit_of(directions, attitude.q_ref_body);
+      .and_then([&](const UncertainAttitude& attitude) -> Expected<SensitiveAttitude> {
+        const Fit fit = fit_of(attitude, directions);
+        const double misfit = fit.squares - fit.by_errors.explained(alignment_);
         if (misfit > innovation_gate(freedom_of(directions.size()))) {
           return Unexpected{{ErrorCode::Unobservable,
                              fmt::format("{} directions contradict each other: chi-square {:.3g}",
                                          directions.size(), misfit)}};
         }
-        return attitude;
+        return SensitiveAttitude{attitude, fit.per_error};
       });
+}
+
+/// The attitude is the mean of what the directions say, weighted by their information.
+CarriedDirections::Fit CarriedDirections::fit_of(
+    const UncertainAttitude& attitude, const std::vector<ObservedDirection>& directions) const {
+  Fit fit;
+  TurnPerError weighted = TurnPerError::Zero();
+  for (std::size_t i = 0; i < directions.size(); ++i) {
+    const ObservedDirection& direction = directions[i];
+    const TurnPerError& per_error = directions_[i].per_error;
+    const Eigen::Vector3d off_rad = rotation_vector_of(
+        shortest_turn(direction.body, attitude.q_ref_body.conjugate() * direction.ref));
+    const TurnPerError one = information_of(direction) * per_error;
+    weighted += one;
+    fit.squares += off_rad.squaredNorm() / (direction.sigma_rad * direction.sigma_rad);
+    fit.by_errors.own += per_error.transpose() * one;
+    fit.by_errors.score -= one.transpose() * off_rad;
+  }
+  fit.per_error = attitude.covariance_rad2 * weighted;
+  fit.by_errors.own -= weighted.transpose() * fit.per_error;
+  return fit;
 }
 
 }  // namespace spindrift

@@ -79,6 +79,8 @@ struct AttitudeEstimate {
   Eigen::Quaterniond q_icrf_body;
   std::optional<Eigen::Vector3d> rate_body_rad_s;  ///< Bias removed; empty without gyro at `t`.
   Eigen::Matrix3d covariance_rad2;                 ///< Covariance of a small turn, body axes.
+  /// What `sigma_rad()` would be if the mission file were exact.
+  double noise_sigma_rad = 0.0;
   Assessment assessment;
   AttitudeSource source = AttitudeSource::Mekf;
   Innovations innovations = {};            ///< Innovations since the previous estimate.

@@ -193,6 +193,40 @@ void ThreeAxisPass::compute(const MagneticField& field, ThreeAxisOutput& out) {
                   out.products);
 }
 
+NormalEquations ThreeAxisPass::normal_equations() const {
+  std::vector<int> errors;
+  const auto add = [&errors](bool has_sensor, int first, int count) {
+    for (int i = first; has_sensor && i < first + count; ++i) {
+      errors.push_back(i);
+    }
+  };
+  add(config_.star_tracker.has_value(), StarTrackerError, 3);
+  add(config_.sun_sensor.has_value(), SunSensorError, 3);
+  add(config_.magnetometer.has_value(), MagnetometerError, 6);
+  add(config_.gyro.has_value(), GyroScaleError, 9);
+  add(config_.star_tracker.has_value(), StarTrackerTimeError, 1);
+  add(config_.sun_sensor.has_value(), SunSensorTimeError, 1);
+  add(config_.magnetometer.has_value(), MagnetometerTimeError, 1);
+
+  const auto size = static_cast<Eigen::Index>(errors.size());
+  Eigen::VectorXd units{size};
+  NormalEquations equations{.names = {},
+                            .b0 = Eigen::VectorXd::Zero(size),
+                            .n = Eigen::MatrixXd::Zero(size, size),
+                            .g = Eigen::VectorXd::Zero(size)};
+  for (const int error : errors) {
+    const auto& [name, unit] = kAttitudeAlignmentNames.at(static_cast<std::size_t>(error));
+    units[static_cast<Eigen::Index>(equations.names.size())] = unit;
+    equations.names.emplace_back(name);
+  }
+  if (const auto& filter = estimator_.filter()) {
+    const AlignmentEvidence& evidence = filter->evidence();
+    equations.n = units.asDiagonal() * evidence.information()(errors, errors) * units.asDiagonal();
+    equations.g = units.cwiseProduct(evidence.score()(errors));
+  }
+  return equations;
+}
+
 void ThreeAxisPass::leave_out(const OrderedSample& sample, Rejection rejected_by,
                               ThreeAxisOutput& out) {
   estimator_.leave_out({.t = sample.t, .kind = sample.kind(), .rejected_by = rejected_by},

@@ -31,6 +31,7 @@
 #include "pipelines/ephemeris/sun.h"
 #include "pipelines/exclusions/exclusions.h"
 #include "pipelines/geomagnetism/main_field.h"
+#include "pipelines/statistics/normal_equations.h"
 #include "pipelines/three_axis/attitude_action.h"
 #include "pipelines/three_axis/attitude_estimator.h"
 #include "pipelines/three_axis/config.h"
@@ -96,6 +97,9 @@ class ThreeAxisPass {
 
   /// Returns the counts of each sensor up to now.
   const SensorHealths& sensors() const { return estimator_.sensors(); }
+  /// Returns what the attitude in force up to now says of the errors of the mission file that act
+  /// on its sensors; nothing if there is none.
+  NormalEquations normal_equations() const;
 
  private:
   ThreeAxisOutput process(const OrderedSample& sample);

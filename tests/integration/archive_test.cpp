@@ -59,7 +59,8 @@ TEST_F(ArchiveTest, ANewFileHasTheTablesAndColumnsOfTheContract) {
       {"spin_bias", "run_id estimator name value unit sigma observable estimated"},
       {"attitude",
        "run_id t_tai_ns source qx qy qz qw rate_x_rad_s rate_y_rad_s rate_z_rad_s sigma_deg "
-       "quality reasons status cov_xx_deg2 cov_xy_deg2 cov_xz_deg2 cov_yy_deg2 cov_yz_deg2 "
+       "noise_sigma_deg quality reasons status cov_xx_deg2 cov_xy_deg2 cov_xz_deg2 cov_yy_deg2 "
+       "cov_yz_deg2 "
        "cov_zz_deg2 announced_utc"},
       {"gyro_bias", "run_id t_tai_ns estimator bx_deg_s by_deg_s bz_deg_s"},
       {"notice", "run_id t_tai_ns code arguments says"},

@@ -68,7 +68,7 @@ void run_pass(const Equipment& equipment, std::mt19937_64& rng, Tally& tally) {
   const auto direction = [&](double t_s, SampleKind kind, const Vector3d& ref) {
     const SeenDirection seen{
         at_s(t_s), kind, {sensors.direction(t_s, ref, kVector_rad), ref, kVector_rad}};
-    take(seen, seen.direction, 2.0);
+    take(seen, seen, 2.0);
   };
   for (int i = 0; i <= kSeconds * kGyro_hz; ++i) {
     const double t_s = i / kGyro_hz;
@@ -124,8 +124,8 @@ TEST(AttitudeFilterStatistics, FromThirtyDegreesOffTwoDirectionsLeadBackAlways) 
     Sensors sensors{body, config, rng};
     const Eigen::Quaterniond off{
         Eigen::AngleAxisd{30.0 * kRadPerDeg, normal_vector(rng, 1.0).normalized()}};
-    Mekf filter{{.q_ref_body = body.q_icrf_body(0.0) * off,
-                 .covariance_rad2 = std::pow(30.0 * kRadPerDeg, 2) * Eigen::Matrix3d::Identity()},
+    Mekf filter{{{.q_ref_body = body.q_icrf_body(0.0) * off,
+                  .covariance_rad2 = std::pow(30.0 * kRadPerDeg, 2) * Eigen::Matrix3d::Identity()}},
                 config.gyro->bias_sigma_rad_s};
     Vector3d rate_rad_s = sensors.gyro(0.0).rate_body_rad_s;
     for (int i = 0; i <= kSeconds * kGyro_hz; ++i) {
@@ -138,7 +138,9 @@ TEST(AttitudeFilterStatistics, FromThirtyDegreesOffTwoDirectionsLeadBackAlways) 
       if (i % static_cast<int>(kGyro_hz) == 0) {
         for (const Vector3d& ref : {kSun, kField}) {
           filter.update(
-              ObservedDirection{sensors.direction(t_s, ref, kVector_rad), ref, kVector_rad});
+              SeenDirection{at_s(t_s),
+                            SampleKind::Sun,
+                            {sensors.direction(t_s, ref, kVector_rad), ref, kVector_rad}});
         }
       }
     }

@@ -24,11 +24,16 @@ ObservedDirection seen(const Quaterniond& q_ref_body, const Vector3d& ref,
   return {.body = q_ref_body.conjugate() * ref, .ref = ref, .sigma_rad = sigma_rad};
 }
 
+void add(CarriedDirections& carried, SampleKind kind, TaiTime t, const ObservedDirection& direction,
+         const Vector3d& rate_rad_s = Vector3d::Zero()) {
+  carried.add({.t = t, .kind = kind, .direction = direction}, rate_rad_s);
+}
+
 /// Returns Sun and field at one time with the body at rest in the reference frame.
 CarriedDirections both(double t_s) {
   CarriedDirections carried;
-  carried.add(SampleKind::Sun, at_s(t_s), seen(Quaterniond::Identity(), kSun));
-  carried.add(SampleKind::Magnetometer, at_s(t_s), seen(Quaterniond::Identity(), kField));
+  add(carried, SampleKind::Sun, at_s(t_s), seen(Quaterniond::Identity(), kSun));
+  add(carried, SampleKind::Magnetometer, at_s(t_s), seen(Quaterniond::Identity(), kField));
   return carried;
 }
 
@@ -40,12 +45,12 @@ bool is_unobservable(const CarriedDirections& carried) {
 TEST(CarriedDirections, OfFewerThanTwoThereIsNoAttitude) {
   CarriedDirections carried;
   EXPECT_TRUE(is_unobservable(carried));
-  carried.add(SampleKind::Sun, at_s(0.0), seen(Quaterniond::Identity(), kSun));
+  add(carried, SampleKind::Sun, at_s(0.0), seen(Quaterniond::Identity(), kSun));
   EXPECT_TRUE(is_unobservable(carried));
   // A new direction of the same sensor replaces the old one.
-  carried.add(SampleKind::Sun, at_s(0.1), seen(Quaterniond::Identity(), kField));
+  add(carried, SampleKind::Sun, at_s(0.1), seen(Quaterniond::Identity(), kField));
   EXPECT_TRUE(is_unobservable(carried));
-  carried.add(SampleKind::Magnetometer, at_s(0.1), seen(Quaterniond::Identity(), kSun));
+  add(carried, SampleKind::Magnetometer, at_s(0.1), seen(Quaterniond::Identity(), kSun));
   EXPECT_TRUE(carried.attitude());
   carried.forget();
   EXPECT_TRUE(is_unobservable(carried));
@@ -54,9 +59,9 @@ TEST(CarriedDirections, OfFewerThanTwoThereIsNoAttitude) {
 TEST(CarriedDirections, OfTwoInLineThereIsNone) {
   for (const double sign : {-1.0, 1.0}) {
     CarriedDirections carried;
-    carried.add(SampleKind::Sun, at_s(0.0), seen(Quaterniond::Identity(), kSun));
-    carried.add(SampleKind::Magnetometer, at_s(0.0),
-                seen(Quaterniond::Identity(), sign * kSun + 1e-4 * kField));
+    add(carried, SampleKind::Sun, at_s(0.0), seen(Quaterniond::Identity(), kSun));
+    add(carried, SampleKind::Magnetometer, at_s(0.0),
+        seen(Quaterniond::Identity(), sign * kSun + 1e-4 * kField));
     EXPECT_TRUE(is_unobservable(carried));
   }
 }
@@ -76,9 +81,9 @@ TEST(CarriedDirections, SeenAtDifferentTimesTheyGiveTheAttitudeOfNow) {
           q_ref_body * Quaterniond{Eigen::AngleAxisd{turned_rad.norm(), turned_rad.normalized()}};
       carried.turn(at_s(0.1 * i), turned_rad, {});
       if (i == 5) {
-        carried.add(SampleKind::Magnetometer, at_s(0.1 * i), seen(q_ref_body, field));
+        add(carried, SampleKind::Magnetometer, at_s(0.1 * i), seen(q_ref_body, field));
       } else if (i == 20) {
-        carried.add(SampleKind::Sun, at_s(0.1 * i), seen(q_ref_body, sun));
+        add(carried, SampleKind::Sun, at_s(0.1 * i), seen(q_ref_body, sun));
       }
     }
     const auto attitude = carried.attitude();
@@ -115,7 +120,7 @@ TEST(CarriedDirections, WhatCarryingAddsIsOfThoseThatWereCarried) {
   const double once_rad2 = kOwn_rad2 + kNoise_rad2 + kDrift_rad * kDrift_rad;
   expect_covariance(carried, covariance_of_two(once_rad2, once_rad2));
   // The noise of two steps adds as variance, the drift of the bias as angle.
-  carried.add(SampleKind::Sun, at_s(0.1), seen(Quaterniond::Identity(), kSun));
+  add(carried, SampleKind::Sun, at_s(0.1), seen(Quaterniond::Identity(), kSun));
   carried.turn(at_s(0.2), Vector3d::Zero(), {.noise_rad2 = kNoise_rad2, .drift_rad = kDrift_rad});
   const double twice_rad2 = kOwn_rad2 + 2.0 * kNoise_rad2 + 4.0 * kDrift_rad * kDrift_rad;
   expect_covariance(carried, covariance_of_two(once_rad2, twice_rad2));
@@ -125,11 +130,11 @@ TEST(CarriedDirections, AfterFiveSecondsADirectionIsForgotten) {
   CarriedDirections carried = both(10.0);
   carried.turn(at_s(15.0), Vector3d::Zero(), {});
   EXPECT_TRUE(carried.attitude());
-  carried.add(SampleKind::Sun, at_s(15.0), seen(Quaterniond::Identity(), kSun));
+  add(carried, SampleKind::Sun, at_s(15.0), seen(Quaterniond::Identity(), kSun));
   carried.turn(at_s(15.1), Vector3d::Zero(), {});
   EXPECT_TRUE(is_unobservable(carried));
   // The Sun is still valid.
-  carried.add(SampleKind::Magnetometer, at_s(15.1), seen(Quaterniond::Identity(), kField));
+  add(carried, SampleKind::Magnetometer, at_s(15.1), seen(Quaterniond::Identity(), kField));
   EXPECT_TRUE(carried.attitude());
 }
 
@@ -148,11 +153,11 @@ TEST(CarriedDirections, ContradictEachOtherWhereTheirAngleIsOffByMoreThanNoise) 
     CarriedDirections carried;
     const double off_rad =
         sigmas * std::numbers::sqrt2 * std::sqrt(kSigma_rad * kSigma_rad + carried_rad2);
-    carried.add(SampleKind::Sun, at_s(0.0), seen(Quaterniond::Identity(), kSun));
-    carried.add(SampleKind::Magnetometer, at_s(0.0),
-                {.body = quaternion_by(off_rad * Vector3d::UnitZ()) * kField,
-                 .ref = kField,
-                 .sigma_rad = kSigma_rad});
+    add(carried, SampleKind::Sun, at_s(0.0), seen(Quaterniond::Identity(), kSun));
+    add(carried, SampleKind::Magnetometer, at_s(0.0),
+        {.body = quaternion_by(off_rad * Vector3d::UnitZ()) * kField,
+         .ref = kField,
+         .sigma_rad = kSigma_rad});
     carried.turn(at_s(0.1), Vector3d::Zero(), {.noise_rad2 = carried_rad2, .drift_rad = 0.0});
     return carried;
   };

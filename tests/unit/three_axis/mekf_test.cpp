@@ -14,8 +14,12 @@ namespace spindrift::testing::mekf_test {
 using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
-UncertainAttitude known_to(const Eigen::Quaterniond& q, double sigma_rad) {
-  return {.q_ref_body = q, .covariance_rad2 = sigma_rad * sigma_rad * Matrix3d::Identity()};
+SensitiveAttitude known_to(const Eigen::Quaterniond& q, double sigma_rad) {
+  return {{.q_ref_body = q, .covariance_rad2 = sigma_rad * sigma_rad * Matrix3d::Identity()}};
+}
+
+SeenDirection seen(SampleKind kind, const Vector3d& body, const Vector3d& ref, double sigma_rad) {
+  return {.t = at_s(0.0), .kind = kind, .direction = {body, ref, sigma_rad}};
 }
 
 TEST(TurnOfAnEvenlyChangingRate, IsTheIntegralOfTheBody) {
@@ -108,7 +112,7 @@ TEST(Mekf, ADirectionSaysNothingOfTheTurnAboutIt) {
     const double sigma_rad = 10.0 * kRadPerDeg;
     Mekf filter{known_to(truth * quaternion_by(normal_vector(rng, sigma_rad)), sigma_rad), 0.001};
     for (int repeated = 0; repeated < 50; ++repeated) {
-      filter.update(ObservedDirection{body, ref, 0.002});
+      filter.update(seen(SampleKind::Sun, body, ref, 0.002));
     }
     const Matrix3d covariance = filter.attitude_covariance_rad2();
     ASSERT_NEAR(std::sqrt(body.dot(covariance * body)), sigma_rad, 0.03 * sigma_rad);

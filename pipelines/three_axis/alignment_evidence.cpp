@@ -1,0 +1,54 @@
+#include "pipelines/three_axis/alignment_evidence.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "pipelines/statistics/distributions.h"
+#include "pipelines/statistics/significance.h"
+
+namespace spindrift {
+namespace {
+
+constexpr double kLeastSquare = kFarOffPriorSigmas * kFarOffPriorSigmas;
+
+/// Returns whether this many numbers have a chi-square as rare as that of one beyond 4 sigma.
+bool is_far_off(double square, double freedom) {
+  static const double chance = chi_square_tail(kLeastSquare, 1.0);
+  return square > kLeastSquare && square > chi_square_beyond(chance, std::max(freedom, 1.0));
+}
+
+}  // namespace
+
+/// Where the errors are as stated, the covariance of their estimate is what the innovations have
+/// taken from the stated one. What they have taken next to nothing from does not count.
+std::optional<ErrorBeyond> AlignmentEvidence::beyond() const {
+  std::optional<ErrorBeyond> most;
+  const auto see = [&]<int kCount>(std::string_view key, int first) {
+    using Covariance = Eigen::Matrix<double, kCount, kCount>;
+    const Covariance stated = prior_.block<kCount, kCount>(first, first);
+    const Covariance shown = stated - covariance_.block<kCount, kCount>(first, first);
+    const Covariance little = 1e-3 * stated.trace() / kCount * Covariance::Identity();
+    if (stated.trace() == 0.0) {
+      return;
+    }
+    const Eigen::LDLT<Covariance> solver{shown + little};
+    const Eigen::Matrix<double, kCount, 1> off = estimate_.segment<kCount>(first);
+    if (!is_far_off(off.dot(solver.solve(off)), solver.solve(shown).trace())) {
+      return;
+    }
+    const double sigmas = std::sqrt(off.dot((stated + little).ldlt().solve(off)));
+    if (!most || sigmas > most->sigmas) {
+      most = ErrorBeyond{.key = key, .sigmas = sigmas};
+    }
+  };
+  see.operator()<3>("star_tracker_deg", StarTrackerError);
+  see.operator()<3>("sun_sensor_deg", SunSensorError);
+  see.operator()<3>("magnetometer_deg", MagnetometerError);
+  see.operator()<3>("magnetometer_bias_nt", MagnetometerBiasError);
+  see.operator()<3>("gyro_scale", GyroScaleError);
+  see.operator()<6>("gyro_deg", GyroAxisError);
+  see.operator()<3>("time_tag_s", StarTrackerTimeError);
+  return most;
+}
+
+}  // namespace spindrift
