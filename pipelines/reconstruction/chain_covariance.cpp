@@ -5,7 +5,6 @@
 
 #include "pipelines/frames/rotation_vector.h"
 #include "pipelines/reconstruction/chain_fit.h"
-#include "pipelines/statistics/significance.h"
 
 namespace spindrift {
 namespace {
@@ -16,8 +15,6 @@ using Eigen::Vector3d;
 
 /// The bias and the misalignment of the sun sensor, which the fit estimates.
 constexpr Eigen::Index kEstimated = SharedStarTracker;
-/// Share of the prior variance below which samples say nothing of an error.
-constexpr double kLeastLearned = 1e-6;
 
 /// Holds the normal equations of one node and the shared errors.
 struct Equations {
@@ -82,25 +79,16 @@ SharedCovariance left_by(const ChainInformation& known, const SharedCovariance& 
   return 0.5 * (left + left.transpose());
 }
 
-/// Tests the errors that explain the samples best against what their priors let them be, and names
-/// the one that is the farthest from zero.
-std::optional<FileError> file_error(const SharedVector& best, const SharedCovariance& prior,
-                                    const SharedCovariance& left) {
-  std::optional<FileError> worst;
-  bool contradicts = false;
-  for (int i = SharedSunSensor; i < kSharedErrors; ++i) {
-    const double learned = prior(i, i) - left(i, i);
-    if (!(learned > kLeastLearned * prior(i, i))) {
-      continue;
-    }
-    contradicts = contradicts || std::abs(best[i]) > kFarOffPriorSigmas * std::sqrt(learned);
-    const double prior_sigmas = std::abs(best[i]) / std::sqrt(prior(i, i));
-    if (!worst || prior_sigmas > worst->prior_sigmas) {
-      worst = {.error = kSharedAlignment.at(static_cast<std::size_t>(i - SharedSunSensor)),
-               .prior_sigmas = prior_sigmas};
-    }
-  }
-  return contradicts ? worst : std::nullopt;
+/// Tests the errors that explain the samples best against what their priors let them be.
+std::optional<ErrorBeyond> beyond_prior(const SharedVector& best, const SharedCovariance& left,
+                                        const AttitudeAlignment& alignment) {
+  constexpr int kCount = kSharedErrors - SharedSunSensor;
+  FilterErrors estimate = FilterErrors::Zero();
+  estimate(kSharedAlignment) = best.tail<kCount>();
+  FilterAlignment covariance = alignment.topLeftCorner<kFilterErrors, kFilterErrors>();
+  covariance(kSharedAlignment, kSharedAlignment) = left.bottomRightCorner<kCount, kCount>();
+  return error_beyond(estimate, alignment.topLeftCorner<kFilterErrors, kFilterErrors>(),
+                      covariance);
 }
 
 }  // namespace
@@ -181,7 +169,8 @@ FittedFile fitted_file(const ChainInformation& known, const ChainNoise& noise,
   of_fit.topLeftCorner<kEstimated, kEstimated>() = prior.topLeftCorner<kEstimated, kEstimated>();
   const SharedCovariance left = left_by(known, prior);
   const SharedVector best = left * score;
-  return {.change = best - left_by(known, of_fit) * score, .off = file_error(best, prior, left)};
+  return {.change = best - left_by(known, of_fit) * score,
+          .beyond = beyond_prior(best, left, noise.alignment)};
 }
 
 Matrix3d allowed_by_file(const ChainResidual& residual, const PerShared& node_per_shared,

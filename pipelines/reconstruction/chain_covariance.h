@@ -14,6 +14,7 @@
 
 #include "pipelines/reconstruction/chain.h"
 #include "pipelines/reconstruction/shared_errors.h"
+#include "pipelines/three_axis/alignment_evidence.h"
 
 namespace spindrift {
 
@@ -34,18 +35,12 @@ SharedErrors errors_of(const ChainInformation& known, const ChainNoise& noise);
 /// Returns the least covariance that any estimate of all shared errors leaves.
 SharedCovariance least_errors_of(const ChainInformation& known, const ChainNoise& noise);
 
-/// Holds an error of the mission file that the samples contradict.
-struct FileError {
-  int error;            ///< Index in AttitudeAlignment.
-  double prior_sigmas;  ///< How far the samples put it from zero.
-};
-
 /// Holds the shared errors that explain the samples best, within their priors.
 struct FittedFile {
   /// How far the shared errors lie from those of the fit, which takes most of them as zero. What is
   /// left of the residuals is free of the errors of the mission file.
   SharedVector change = SharedVector::Zero();
-  std::optional<FileError> off = std::nullopt;  ///< The worst error, if it exceeds its prior.
+  std::optional<ErrorBeyond> beyond = std::nullopt;
 };
 
 FittedFile fitted_file(const ChainInformation& known, const ChainNoise& noise,

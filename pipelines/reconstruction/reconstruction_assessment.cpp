@@ -1,6 +1,7 @@
 #include "pipelines/reconstruction/reconstruction_assessment.h"
 
 #include <algorithm>
+#include <string>
 #include <utility>
 
 #include "pipelines/frames/angle.h"
@@ -97,6 +98,12 @@ Assessment assess(const ReconstructionRequest& request, const Observations& all,
   add_noise("sun", result.sun, doubts);
   add_noise("star", result.star, doubts);
   add_bias(*request.sensors.gyro, result, file, doubts);
+  if (file.beyond) {
+    doubts.add({AlignmentOff,
+                {{"key", "three_axis.alignment." + std::string{file.beyond->key}},
+                 {"sigmas", file.beyond->sigmas}}},
+               true);
+  }
   const ReconstructedAttitude& separation = result.events.front().attitude;
   if (!request.sensors.inertia && separation.t < all.origin) {
     doubts.add({ConstantRate}, false);

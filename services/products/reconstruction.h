@@ -41,6 +41,7 @@ inline AttitudeEstimate estimate_of(const Reconstruction& solution,
           .q_icrf_body = attitude.q_icrf_body,
           .rate_body_rad_s = attitude.rate_body_rad_s,
           .covariance_rad2 = attitude.covariance_rad2,
+          .noise_sigma_rad = attitude.noise_sigma_rad(),
           .assessment = solution.assessment,
           .source = solution.method == ReconstructionMethod::Batch ? AttitudeSource::Batch
                                                                    : AttitudeSource::Sequential};
@@ -222,6 +223,8 @@ struct ReconstructedAttitudeTable {
                     [](const Row& row) { return row.attitude.rate_body_rad_s.z(); }},
       ProductColumn{"sigma_deg",
                     [](const Row& row) { return row.attitude.sigma_rad() * kDegPerRad; }},
+      ProductColumn{"noise_sigma_deg",
+                    [](const Row& row) { return row.attitude.noise_sigma_rad() * kDegPerRad; }},
       ProductColumn{"cov_xx_deg2", &covariance_deg2<0, 0>},
       ProductColumn{"cov_xy_deg2", &covariance_deg2<0, 1>},
       ProductColumn{"cov_xz_deg2", &covariance_deg2<0, 2>},

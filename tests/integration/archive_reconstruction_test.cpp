@@ -126,6 +126,7 @@ TEST_F(ArchiveReconstruction, ComesBackAsItIsAnnouncedAndOneOfMoreSamplesIsNews)
     EXPECT_EQ(announced[i].q_icrf_body.coeffs(), expected[i].q_icrf_body.coeffs());
     EXPECT_EQ(announced[i].rate_body_rad_s, expected[i].rate_body_rad_s);
     EXPECT_NEAR(announced[i].sigma_rad(), expected[i].sigma_rad(), 1e-15);
+    EXPECT_NEAR(announced[i].noise_sigma_rad, expected[i].noise_sigma_rad, 1e-15);
     EXPECT_EQ(announced[i].source, AttitudeSource::Batch);
     EXPECT_EQ(announced[i].assessment, expected[i].assessment);
   }
