@@ -447,7 +447,7 @@ CREATE TABLE spin_estimate (
   ra_deg               REAL NOT NULL CHECK (ra_deg >= 0 AND ra_deg < 360),
   dec_deg              REAL NOT NULL CHECK (dec_deg BETWEEN -90 AND 90),
   sigma_deg            REAL NOT NULL CHECK (sigma_deg >= 0),
-  noise_sigma_deg      REAL CHECK (noise_sigma_deg >= 0),  -- what sigma_deg would be if the mission file were exact
+  noise_sigma_deg      REAL NOT NULL CHECK (noise_sigma_deg >= 0),  -- what would be left if the mission file were exact
   cov_east_east_deg2   REAL NOT NULL,
   cov_east_north_deg2  REAL NOT NULL,
   cov_north_north_deg2 REAL NOT NULL,
@@ -634,7 +634,7 @@ CREATE TABLE attitude (
   rate_y_rad_s REAL,
   rate_z_rad_s REAL,
   sigma_deg    REAL NOT NULL CHECK (sigma_deg >= 0),
-  noise_sigma_deg REAL CHECK (noise_sigma_deg >= 0),  -- what sigma_deg would be if the mission file were exact
+  noise_sigma_deg REAL NOT NULL CHECK (noise_sigma_deg >= 0),  -- what would be left if the mission file were exact
   cov_xx_deg2  REAL NOT NULL,  -- of a small turn about the axes of the body; sigma_deg is the root of its trace
   cov_xy_deg2  REAL NOT NULL,
   cov_xz_deg2  REAL NOT NULL,
@@ -721,7 +721,7 @@ CREATE TABLE reconstruction_event (
   euler312_orbit_deg_2 REAL,
   euler312_orbit_deg_3 REAL,
   sigma_deg            REAL NOT NULL CHECK (sigma_deg >= 0),
-  noise_sigma_deg      REAL CHECK (noise_sigma_deg >= 0),  -- what sigma_deg would be if the mission file were exact
+  noise_sigma_deg      REAL NOT NULL CHECK (noise_sigma_deg >= 0),  -- what would be left if the mission file were exact
   cov_xx_deg2          REAL NOT NULL,  -- as in attitude
   cov_xy_deg2          REAL NOT NULL,
   cov_xz_deg2          REAL NOT NULL,

@@ -27,43 +27,64 @@ using Eigen::Vector3d;
 // A noise estimate requires more residuals than this.
 constexpr std::int64_t kFewResiduals = 10;
 
-SensorResiduals sun_residuals(const Observations& all, const ChainSolution& fine,
+/// Holds a solution with what the samples say of it.
+struct Judged {
+  const ChainSolution& fine;
+  ChainInformation known;
+  SharedErrors errors;
+  FittedFile file;
+};
+
+Judged judged(const ChainSolution& fine) {
+  const SolvedChain& solved = fine.solved;
+  ChainInformation known = information_of(solved.chain, solved.state);
+  return {.fine = fine,
+          .known = known,
+          .errors = errors_of(known, solved.chain.noise),
+          .file = fitted_file(known, solved.chain.noise, solved.state)};
+}
+
+SensorResiduals sun_residuals(const Observations& all, const Judged& judged,
                               std::vector<Observation>& said) {
-  const Chain& chain = fine.solved.chain;
-  const Matrix3d noise_rad2 = std::pow(chain.noise.sun_rad, 2) * Matrix3d::Identity();
+  const SolvedChain& solved = judged.fine.solved;
+  const double variance_rad2 = std::pow(solved.chain.noise.sun_rad, 2);
   SensorResiduals residuals;
   double squares = 0.0;
-  for (const ChainSun& sun : chain.sun) {
+  for (const ChainSun& sun : solved.chain.sun) {
+    const ChainResidual residual = residual_of(sun, solved.state);
+    const PerShared& node = judged.known.per_shared[sun.node];
     Observation one = sun_observation(
-        all, sun.of, sun.of.measured_body - predicted_sun(fine.solved.state, sun), noise_rad2);
+        all, sun.of, -residual.off,
+        variance_rad2 * Matrix3d::Identity() + allowed_by_file(residual, node, judged.errors));
     one.limit = squares_of(0.5);
     if (one.nis > one.limit) {
       one.rejected_by = Rejection::Innovation;
       ++residuals.outliers;
     } else {
-      squares += one.nis;
+      squares += left_of(residual, node, judged.file.change).squaredNorm() / variance_rad2;
       ++residuals.count;
     }
     said.push_back(one);
   }
   if (residuals.count > kFewResiduals) {
     residuals.noise =
-        fine.louder_sun * std::sqrt(squares / (2.0 * static_cast<double>(residuals.count)));
+        judged.fine.louder_sun * std::sqrt(squares / (2.0 * static_cast<double>(residuals.count)));
   }
   return residuals;
 }
 
 /// Counts a fix that agrees with its neighbours as used, however far off the solution is; its
 /// observation is the one relative to its neighbours.
-SensorResiduals star_residuals(const ChainSolution& fine, std::vector<Observation>& said) {
+SensorResiduals star_residuals(const Judged& judged, std::vector<Observation>& said) {
+  const ChainSolution& fine = judged.fine;
   const Chain& chain = fine.solved.chain;
   said.insert(said.end(), fine.stars.said.begin(), fine.stars.said.end());
   SensorResiduals residuals{.count = std::ssize(chain.stars),
                             .outliers = std::ssize(fine.stars.gated())};
   double squares = 0.0;
   for (const ChainStar& star : chain.stars) {
-    const Vector3d off_rad = rotation_vector_of(
-        fine.solved.state.q_icrf_body[star.node].conjugate() * star.of.q_icrf_body);
+    const Vector3d off_rad = left_of(residual_of(star, fine.solved.state),
+                                     judged.known.per_shared[star.node], judged.file.change);
     squares += off_rad.squaredNorm() / std::pow(chain.noise.star_rad, 2);
   }
   if (fine.louder_star > 1.0) {
@@ -98,18 +119,19 @@ std::vector<OpenBiasDirection> open_directions(const Observations& all, const Ch
 }
 
 /// @param gyro_noise_rad_s Noise that the turns of the chain were built with.
-NodeEstimates nodes_of(const SolvedChain& solved, const ChainCovariance& known,
-                       double gyro_noise_rad_s) {
+NodeEstimates nodes_of(const SolvedChain& solved, ChainInformation known,
+                       const SharedErrors& errors, double gyro_noise_rad_s) {
   return {.times_s = solved.chain.times_s,
           .q_icrf_body = solved.state.q_icrf_body,
-          .covariances_rad2 = known.nodes_rad2,
+          .own_rad2 = std::move(known.own_rad2),
+          .per_shared = std::move(known.per_shared),
           .bias_rad_s = solved.state.bias_rad_s,
-          .bias_covariance_rad2_s2 = known.shared.topLeftCorner<3, 3>(),
-          .start_bias_covariance = known.node_shared.front().leftCols<3>(),
+          .shared = errors,
           .gyro_noise_rad_s = gyro_noise_rad_s};
 }
 
-/// Returns the history with the stated noise, whatever noise the samples show.
+/// Returns the history with the stated noise, whatever noise the samples show, and with the least
+/// errors that any estimate leaves.
 History bound_of(const ReconstructionRequest& request, const Observations& all,
                  const ChainSolution& fine) {
   SolvedChain stated = fine.solved;
@@ -119,8 +141,11 @@ History bound_of(const ReconstructionRequest& request, const Observations& all,
   for (Turn& turn : stated.chain.turns) {
     turn.covariance_rad2 *= std::pow(stated_rad_s / all.gyro_noise_rad_s, 2);
   }
-  return history_of(request, all,
-                    nodes_of(stated, covariance_of(stated.chain, stated.state), stated_rad_s));
+  ChainInformation known = information_of(stated.chain, stated.state);
+  const SharedCovariance least = least_errors_of(known, stated.chain.noise);
+  return history_of(
+      request, all,
+      nodes_of(stated, std::move(known), {.total = least, .noise = least}, stated_rad_s));
 }
 
 std::vector<ReconstructedEvent> bounded_events(const ReconstructionRequest& request,
@@ -143,12 +168,13 @@ Expected<Reconstruction> reconstruct_batch(const ReconstructionRequest& request,
     return Unexpected{fine.error()};
   }
   const SolvedChain& solved = fine->solved;
-  const ChainCovariance known = covariance_of(solved.chain, solved.state);
-  History history = history_of(request, all, nodes_of(solved, known, all.gyro_noise_rad_s));
-  const Matrix3d bias_covariance_rad2_s2 = known.shared.topLeftCorner<3, 3>();
+  const Judged at = judged(*fine);
+  History history =
+      history_of(request, all, nodes_of(solved, at.known, at.errors, all.gyro_noise_rad_s));
+  const Matrix3d bias_covariance_rad2_s2 = at.errors.total.topLeftCorner<3, 3>();
   std::vector<Observation> said;
-  const SensorResiduals sun = sun_residuals(all, *fine, said);
-  const SensorResiduals star = star_residuals(*fine, said);
+  const SensorResiduals sun = sun_residuals(all, at, said);
+  const SensorResiduals star = star_residuals(at, said);
   add_gyro_left_out(all, said);
   Reconstruction result{.method = ReconstructionMethod::Batch,
                         .events = bounded_events(request, all, *fine, history),
@@ -162,11 +188,12 @@ Expected<Reconstruction> reconstruct_batch(const ReconstructionRequest& request,
                         .said = std::move(said),
                         .assessment = {},
                         .iterations = solved.iterations};
-  if (solved.chain.noise.misalignment_rad) {
+  if (solved.chain.noise.on_misalignment() && !all.sun.empty()) {
     result.misalignment =
-        SunMisalignment{solved.state.misalignment_rad, known.shared.bottomRightCorner<3, 3>()};
+        SunMisalignment{solved.state.misalignment_rad,
+                        at.errors.total.block<3, 3>(SharedSunSensor, SharedSunSensor)};
   }
-  result.assessment = assess(request, all, result, fine->stars);
+  result.assessment = assess(request, all, result, fine->stars, at.file);
   return result;
 }
 

@@ -8,6 +8,8 @@
 ///     star   log(q_star^-1 q)                          over its noise
 ///     bias, misalignment                               over their prior sigmas
 ///
+/// What else the mission file may be off by is not estimated (chain_covariance.h).
+///
 /// Attitude errors are small rotations about body axes. A sun vector leaves the rotation about
 /// itself open, so that without a star fix the attitude is unobservable.
 
@@ -21,24 +23,34 @@
 
 #include "pipelines/reconstruction/observations.h"
 #include "pipelines/reconstruction/rate_track.h"
+#include "pipelines/reconstruction/shared_errors.h"
 
 namespace spindrift {
 
 struct ChainSun {
   std::size_t node;
   SunObservation of;
+  Eigen::Vector3d rate_body_rad_s;
+  /// How many times the variance of the noise it may be off by, since the mission file may be off.
+  double allowed = 1.0;
 };
 
 struct ChainStar {
   std::size_t node;
   StarObservation of;
+  Eigen::Vector3d rate_body_rad_s;
 };
 
 struct ChainNoise {
   double sun_rad;
   double star_rad;
   double bias_rad_s;
-  std::optional<double> misalignment_rad;  ///< Empty if no misalignment is estimated.
+  AttitudeAlignment alignment = AttitudeAlignment::Zero();
+
+  SharedCovariance prior() const { return prior_of(bias_rad_s, alignment); }
+  /// Returns the prior information on the sun sensor's misalignment; empty if it counts as zero and
+  /// is not estimated.
+  std::optional<Eigen::Matrix3d> on_misalignment() const;
 };
 
 struct Chain {
@@ -67,6 +79,18 @@ ChainState started_at(const Chain& chain, const ChainStar& star);
 
 /// Returns exp(misalignment) R(q)^T sun_icrf.
 Eigen::Vector3d predicted_sun(const ChainState& state, const ChainSun& sun);
+
+/// Holds a residual at a state with its derivatives by the node's attitude and the shared errors.
+struct ChainResidual {
+  Eigen::Vector3d off;
+  Eigen::Matrix3d by_node;
+  PerShared by_shared;
+};
+
+ChainResidual residual_of(const ChainSun& sun, const ChainState& state);
+ChainResidual residual_of(const ChainStar& star, const ChainState& state);
+/// Returns the residual of the turn behind node `i`; its derivatives are those of the turn.
+Eigen::Vector3d gyro_residual(const Chain& chain, std::size_t i, const ChainState& state);
 
 /// Returns the index of the node at `t_s`, which must be a node time.
 std::size_t node_at(const Chain& chain, double t_s);

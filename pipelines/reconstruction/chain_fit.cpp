@@ -34,13 +34,19 @@ constexpr double kNoWeight = 64.0;
 
 class NearLoss final : public ceres::LossFunction {
  public:
+  explicit NearLoss(double allowed) : allowed_{allowed} {}
+
   void Evaluate(double squares, double* rho) const override {
     constexpr double kSpan = kNoWeight - kFullWeight;
-    const double left = std::clamp((kNoWeight - squares) / kSpan, 0.0, 1.0);
-    rho[0] = std::min(squares, kFullWeight) + kSpan * (1.0 - left * left * left) / 3.0;
-    rho[1] = weight_of(squares);
-    rho[2] = left < 1.0 ? -2.0 * left / kSpan : 0.0;
+    const double scaled = squares / allowed_;
+    const double left = std::clamp((kNoWeight - scaled) / kSpan, 0.0, 1.0);
+    rho[0] = allowed_ * (std::min(scaled, kFullWeight) + kSpan * (1.0 - left * left * left) / 3.0);
+    rho[1] = weight_of(scaled);
+    rho[2] = left < 1.0 ? -2.0 * left / kSpan / allowed_ : 0.0;
   }
+
+ private:
+  double allowed_;
 };
 
 void write_vector_slopes(const Matrix3d& slopes, double* jacobian) {
@@ -128,21 +134,21 @@ class StarCost final : public ceres::SizedCostFunction<3, 4> {
   double noise_rad_;
 };
 
-/// The prior of a parameter with zero mean and standard deviation `sigma`.
+/// The prior of a parameter with zero mean.
 class PriorCost final : public ceres::SizedCostFunction<3, 3> {
  public:
-  explicit PriorCost(double sigma) : sigma_{sigma} {}
+  explicit PriorCost(const Matrix3d& information) : whitening_{information.llt().matrixU()} {}
 
   bool Evaluate(double const* const* at, double* residual, double** jacobians) const override {
-    Eigen::Map<Vector3d>{residual} = Eigen::Map<const Vector3d>{at[0]} / sigma_;
+    Eigen::Map<Vector3d>{residual} = whitening_ * Eigen::Map<const Vector3d>{at[0]};
     if (jacobians != nullptr) {
-      write_vector_slopes(Matrix3d::Identity() / sigma_, jacobians[0]);
+      write_vector_slopes(whitening_, jacobians[0]);
     }
     return true;
   }
 
  private:
-  double sigma_;
+  Matrix3d whitening_;
 };
 
 /// Owns the cost and loss functions to which the Ceres problem points.
@@ -150,10 +156,13 @@ class ChainProblem {
  public:
   ChainProblem(const Chain& chain, ChainState& state, SunLoss loss)
       : problem_{keeping()},
-        bias_prior_{chain.noise.bias_rad_s},
-        misalignment_prior_{chain.noise.misalignment_rad.value_or(1.0)} {
-    ceres::LossFunction* const sun_loss =
-        loss == SunLoss::Far ? &far_ : static_cast<ceres::LossFunction*>(&near_);
+        bias_prior_{std::pow(chain.noise.bias_rad_s, -2) * Matrix3d::Identity()},
+        misalignment_prior_{chain.noise.on_misalignment().value_or(Matrix3d::Identity())} {
+    const auto loss_of = [&](const ChainSun& sun) -> ceres::LossFunction* {
+      return loss == SunLoss::Far
+                 ? &far_
+                 : static_cast<ceres::LossFunction*>(&near_.emplace_back(sun.allowed));
+    };
     double* const bias = state.bias_rad_s.data();
     double* const misalignment = state.misalignment_rad.data();
     const auto q = [&](std::size_t node) { return state.q_icrf_body[node].coeffs().data(); };
@@ -166,7 +175,7 @@ class ChainProblem {
     }
     for (const ChainSun& sun : chain.sun) {
       SunCost& cost = sun_.emplace_back(sun.of, chain.noise.sun_rad);
-      problem_.AddResidualBlock(&cost, sun_loss, q(sun.node), misalignment);
+      problem_.AddResidualBlock(&cost, loss_of(sun), q(sun.node), misalignment);
     }
     for (const ChainStar& star : chain.stars) {
       StarCost& cost = star_.emplace_back(star.of, chain.noise.star_rad);
@@ -174,7 +183,7 @@ class ChainProblem {
     }
     problem_.AddResidualBlock(&bias_prior_, nullptr, bias);
     problem_.AddResidualBlock(&misalignment_prior_, nullptr, misalignment);
-    if (!chain.noise.misalignment_rad) {
+    if (!chain.noise.on_misalignment()) {
       problem_.SetParameterBlockConstant(misalignment);
     }
   }
@@ -193,7 +202,7 @@ class ChainProblem {
 
   /// The loss of the coarse solution is linear beyond 3 sigmas.
   ceres::HuberLoss far_{3.0};
-  NearLoss near_;
+  std::deque<NearLoss> near_;
   ceres::EigenQuaternionManifold manifold_;
   ceres::Problem problem_;
   std::deque<GyroCost> gyro_;
@@ -259,6 +268,11 @@ Error not_explained(const Chain& chain, const ChainState& state) {
 double weight_of(double squares) {
   const double left = std::clamp((kNoWeight - squares) / (kNoWeight - kFullWeight), 0.0, 1.0);
   return left * left;
+}
+
+double weight_of(const ChainSun& sun, const Chain& chain, const ChainState& state) {
+  const double squares = (predicted_sun(state, sun) - sun.of.measured_body).squaredNorm();
+  return weight_of(squares / (sun.allowed * chain.noise.sun_rad * chain.noise.sun_rad));
 }
 
 double squares_of(double weight) {

@@ -17,6 +17,7 @@ enum class SunLoss {
 /// Returns the weight that `SunLoss::Near` leaves to a sun vector.
 /// @param squares Squared residual, in sigmas squared.
 double weight_of(double squares);
+double weight_of(const ChainSun& sun, const Chain& chain, const ChainState& state);
 /// The inverse of `weight_of`.
 double squares_of(double weight);
 

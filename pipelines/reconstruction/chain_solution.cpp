@@ -1,5 +1,6 @@
 #include "pipelines/reconstruction/chain_solution.h"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <iterator>
@@ -9,6 +10,7 @@
 #include "pipelines/frames/rotation_vector.h"
 #include "pipelines/reconstruction/chain_covariance.h"
 #include "pipelines/reconstruction/chain_fit.h"
+#include "pipelines/statistics/considered.h"
 #include "pipelines/statistics/median.h"
 #include "pipelines/statistics/significance.h"
 
@@ -65,10 +67,12 @@ Expected<SolvedChain> coarse_solution(const Observations& all,
   }
 }
 
-double louder_sun(const SolvedChain& solved) {
+double louder_sun(const SolvedChain& solved, const ChainInformation& known,
+                  const FittedFile& file) {
   std::vector<double> lengths;
   for (const ChainSun& sun : solved.chain.sun) {
-    lengths.push_back((predicted_sun(solved.state, sun) - sun.of.measured_body).norm());
+    lengths.push_back(
+        left_of(residual_of(sun, solved.state), known.per_shared[sun.node], file.change).norm());
   }
   // The median length of a vector of two standard normal components is 1.17741.
   const double louder = upper_median(lengths) / 1.17741 / solved.chain.noise.sun_rad;
@@ -85,15 +89,30 @@ double louder_star(const RateTrack& rates, std::span<const StarObservation> star
     times_s.push_back(star.t_s);
   }
   const std::vector<Turn> turns = rates.turns(times_s, bias_rad_s);
+  std::vector<Vector3d> off_rad;
+  std::vector<PerShared> slopes;
+  Considered<0, kSharedErrors> file;
   double squares = 0.0;
-  double excess_rad2 = 0.0;
+  double expected_rad2 = 0.0;
   for (std::size_t i = 0; i < turns.size(); ++i) {
-    const Vector3d off_rad = rotation_vector_of(
-        turns[i].turn.conjugate() * (stars[i].q_icrf_body.conjugate() * stars[i + 1].q_icrf_body));
-    const Matrix3d expected_rad2 =
+    const Vector3d& off = off_rad.emplace_back(rotation_vector_of(
+        turns[i].turn.conjugate() * (stars[i].q_icrf_body.conjugate() * stars[i + 1].q_icrf_body)));
+    const PerShared& slope =
+        slopes.emplace_back(difference_per_shared(rates, stars[i], stars[i + 1], turns[i]));
+    const Matrix3d covariance_rad2 =
         turns[i].covariance_rad2 + 2.0 * noise.star_rad * noise.star_rad * Matrix3d::Identity();
-    squares += off_rad.dot(expected_rad2.llt().solve(off_rad));
-    excess_rad2 += off_rad.squaredNorm() - expected_rad2.trace();
+    const Eigen::LLT<Matrix3d> root{covariance_rad2};
+    file.own += slope.transpose() * root.solve(slope);
+    file.score += slope.transpose() * root.solve(off);
+    squares += off.dot(root.solve(off));
+    expected_rad2 += covariance_rad2.trace();
+  }
+  // The bias is that of a solution; the errors of the mission file are those that fit best.
+  const SharedVector fitted = file.estimate(prior_of(0.0, noise.alignment));
+  squares -= file.score.dot(fitted);
+  double excess_rad2 = -expected_rad2;
+  for (std::size_t i = 0; i < turns.size(); ++i) {
+    excess_rad2 += (off_rad[i] - slopes[i] * fitted).squaredNorm();
   }
   const double freedom = 3.0 * static_cast<double>(turns.size());
   if (freedom <= 3.0 || noise_is_as_stated(squares, freedom)) {
@@ -140,41 +159,64 @@ ChainNoise noise_of(const ReconstructionRequest& request) {
   return {.sun_rad = sun_sensor ? sun_sensor->noise_rad : 1.0,
           .star_rad = request.sensors.star_tracker->noise_rad,
           .bias_rad_s = request.sensors.gyro->bias_sigma_rad_s,
-          .misalignment_rad = sun_sensor ? sun_sensor->misalignment_sigma_rad : std::nullopt};
+          .alignment = request.sensors.alignment};
 }
 
 struct CoarseSolution {
   SolvedChain solved;
   StarConsensus stars;  ///< Consensus with the bias of the coarse solution.
+  CoarseFindings found;
 };
 
 Expected<CoarseSolution> coarse_of(const ReconstructionRequest& request, const Observations& all) {
   const ChainNoise noise = noise_of(request);
   const StarConsensus first = consensus_of(
       all, all.stars,
-      {.star_rad = noise.star_rad,
-       .bias_rad_s = Vector3d::Zero(),
-       .bias_covariance_rad2_s2 = std::pow(noise.bias_rad_s, 2) * Matrix3d::Identity()});
+      {.star_rad = noise.star_rad, .bias_rad_s = Vector3d::Zero(), .shared = noise.prior()});
   auto solved = coarse_solution(all, first.accepted, noise);
   if (!solved) {
     return Unexpected{solved.error()};
   }
-  StarConsensus stars =
-      consensus_of(all, first.accepted,
-                   {.star_rad = noise.star_rad,
-                    .bias_rad_s = solved->state.bias_rad_s,
-                    .bias_covariance_rad2_s2 =
-                        covariance_of(solved->chain, solved->state).shared.topLeftCorner<3, 3>()});
+  const ChainInformation known = information_of(solved->chain, solved->state);
+  StarConsensus stars = consensus_of(all, first.accepted,
+                                     {.star_rad = noise.star_rad,
+                                      .bias_rad_s = solved->state.bias_rad_s,
+                                      .shared = errors_of(known, noise).total});
   stars.add(first.gated());
   stars.contradict = stars.contradict || first.contradict;
-  return CoarseSolution{.solved = *std::move(solved), .stars = std::move(stars)};
+  const FittedFile file = fitted_file(known, noise, solved->state);
+  const CoarseFindings found{.louder_sun = louder_sun(*solved, known, file), .file = file};
+  return CoarseSolution{.solved = *std::move(solved), .stars = std::move(stars), .found = found};
+}
+
+/// Widens the gates of sun vectors by what the mission file may be off by.
+/// @return True if that changes what any of them weighs by more than a tenth.
+bool allow_for_file(SolvedChain& solved) {
+  Chain& chain = solved.chain;
+  const auto is_far = [&](const ChainSun& sun) {
+    return weight_of(sun, chain, solved.state) < 1.0;
+  };
+  if (chain.noise.alignment.isZero(0.0) || std::ranges::none_of(chain.sun, is_far)) {
+    return false;
+  }
+  const ChainInformation known = information_of(chain, solved.state);
+  const SharedErrors errors = errors_of(known, chain.noise);
+  bool changes = false;
+  for (ChainSun& sun : chain.sun) {
+    const double before = weight_of(sun, chain, solved.state);
+    const Matrix3d by_file_rad2 =
+        allowed_by_file(residual_of(sun, solved.state), known.per_shared[sun.node], errors);
+    sun.allowed += by_file_rad2.trace() / std::pow(chain.noise.sun_rad, 2);
+    changes = changes || weight_of(sun, chain, solved.state) > before + 0.1;
+  }
+  return changes;
 }
 
 }  // namespace
 
-double louder_sun(const ReconstructionRequest& request, const Observations& all) {
+CoarseFindings coarse_findings(const ReconstructionRequest& request, const Observations& all) {
   const auto coarse = coarse_of(request, all);
-  return coarse ? louder_sun(coarse->solved) : 1.0;
+  return coarse ? coarse->found : CoarseFindings{};
 }
 
 Expected<ChainSolution> solution_of(const ReconstructionRequest& request, const Observations& all) {
@@ -185,7 +227,7 @@ Expected<ChainSolution> solution_of(const ReconstructionRequest& request, const 
   ChainNoise noise = noise_of(request);
   ChainSolution found{.solved = {},
                       .stars = coarse->stars,
-                      .louder_sun = louder_sun(coarse->solved),
+                      .louder_sun = coarse->found.louder_sun,
                       .louder_star = louder_star(all.rates, coarse->stars.accepted, noise,
                                                  coarse->solved.state.bias_rad_s)};
   noise.sun_rad *= found.louder_sun;
@@ -199,6 +241,14 @@ Expected<ChainSolution> solution_of(const ReconstructionRequest& request, const 
   }
   found.solved.state = std::move(fitted->state);
   found.solved.iterations = coarse->solved.iterations + fitted->iterations;
+  if (allow_for_file(found.solved)) {
+    fitted = fit(found.solved.chain, found.solved.state, SunLoss::Near);
+    if (!fitted) {
+      return Unexpected{fitted.error()};
+    }
+    found.solved.state = std::move(fitted->state);
+    found.solved.iterations += fitted->iterations;
+  }
   return found;
 }
 

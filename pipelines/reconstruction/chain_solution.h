@@ -6,6 +6,7 @@
 
 #include "pipelines/core/expected.h"
 #include "pipelines/reconstruction/chain.h"
+#include "pipelines/reconstruction/chain_covariance.h"
 #include "pipelines/reconstruction/observations.h"
 #include "pipelines/reconstruction/request.h"
 #include "pipelines/reconstruction/star_consensus.h"
@@ -26,8 +27,13 @@ struct ChainSolution {
   double louder_star;
 };
 
-/// Returns the sun vector noise over the stated one, by the median of a coarse solution; else 1.
-double louder_sun(const ReconstructionRequest& request, const Observations& all);
+struct CoarseFindings {
+  double louder_sun = 1.0;  ///< Sun vector noise over the stated one, by the median.
+  FittedFile file = {};
+};
+
+/// Returns what a coarse solution finds; nothing if there is none.
+CoarseFindings coarse_findings(const ReconstructionRequest& request, const Observations& all);
 
 /// @return Unobservable if the iteration does not converge.
 Expected<ChainSolution> solution_of(const ReconstructionRequest& request, const Observations& all);

@@ -12,56 +12,84 @@ namespace {
 using Eigen::Matrix3d;
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
 
-/// Returns at most 60 attitudes from T1 to T2, T2 excluded, at least one second apart; empty if T1
-/// is T2.
-std::vector<ReconstructedAttitude> arc_to_separation(const ReconstructionRequest& request,
-                                                     const Observations& all,
-                                                     const ReconstructedAttitude& control_on,
-                                                     const Matrix3d& rotation_bias_covariance) {
-  const double arc_s = seconds_between(all.events.front().t, all.origin);
-  const double points = std::clamp(std::floor(arc_s), 1.0, 60.0);
-  const std::optional<Inertia>& inertia = request.sensors.inertia;
-  const auto kg_m2 = inertia ? std::optional{inertia->kg_m2} : std::nullopt;
-  Matrix6d at_start;  // Signs follow from rate = measured rate - bias.
-  at_start << control_on.covariance_rad2, -rotation_bias_covariance,
-      -rotation_bias_covariance.transpose(), control_on.rate_covariance_rad2_s2;
-  // Unmodelled torques, and the nutation of a body of unknown inertia.
-  Eigen::Vector3d acceleration_rad_s2 = Eigen::Vector3d::Constant(request.disturbance_rad_s2);
-  if (!inertia) {
-    acceleration_rad_s2 += unknown_acceleration_rad_s2(control_on.rate_body_rad_s);
-  }
-  ArcState at = start_of_arc({control_on.q_icrf_body, control_on.rate_body_rad_s});
-  std::vector<ReconstructedAttitude> attitudes;
-  for (double i = 1.0; arc_s > 0.0 && i <= points; ++i) {
-    at = torque_free_arc(at, kg_m2, -arc_s / points);
-    const Matrix6d known =
-        covariance_of(at.slopes, {.start = at_start,
-                                  .inertia_fraction = inertia ? inertia->sigma_fraction : 0.0,
-                                  .acceleration_rad_s2 = acceleration_rad_s2});
-    attitudes.push_back({.t = shifted(all.origin, -arc_s * i / points),
-                         .q_icrf_body = at.body.q_icrf_body,
-                         .rate_body_rad_s = at.body.rate_body_rad_s,
-                         .covariance_rad2 = known.topLeftCorner<3, 3>(),
-                         .rate_covariance_rad2_s2 = known.bottomRightCorner<3, 3>()});
-  }
-  std::reverse(attitudes.begin(), attitudes.end());
-  return attitudes;
+/// Returns the derivative of the rate's error, which is the measured rate minus the bias.
+PerShared rate_per_shared(const Eigen::Vector3d& rate_body_rad_s) {
+  PerShared slopes = PerShared::Zero();
+  slopes.middleCols<3>(SharedGyroBias) = -Matrix3d::Identity();
+  slopes.middleCols<9>(SharedGyro) = -measured_per_gyro_error(rate_body_rad_s);
+  return slopes;
 }
 
 std::vector<ReconstructedAttitude> attitudes_of(const Observations& all,
                                                 const NodeEstimates& nodes) {
   std::vector<ReconstructedAttitude> attitudes;
-  const Matrix3d rate_covariance_rad2_s2 =
-      nodes.bias_covariance_rad2_s2 + std::pow(nodes.gyro_noise_rad_s, 2) * Matrix3d::Identity();
   for (std::size_t i = 0; i < nodes.times_s.size(); ++i) {
-    attitudes.push_back({.t = shifted(all.origin, nodes.times_s[i]),
-                         .q_icrf_body = nodes.q_icrf_body[i],
-                         .rate_body_rad_s = all.rates.rate_at(nodes.times_s[i]) - nodes.bias_rad_s,
-                         .covariance_rad2 = nodes.covariances_rad2[i],
-                         .rate_covariance_rad2_s2 = rate_covariance_rad2_s2});
+    const Eigen::Vector3d rate_body_rad_s = all.rates.rate_at(nodes.times_s[i]) - nodes.bias_rad_s;
+    const PerShared& slopes = nodes.per_shared[i];
+    const PerShared rate_slopes = rate_per_shared(rate_body_rad_s);
+    attitudes.push_back(
+        {.t = shifted(all.origin, nodes.times_s[i]),
+         .q_icrf_body = nodes.q_icrf_body[i],
+         .rate_body_rad_s = rate_body_rad_s,
+         .covariance_rad2 = nodes.own_rad2[i] + slopes * nodes.shared.total * slopes.transpose(),
+         .noise_covariance_rad2 =
+             nodes.own_rad2[i] + slopes * nodes.shared.noise * slopes.transpose(),
+         .rate_covariance_rad2_s2 = rate_slopes * nodes.shared.total * rate_slopes.transpose()});
+    attitudes.back().rate_covariance_rad2_s2.diagonal().array() +=
+        std::pow(nodes.gyro_noise_rad_s, 2);
   }
   attitudes.front().rate_covariance_rad2_s2.diagonal().array() +=
       all.rates.start_variance_rad2_s2();
+  return attitudes;
+}
+
+/// Returns the joint covariance of rotation and rate at T2.
+Matrix6d start_covariance(const Observations& all, const NodeEstimates& nodes,
+                          const SharedCovariance& shared) {
+  Eigen::Matrix<double, 6, kSharedErrors> slopes;
+  slopes << nodes.per_shared.front(), rate_per_shared(all.rates.rate_at(0.0) - nodes.bias_rad_s);
+  Matrix6d covariance = slopes * shared * slopes.transpose();
+  covariance.topLeftCorner<3, 3>() += nodes.own_rad2.front();
+  covariance.diagonal().tail<3>().array() +=
+      std::pow(nodes.gyro_noise_rad_s, 2) + all.rates.start_variance_rad2_s2();
+  return covariance;
+}
+
+/// Returns at most 60 attitudes from T1 to T2, T2 excluded, at least one second apart; empty if T1
+/// is T2.
+std::vector<ReconstructedAttitude> arc_to_separation(const ReconstructionRequest& request,
+                                                     const Observations& all,
+                                                     const NodeEstimates& nodes) {
+  const double arc_s = seconds_between(all.events.front().t, all.origin);
+  const double points = std::clamp(std::floor(arc_s), 1.0, 60.0);
+  const BodyState control_on{nodes.q_icrf_body.front(), all.rates.rate_at(0.0) - nodes.bias_rad_s};
+  const std::optional<Inertia>& inertia = request.sensors.inertia;
+  const auto kg_m2 = inertia ? std::optional{inertia->kg_m2} : std::nullopt;
+  // Unmodelled torques, and the nutation of a body of unknown inertia.
+  Eigen::Vector3d acceleration_rad_s2 = Eigen::Vector3d::Constant(request.disturbance_rad_s2);
+  if (!inertia) {
+    acceleration_rad_s2 += unknown_acceleration_rad_s2(control_on.rate_body_rad_s);
+  }
+  const ArcCovariance total{.start = start_covariance(all, nodes, nodes.shared.total),
+                            .inertia_fraction = inertia ? inertia->sigma_fraction : 0.0,
+                            .acceleration_rad_s2 = acceleration_rad_s2};
+  const ArcCovariance noise{.start = start_covariance(all, nodes, nodes.shared.noise),
+                            .inertia_fraction = 0.0,
+                            .acceleration_rad_s2 = acceleration_rad_s2};
+  ArcState at = start_of_arc(control_on);
+  std::vector<ReconstructedAttitude> attitudes;
+  for (double i = 1.0; arc_s > 0.0 && i <= points; ++i) {
+    at = torque_free_arc(at, kg_m2, -arc_s / points);
+    const Matrix6d known = covariance_of(at.slopes, total);
+    attitudes.push_back(
+        {.t = shifted(all.origin, -arc_s * i / points),
+         .q_icrf_body = at.body.q_icrf_body,
+         .rate_body_rad_s = at.body.rate_body_rad_s,
+         .covariance_rad2 = known.topLeftCorner<3, 3>(),
+         .noise_covariance_rad2 = covariance_of(at.slopes, noise).topLeftCorner<3, 3>(),
+         .rate_covariance_rad2_s2 = known.bottomRightCorner<3, 3>()});
+  }
+  std::reverse(attitudes.begin(), attitudes.end());
   return attitudes;
 }
 
@@ -70,9 +98,7 @@ std::vector<ReconstructedAttitude> attitudes_of(const Observations& all,
 History history_of(const ReconstructionRequest& request, const Observations& all,
                    const NodeEstimates& nodes) {
   const std::vector<ReconstructedAttitude> measured = attitudes_of(all, nodes);
-  History history{
-      .attitudes = arc_to_separation(request, all, measured.front(), nodes.start_bias_covariance),
-      .events = {0}};
+  History history{.attitudes = arc_to_separation(request, all, nodes), .events = {0}};
   const std::size_t arc = history.attitudes.size();
   history.attitudes.insert(history.attitudes.end(), measured.begin(), measured.end());
   for (auto event = all.events.begin() + 1; event != all.events.end(); ++event) {

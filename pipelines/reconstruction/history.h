@@ -10,6 +10,7 @@
 #include "pipelines/reconstruction/observations.h"
 #include "pipelines/reconstruction/reconstruction.h"
 #include "pipelines/reconstruction/request.h"
+#include "pipelines/reconstruction/shared_errors.h"
 
 namespace spindrift {
 
@@ -17,10 +18,10 @@ namespace spindrift {
 struct NodeEstimates {
   std::vector<double> times_s;
   std::vector<Eigen::Quaterniond> q_icrf_body;
-  std::vector<Eigen::Matrix3d> covariances_rad2;
+  std::vector<Eigen::Matrix3d> own_rad2;  ///< Covariance if the shared errors were zero.
+  std::vector<PerShared> per_shared;      ///< Derivative of the error by the shared errors.
   Eigen::Vector3d bias_rad_s;
-  Eigen::Matrix3d bias_covariance_rad2_s2;
-  Eigen::Matrix3d start_bias_covariance;  ///< Covariance of rotation at T2 with the bias.
+  SharedErrors shared;
   double gyro_noise_rad_s;
 };
 

@@ -109,6 +109,13 @@ Vector3d RateTrack::rate_at(double t_s) const {
   return steps_.empty() ? samples_.front().rate_body_rad_s : rate_in(step_at(t_s), t_s);
 }
 
+PerShared Turn::per_shared() const {
+  PerShared slopes = PerShared::Zero();
+  slopes.middleCols<3>(SharedGyroBias) = per_bias_s;
+  slopes.middleCols<9>(SharedGyro) = per_gyro_error;
+  return slopes;
+}
+
 /// Integrates a linear rate by the Magnus series to fourth order.
 void RateTrack::append(Turn& turn, std::size_t step, double from_s, double to_s,
                        const Vector3d& bias_rad_s) const {
@@ -118,6 +125,11 @@ void RateTrack::append(Turn& turn, std::size_t step, double from_s, double to_s,
   const Vector3d vector_rad = 0.5 * h_s * (first + last) + h_s * h_s / 12.0 * first.cross(last);
   const Matrix3d vector_per_bias_s =
       -h_s * Matrix3d::Identity() + h_s * h_s / 12.0 * cross_matrix(last - first);
+  const PerGyroError first_slopes = measured_per_gyro_error(first);
+  const PerGyroError last_slopes = measured_per_gyro_error(last);
+  const PerGyroError vector_per_gyro_error =
+      -0.5 * h_s * (first_slopes + last_slopes) +
+      h_s * h_s / 12.0 * (cross_matrix(last) * first_slopes - cross_matrix(first) * last_slopes);
   const Eigen::Quaterniond q = quaternion_by(vector_rad);
   const Matrix3d back = q.toRotationMatrix().transpose();
   const Matrix3d jacobian = right_jacobian(vector_rad);
@@ -126,6 +138,7 @@ void RateTrack::append(Turn& turn, std::size_t step, double from_s, double to_s,
       h_s * steps_[step].noise_rad2_s * Matrix3d::Identity() + part * steps_[step].gap_rad2;
   turn.turn = (turn.turn * q).normalized();
   turn.per_bias_s = back * turn.per_bias_s + jacobian * vector_per_bias_s;
+  turn.per_gyro_error = back * turn.per_gyro_error + jacobian * vector_per_gyro_error;
   turn.covariance_rad2 =
       back * turn.covariance_rad2 * back.transpose() + jacobian * noise_rad2 * jacobian.transpose();
 }

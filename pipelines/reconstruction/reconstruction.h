@@ -39,9 +39,11 @@ struct ReconstructedAttitude {
   Eigen::Quaterniond q_icrf_body;
   Eigen::Vector3d rate_body_rad_s;
   Eigen::Matrix3d covariance_rad2;
+  Eigen::Matrix3d noise_covariance_rad2;  ///< What would be left if the mission file were exact.
   Eigen::Matrix3d rate_covariance_rad2_s2;
 
   double sigma_rad() const { return std::sqrt(covariance_rad2.trace()); }  ///< Root of the trace.
+  double noise_sigma_rad() const { return std::sqrt(noise_covariance_rad2.trace()); }
 };
 
 struct ReconstructedEvent {

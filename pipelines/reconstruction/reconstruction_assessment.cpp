@@ -1,6 +1,7 @@
 #include "pipelines/reconstruction/reconstruction_assessment.h"
 
 #include <algorithm>
+#include <string>
 #include <utility>
 
 #include "pipelines/frames/angle.h"
@@ -63,7 +64,8 @@ void add_noise(const char* sensor, const SensorResiduals& residuals, Doubts& dou
   }
 }
 
-void add_bias(const GyroSensor& gyro, const Reconstruction& result, Doubts& doubts) {
+void add_bias(const GyroSensor& gyro, const Reconstruction& result, const FittedFile& file,
+              Doubts& doubts) {
   for (const OpenBiasDirection& open : result.open_bias) {
     std::vector<NamedValue> values{{"sigma_deg_s", degrees(open.sigma_rad_s)}};
     if (open.off_sun_rad) {
@@ -71,8 +73,8 @@ void add_bias(const GyroSensor& gyro, const Reconstruction& result, Doubts& doub
     }
     doubts.add({open.off_sun_rad ? GyroBiasOpenBySun : GyroBiasOpen, std::move(values)}, false);
   }
-  if (result.bias &&
-      result.bias->rad_s.cwiseAbs().maxCoeff() > kFarOffPriorSigmas * gyro.bias_sigma_rad_s) {
+  if (result.bias && (result.bias->rad_s + file.change.head<3>()).cwiseAbs().maxCoeff() >
+                         kFarOffPriorSigmas * gyro.bias_sigma_rad_s) {
     doubts.add({GyroBiasFarOff, {{"prior_sigmas", kFarOffPriorSigmas}}}, true);
   }
 }
@@ -80,7 +82,8 @@ void add_bias(const GyroSensor& gyro, const Reconstruction& result, Doubts& doub
 }  // namespace
 
 Assessment assess(const ReconstructionRequest& request, const Observations& all,
-                  const Reconstruction& result, const StarConsensus& stars) {
+                  const Reconstruction& result, const StarConsensus& stars,
+                  const FittedFile& file) {
   const bool unchecked = result.sun.count == 0 && result.star.count == 1;
   Doubts doubts{.assessment = {unchecked ? Quality::Converging : Quality::Ok}};
   doubts.count(StarFixes, result.star.count, false);
@@ -94,7 +97,13 @@ Assessment assess(const ReconstructionRequest& request, const Observations& all,
   add_noise("gyro", result.gyro, doubts);
   add_noise("sun", result.sun, doubts);
   add_noise("star", result.star, doubts);
-  add_bias(*request.sensors.gyro, result, doubts);
+  add_bias(*request.sensors.gyro, result, file, doubts);
+  if (file.beyond) {
+    doubts.add({AlignmentOff,
+                {{"key", "three_axis.alignment." + std::string{file.beyond->key}},
+                 {"sigmas", file.beyond->sigmas}}},
+               true);
+  }
   const ReconstructedAttitude& separation = result.events.front().attitude;
   if (!request.sensors.inertia && separation.t < all.origin) {
     doubts.add({ConstantRate}, false);

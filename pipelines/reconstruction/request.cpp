@@ -135,12 +135,6 @@ std::optional<Error> refusal_of(const ReconstructionRequest& request) {
     return configuration(fmt::format("disturbance_rad_s2 is {}: must be finite and at least 0",
                                      request.disturbance_rad_s2));
   }
-  if (const auto& sun = request.sensors.sun_sensor;
-      sun && sun->misalignment_sigma_rad && !is_positive(*sun->misalignment_sigma_rad)) {
-    return configuration(
-        fmt::format("the sigma of the sun sensor's misalignment is {} rad: must be above 0",
-                    *sun->misalignment_sigma_rad));
-  }
   return samples_refused(request);
 }
 

@@ -28,7 +28,6 @@ namespace {
 using Eigen::Matrix3d;
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
-using Matrix6d = Eigen::Matrix<double, 6, 6>;
 
 /// Disables the other convergence tests, which would end a slow body's step before it is solved.
 constexpr double kNoTolerance = 1e-14;
@@ -111,14 +110,17 @@ struct Solver {
   }
 };
 
-/// Holds the attitude during backward propagation, with the joint covariance of its error and of
-/// the gyro bias, which is not estimated.
+/// Holds the attitude during backward propagation, with its error: an own one, and the shared
+/// errors times their derivative. None of the shared errors is estimated, not even the bias.
 class Backwards {
  public:
-  Backwards(const StarObservation& star, const ThreeAxisConfig& sensors) : q_{star.q_icrf_body} {
-    covariance_.setZero();
-    covariance_.diagonal().head<3>().setConstant(std::pow(sensors.star_tracker->noise_rad, 2));
-    covariance_.diagonal().tail<3>().setConstant(std::pow(sensors.gyro->bias_sigma_rad_s, 2));
+  Backwards(const StarObservation& star, const Eigen::Vector3d& rate_body_rad_s,
+            const ThreeAxisConfig& sensors)
+      : q_{star.q_icrf_body},
+        own_rad2_{std::pow(sensors.star_tracker->noise_rad, 2) * Matrix3d::Identity()},
+        shared_{prior_of(sensors.gyro->bias_sigma_rad_s, sensors.alignment)} {
+    per_shared_.middleCols<3>(SharedStarTracker).setIdentity();
+    per_shared_.col(SharedStarTime) = rate_body_rad_s;
   }
 
   bool step(const Turn& turn) {
@@ -126,11 +128,8 @@ class Backwards {
     StepCost cost{later, turn.turn};
     const bool solved = dogleg_.solve(cost, q_);
     const Matrix3d turned = turn.turn.toRotationMatrix();
-    Matrix6d back = Matrix6d::Identity();
-    back.topLeftCorner<3, 3>() = turned;
-    back.topRightCorner<3, 3>() = -turned * turn.per_bias_s;
-    covariance_ = back * covariance_ * back.transpose();
-    covariance_.topLeftCorner<3, 3>() += turned * turn.covariance_rad2 * turned.transpose();
+    own_rad2_ = turned * (own_rad2_ + turn.covariance_rad2) * turned.transpose();
+    per_shared_ = turned * (per_shared_ - turn.per_shared());
     return solved;
   }
 
@@ -138,19 +137,18 @@ class Backwards {
   void turn_on(const Turn& turn) {
     q_ = (q_ * turn.turn).normalized();
     const Matrix3d back = turn.turn.toRotationMatrix().transpose();
-    Matrix6d on = Matrix6d::Identity();
-    on.topLeftCorner<3, 3>() = back;
-    on.topRightCorner<3, 3>() = turn.per_bias_s;
-    covariance_ = on * covariance_ * on.transpose();
-    covariance_.topLeftCorner<3, 3>() += turn.covariance_rad2;
+    own_rad2_ = back * own_rad2_ * back.transpose() + turn.covariance_rad2;
+    per_shared_ = back * per_shared_ + turn.per_shared();
   }
 
-  /// Gates a sun vector against the current covariance and returns its observation.
+  /// Gates a sun vector against the current total covariance and returns its observation.
   Observation observe(const Observations& all, const SunObservation& sun, double noise_rad) const {
     const Vector3d predicted = q_.conjugate() * sun.sun_icrf;
     const Matrix3d slopes = cross_matrix(predicted);
-    const Matrix3d covariance = slopes * covariance_.topLeftCorner<3, 3>() * slopes.transpose() +
-                                noise_rad * noise_rad * Matrix3d::Identity();
+    const PerShared turned = per_shared_ - per_shared_of(all, sun);
+    const Matrix3d covariance =
+        slopes * (own_rad2_ + turned * shared_ * turned.transpose()) * slopes.transpose() +
+        noise_rad * noise_rad * Matrix3d::Identity();
     Observation said = sun_observation(all, sun, sun.measured_body - predicted, covariance);
     said.limit = innovation_gate(2);
     if (said.nis > said.limit) {
@@ -159,24 +157,34 @@ class Backwards {
     return said;
   }
 
-  bool correct(const SunObservation& sun, double noise_rad) {
+  bool correct(const Observations& all, const SunObservation& sun, double noise_rad) {
     SunCorrection cost{sun};
     const bool solved = levenberg_marquardt_.solve(cost, q_);
     const Matrix3d along = sun.measured_body * sun.measured_body.transpose();
-    Matrix6d kept = Matrix6d::Identity();
-    kept.topLeftCorner<3, 3>() = along;
-    covariance_ = kept * covariance_ * kept.transpose();
-    covariance_.topLeftCorner<3, 3>() += noise_rad * noise_rad * (Matrix3d::Identity() - along);
+    const Matrix3d across = Matrix3d::Identity() - along;
+    own_rad2_ = along * own_rad2_ * along.transpose() + noise_rad * noise_rad * across;
+    per_shared_ = along * per_shared_ + across * per_shared_of(all, sun);
     return solved;
   }
 
   const Quaterniond& q() const { return q_; }
-  const Matrix6d& covariance() const { return covariance_; }
+  const Matrix3d& own_rad2() const { return own_rad2_; }
+  const PerShared& per_shared() const { return per_shared_; }
   int iterations() const { return dogleg_.iterations + levenberg_marquardt_.iterations; }
 
  private:
+  /// Returns the derivative of the turn by which the sun sensor's errors turn a sun vector.
+  static PerShared per_shared_of(const Observations& all, const SunObservation& sun) {
+    PerShared slopes = PerShared::Zero();
+    slopes.middleCols<3>(SharedSunSensor).setIdentity();
+    slopes.col(SharedSunTime) = all.rates.rate_at(sun.t_s);
+    return slopes;
+  }
+
   Quaterniond q_;
-  Matrix6d covariance_;
+  Matrix3d own_rad2_;
+  PerShared per_shared_ = PerShared::Zero();
+  SharedCovariance shared_;
   Solver dogleg_{ceres::DOGLEG};
   Solver levenberg_marquardt_{ceres::LEVENBERG_MARQUARDT};
 };
@@ -229,22 +237,22 @@ struct Pass {
 };
 
 Expected<Pass> backwards(const ReconstructionRequest& request, const Observations& all,
-                         const StarObservation& star) {
+                         const StarObservation& star, double louder_sun) {
   const double sun_noise_rad =
-      all.sun.empty() ? 0.0 : louder_sun(request, all) * request.sensors.sun_sensor->noise_rad;
+      all.sun.empty() ? 0.0 : louder_sun * request.sensors.sun_sensor->noise_rad;
   const double last_s = all.seconds_of(all.events.back().t);
   const std::vector<double> times_s = step_times(all, last_s);
   const std::vector<Turn> turns = all.rates.turns(times_s, Vector3d::Zero());
-  Backwards at{star, request.sensors};
+  Backwards at{star, all.rates.rate_at(star.t_s), request.sensors};
   turn_to(at, all.rates, star.t_s, last_s);
   const double bias_sigma_rad_s = request.sensors.gyro->bias_sigma_rad_s;
   Pass pass{.nodes = {.times_s = times_s,
                       .q_icrf_body = {at.q()},
-                      .covariances_rad2 = {at.covariance().topLeftCorner<3, 3>()},
+                      .own_rad2 = {at.own_rad2()},
+                      .per_shared = {at.per_shared()},
                       .bias_rad_s = Vector3d::Zero(),
-                      .bias_covariance_rad2_s2 =
-                          bias_sigma_rad_s * bias_sigma_rad_s * Matrix3d::Identity(),
-                      .start_bias_covariance = Matrix3d::Zero(),
+                      .shared = {.total = prior_of(bias_sigma_rad_s, request.sensors.alignment),
+                                 .noise = prior_of(bias_sigma_rad_s, AttitudeAlignment::Zero())},
                       .gyro_noise_rad_s = all.gyro_noise_rad_s},
             .sun = {},
             .said = {},
@@ -259,16 +267,17 @@ Expected<Pass> backwards(const ReconstructionRequest& request, const Observation
       const Observation said = at.observe(all, *sun, sun_noise_rad);
       pass.said.push_back(said);
       (said.rejected_by ? pass.sun.outliers : pass.sun.count) += 1;
-      if (!said.rejected_by && !at.correct(*sun, sun_noise_rad)) {
+      if (!said.rejected_by && !at.correct(all, *sun, sun_noise_rad)) {
         return Unexpected{not_solved(all, times_s[i])};
       }
     }
     pass.nodes.q_icrf_body.emplace_back(at.q());
-    pass.nodes.covariances_rad2.emplace_back(at.covariance().topLeftCorner<3, 3>());
+    pass.nodes.own_rad2.emplace_back(at.own_rad2());
+    pass.nodes.per_shared.emplace_back(at.per_shared());
   }
   std::reverse(pass.nodes.q_icrf_body.begin(), pass.nodes.q_icrf_body.end());
-  std::reverse(pass.nodes.covariances_rad2.begin(), pass.nodes.covariances_rad2.end());
-  pass.nodes.start_bias_covariance = at.covariance().topRightCorner<3, 3>();
+  std::reverse(pass.nodes.own_rad2.begin(), pass.nodes.own_rad2.end());
+  std::reverse(pass.nodes.per_shared.begin(), pass.nodes.per_shared.end());
   pass.iterations = at.iterations();
   return pass;
 }
@@ -282,11 +291,11 @@ Expected<Reconstruction> reconstruct_sequential(const ReconstructionRequest& req
       consensus_of(all, all.stars,
                    {.star_rad = request.sensors.star_tracker->noise_rad,
                     .bias_rad_s = Vector3d::Zero(),
-                    .bias_covariance_rad2_s2 =
-                        gyro.bias_sigma_rad_s * gyro.bias_sigma_rad_s * Matrix3d::Identity()});
+                    .shared = prior_of(gyro.bias_sigma_rad_s, request.sensors.alignment)});
   const double last_s = all.seconds_of(all.events.back().t);
   const StarObservation& star = anchor(stars.accepted, last_s);
-  const auto pass = backwards(request, all, star);
+  const CoarseFindings coarse = all.sun.empty() ? CoarseFindings{} : coarse_findings(request, all);
+  const auto pass = backwards(request, all, star, coarse.louder_sun);
   if (!pass) {
     return Unexpected{pass.error()};
   }
@@ -308,7 +317,7 @@ Expected<Reconstruction> reconstruct_sequential(const ReconstructionRequest& req
                         .said = std::move(said),
                         .assessment = {},
                         .iterations = pass->iterations};
-  result.assessment = assess(request, all, result, stars);
+  result.assessment = assess(request, all, result, stars, coarse.file);
   return result;
 }
 

@@ -25,6 +25,7 @@ Turn joined(const Turn& first, const Turn& then) {
   return {
       .turn = first.turn * then.turn,
       .per_bias_s = back * first.per_bias_s + then.per_bias_s,
+      .per_gyro_error = back * first.per_gyro_error + then.per_gyro_error,
       .covariance_rad2 = back * first.covariance_rad2 * back.transpose() + then.covariance_rad2};
 }
 
@@ -35,13 +36,15 @@ struct Difference {
 };
 
 /// Returns the differences of the later fix and of the earlier fix.
-std::array<Difference, 2> differences(const StarObservation& earlier, const StarObservation& later,
-                                      const Turn& turn, const ConsensusNoise& noise) {
+std::array<Difference, 2> differences(const RateTrack& rates, const StarObservation& earlier,
+                                      const StarObservation& later, const Turn& turn,
+                                      const ConsensusNoise& noise) {
   const Vector3d off_rad = rotation_vector_of(
       turn.turn.conjugate() * (earlier.q_icrf_body.conjugate() * later.q_icrf_body));
-  const Matrix3d covariance_rad2 =
-      turn.covariance_rad2 + 2.0 * noise.star_rad * noise.star_rad * Matrix3d::Identity() +
-      turn.per_bias_s * noise.bias_covariance_rad2_s2 * turn.per_bias_s.transpose();
+  const PerShared slopes = difference_per_shared(rates, earlier, later, turn);
+  const Matrix3d covariance_rad2 = turn.covariance_rad2 +
+                                   2.0 * noise.star_rad * noise.star_rad * Matrix3d::Identity() +
+                                   slopes * noise.shared * slopes.transpose();
   const double nis = off_rad.dot(covariance_rad2.llt().solve(off_rad));
   const auto about = [&](const Matrix3d& axes) {
     return Residual{.freedom = 3,
@@ -81,7 +84,7 @@ std::vector<Observation> observations_among(std::span<const StarObservation> sta
     Turn turn;
     for (std::size_t j = i + 1; j < std::min(stars.size(), i + 1 + kNeighbours); ++j) {
       turn = joined(turn, turns[j - 1]);
-      const auto [of_later, of_earlier] = differences(stars[i], stars[j], turn, noise);
+      const auto [of_later, of_earlier] = differences(all.rates, stars[i], stars[j], turn, noise);
       differ[j].push_back(of_later);
       differ[i].push_back(of_earlier);
     }
@@ -95,10 +98,20 @@ std::vector<Observation> observations_among(std::span<const StarObservation> sta
 
 }  // namespace
 
+PerShared difference_per_shared(const RateTrack& rates, const StarObservation& earlier,
+                                const StarObservation& later, const Turn& turn) {
+  const Matrix3d back = turn.turn.toRotationMatrix().transpose();
+  PerShared slopes = turn.per_shared();
+  slopes.middleCols<3>(SharedStarTracker) = back - Matrix3d::Identity();
+  slopes.col(SharedStarTime) = back * rates.rate_at(earlier.t_s) - rates.rate_at(later.t_s);
+  return slopes;
+}
+
 StarConsensus consensus_of(const Observations& all, std::span<const StarObservation> stars,
                            const ConsensusNoise& noise) {
   StarConsensus result{.accepted = {stars.begin(), stars.end()}};
   std::vector<Observation> said = observations_among(stars, all, noise);
+  std::vector<Observation> of_all = said;
   while (std::any_of(said.begin(), said.end(), is_left_out)) {
     std::vector<StarObservation> agree;
     for (std::size_t i = 0; i < said.size(); ++i) {
@@ -115,8 +128,9 @@ StarConsensus consensus_of(const Observations& all, std::span<const StarObservat
   if (result.contradict) {
     result.accepted.assign(stars.begin(), stars.end());
     result.said.clear();
-    for (const StarObservation& star : stars) {
-      said.push_back(said_by(shifted(all.origin, star.t_s), {}));
+    said = std::move(of_all);
+    for (Observation& one : said) {
+      one.rejected_by.reset();
     }
   }
   result.add(said);

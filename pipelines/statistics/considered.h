@@ -51,8 +51,13 @@ struct Considered {
     right -= shared * known * score;
   }
 
+  /// Returns b fitted with its prior.
+  Eigen::Matrix<double, parameters, 1> estimate(const Prior& prior) const {
+    return posterior(prior) * score;
+  }
+
   /// Returns the decrease of the sum of r^2 when b is fitted with its prior.
-  double explained(const Prior& prior) const { return score.dot(posterior(prior) * score); }
+  double explained(const Prior& prior) const { return score.dot(estimate(prior)); }
 
  private:
   /// Returns the covariance of b with its prior and known x.

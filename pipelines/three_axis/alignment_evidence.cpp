@@ -21,18 +21,19 @@ bool is_far_off(double square, double freedom) {
 
 /// Where the errors are as stated, the covariance of their estimate is what the innovations have
 /// taken from the stated one. What they have taken next to nothing from does not count.
-std::optional<ErrorBeyond> AlignmentEvidence::beyond() const {
+std::optional<ErrorBeyond> error_beyond(const FilterErrors& estimate, const FilterAlignment& prior,
+                                        const FilterAlignment& left) {
   std::optional<ErrorBeyond> most;
   const auto see = [&]<int kCount>(std::string_view key, int first) {
     using Covariance = Eigen::Matrix<double, kCount, kCount>;
-    const Covariance stated = prior_.block<kCount, kCount>(first, first);
-    const Covariance shown = stated - covariance_.block<kCount, kCount>(first, first);
+    const Covariance stated = prior.block<kCount, kCount>(first, first);
+    const Covariance shown = stated - left.block<kCount, kCount>(first, first);
     const Covariance little = 1e-3 * stated.trace() / kCount * Covariance::Identity();
     if (stated.trace() == 0.0) {
       return;
     }
     const Eigen::LDLT<Covariance> solver{shown + little};
-    const Eigen::Matrix<double, kCount, 1> off = estimate_.segment<kCount>(first);
+    const Eigen::Matrix<double, kCount, 1> off = estimate.segment<kCount>(first);
     if (!is_far_off(off.dot(solver.solve(off)), solver.solve(shown).trace())) {
       return;
     }

@@ -25,9 +25,19 @@ struct ErrorBeyond {
   double sigmas;         ///< Estimated error in stated standard deviations.
 };
 
+using FilterErrors = Eigen::Matrix<double, kFilterErrors, 1>;
+
+/// Returns the kind of error that lies the most stated sigmas off, of those that do so beyond
+/// chance; empty if what was measured is explained by errors as stated.
+/// @param estimate Errors that explain it best, given their prior.
+/// @param prior Covariance that the mission file states.
+/// @param left Covariance of the estimate.
+std::optional<ErrorBeyond> error_beyond(const FilterErrors& estimate, const FilterAlignment& prior,
+                                        const FilterAlignment& left);
+
 class AlignmentEvidence {
  public:
-  using Vector = Eigen::Matrix<double, kFilterErrors, 1>;
+  using Vector = FilterErrors;
   template <int kSize>
   using PerError = Eigen::Matrix<double, kSize, kFilterErrors>;
 
@@ -62,9 +72,7 @@ class AlignmentEvidence {
   /// Returns the score of the errors at zero, sum of G' E^-1 nu.
   const Vector& score() const { return score_; }
 
-  /// Returns the kind of error that lies the most stated sigmas off, of those that do so beyond
-  /// chance; empty if the innovations are explained by errors as stated.
-  std::optional<ErrorBeyond> beyond() const;
+  std::optional<ErrorBeyond> beyond() const { return error_beyond(estimate_, prior_, covariance_); }
 
  private:
   FilterAlignment prior_;

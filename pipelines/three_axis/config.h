@@ -20,9 +20,6 @@ struct GyroSensor {
 
 struct DigitalSunSensor {
   double noise_rad;
-  /// Standard deviation per axis of a constant misalignment, which the `batch` reconstruction
-  /// estimates; empty if the sensor counts as aligned.
-  std::optional<double> misalignment_sigma_rad = std::nullopt;
 };
 
 struct StarTracker {

@@ -41,6 +41,7 @@ inline AttitudeEstimate estimate_of(const Reconstruction& solution,
           .q_icrf_body = attitude.q_icrf_body,
           .rate_body_rad_s = attitude.rate_body_rad_s,
           .covariance_rad2 = attitude.covariance_rad2,
+          .noise_sigma_rad = attitude.noise_sigma_rad(),
           .assessment = solution.assessment,
           .source = solution.method == ReconstructionMethod::Batch ? AttitudeSource::Batch
                                                                    : AttitudeSource::Sequential};
@@ -160,6 +161,9 @@ struct ReconstructionEventTable {
       ProductColumn{"euler312_orbit_deg_3", &orbit_deg<&Euler312::psi_rad>},
       ProductColumn{"sigma_deg",
                     [](const Row& row) { return row.event.attitude.sigma_rad() * kDegPerRad; }},
+      ProductColumn{
+          "noise_sigma_deg",
+          [](const Row& row) { return row.event.attitude.noise_sigma_rad() * kDegPerRad; }},
       ProductColumn{"cov_xx_deg2", &covariance_deg2<0, 0>},
       ProductColumn{"cov_xy_deg2", &covariance_deg2<0, 1>},
       ProductColumn{"cov_xz_deg2", &covariance_deg2<0, 2>},
@@ -219,6 +223,8 @@ struct ReconstructedAttitudeTable {
                     [](const Row& row) { return row.attitude.rate_body_rad_s.z(); }},
       ProductColumn{"sigma_deg",
                     [](const Row& row) { return row.attitude.sigma_rad() * kDegPerRad; }},
+      ProductColumn{"noise_sigma_deg",
+                    [](const Row& row) { return row.attitude.noise_sigma_rad() * kDegPerRad; }},
       ProductColumn{"cov_xx_deg2", &covariance_deg2<0, 0>},
       ProductColumn{"cov_xy_deg2", &covariance_deg2<0, 1>},
       ProductColumn{"cov_xz_deg2", &covariance_deg2<0, 2>},
@@ -309,6 +315,9 @@ struct ProductKind<ReconstructionProduct> {
                 .rate_body_rad_s = {row.real("rate_x_rad_s"), row.real("rate_y_rad_s"),
                                     row.real("rate_z_rad_s")},
                 .covariance_rad2 = attitude_covariance_rad2_of(row),
+                // Alike about all axes; announced is the root of the trace.
+                .noise_covariance_rad2 = std::pow(row.real("noise_sigma_deg") * kRadPerDeg, 2) /
+                                         3.0 * Eigen::Matrix3d::Identity(),
                 .rate_covariance_rad2_s2 = Eigen::Matrix3d::Zero()}};
   }
 };

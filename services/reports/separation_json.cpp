@@ -49,6 +49,7 @@ json to_json(const ReconstructedEvent& event) {
           {"near_singular", reading.near_singular},
           {"euler312_orbit_deg", nullptr},
           {"sigma_deg", attitude.sigma_rad() * kDegPerRad},
+          {"noise_sigma_deg", attitude.noise_sigma_rad() * kDegPerRad},
           {"covariance_deg2", matrix_deg2(attitude.covariance_rad2)},
           {"bound_deg", deg_or_null(event.bound_rad)}};
 }

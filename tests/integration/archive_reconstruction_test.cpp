@@ -18,6 +18,7 @@ ReconstructedAttitude attitude_at(std::int64_t t_s) {
           .q_icrf_body = Eigen::Quaterniond{0.5, -0.5, 0.1, 0.7},
           .rate_body_rad_s = {0.25, -0.5, 1.0},
           .covariance_rad2 = 4.0 / 3.0 * kRadPerDeg * kRadPerDeg * Eigen::Matrix3d::Identity(),
+          .noise_covariance_rad2 = kRadPerDeg * kRadPerDeg * Eigen::Matrix3d::Identity() / 3.0,
           .rate_covariance_rad2_s2 = Eigen::Matrix3d::Zero()};
 }
 
@@ -125,6 +126,7 @@ TEST_F(ArchiveReconstruction, ComesBackAsItIsAnnouncedAndOneOfMoreSamplesIsNews)
     EXPECT_EQ(announced[i].q_icrf_body.coeffs(), expected[i].q_icrf_body.coeffs());
     EXPECT_EQ(announced[i].rate_body_rad_s, expected[i].rate_body_rad_s);
     EXPECT_NEAR(announced[i].sigma_rad(), expected[i].sigma_rad(), 1e-15);
+    EXPECT_NEAR(announced[i].noise_sigma_rad, expected[i].noise_sigma_rad, 1e-15);
     EXPECT_EQ(announced[i].source, AttitudeSource::Batch);
     EXPECT_EQ(announced[i].assessment, expected[i].assessment);
   }

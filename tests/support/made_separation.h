@@ -19,7 +19,7 @@ namespace spindrift::testing {
 inline constexpr std::int64_t kSeparation_tai_ns = 1'772'337'637'000'000'000;
 
 /// Returns an attitude with (phi, theta, psi) = (10, 20, 30) deg at T1, psi growing by a degree
-/// every ten seconds, and a sigma of 0.4 deg about each axis.
+/// every ten seconds, and a sigma of 0.4 deg, of which noise alone would leave half.
 inline ReconstructedAttitude made_attitude(double t_s) {
   const double sigma_rad = 0.4 * kRadPerDeg;
   return {.t = shifted(tai_from_ns(kSeparation_tai_ns), t_s),
@@ -28,6 +28,7 @@ inline ReconstructedAttitude made_attitude(double t_s) {
                                         .psi_rad = (30.0 + 0.1 * t_s) * kRadPerDeg}),
           .rate_body_rad_s = {0.001, -0.002, 0.003},
           .covariance_rad2 = sigma_rad * sigma_rad / 3.0 * Eigen::Matrix3d::Identity(),
+          .noise_covariance_rad2 = 0.25 * sigma_rad * sigma_rad / 3.0 * Eigen::Matrix3d::Identity(),
           .rate_covariance_rad2_s2 = 1e-8 * Eigen::Matrix3d::Identity()};
 }
 

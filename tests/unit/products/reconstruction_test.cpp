@@ -68,6 +68,7 @@ TEST(ReconstructionRows, HaveOneOfEachEvent) {
   EXPECT_NEAR(rows[0]["euler312_orbit_deg_2"].get<double>(), 2.0, 1e-9);
   EXPECT_TRUE(rows[2]["euler312_orbit_deg_2"].is_null());
   EXPECT_NEAR(rows[0]["sigma_deg"].get<double>(), 0.4, 1e-9);
+  EXPECT_NEAR(rows[0]["noise_sigma_deg"].get<double>(), 0.2, 1e-9);
   EXPECT_NEAR(rows[0]["bound_deg"].get<double>(), 0.35, 1e-9);
   EXPECT_TRUE(
       rows_of<ReconstructionEventTable>(made_product(Sequential))[0]["bound_deg"].is_null());
@@ -82,6 +83,8 @@ TEST(ReconstructionRows, HaveTheHistoryUnderTheNameOfTheMethod) {
   }
   EXPECT_EQ(rows[1]["t_tai_ns"], kSeparation_tai_ns + 10'000'000'000);
   EXPECT_EQ(rows[0]["rate_z_rad_s"], 0.003);
+  EXPECT_NEAR(rows[0]["sigma_deg"].get<double>(), 0.4, 1e-9);
+  EXPECT_NEAR(rows[0]["noise_sigma_deg"].get<double>(), 0.2, 1e-9);
   EXPECT_EQ(ReconstructedAttitudeTable::group(made_product(Sequential)), "sequential");
 }
 

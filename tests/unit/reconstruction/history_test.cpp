@@ -56,14 +56,17 @@ struct Flight {
   NodeEstimates nodes() const {
     NodeEstimates nodes{.times_s = {0.0, 2.0, 4.0, 5.0, 6.0, 8.0, 20.0},
                         .q_icrf_body = {},
-                        .covariances_rad2 = {},
+                        .own_rad2 = {},
+                        .per_shared = std::vector<PerShared>(7, PerShared::Zero()),
                         .bias_rad_s = kBias_rad_s,
-                        .bias_covariance_rad2_s2 = bias_covariance_rad2_s2,
-                        .start_bias_covariance = start_bias_covariance,
+                        .shared = {.total = file_errors, .noise = SharedCovariance::Zero()},
                         .gyro_noise_rad_s = kNoise_rad_s};
+    nodes.shared.total.topLeftCorner<3, 3>() = bias_covariance_rad2_s2;
+    nodes.shared.noise.topLeftCorner<3, 3>() = bias_covariance_rad2_s2;
+    nodes.per_shared.front() = start_per_shared;
     for (const double t_s : nodes.times_s) {
       nodes.q_icrf_body.push_back(kFirst * quaternion_by(t_s * rate_rad_s));
-      nodes.covariances_rad2.push_back((1.0 + t_s) * first_covariance_rad2);
+      nodes.own_rad2.push_back((1.0 + t_s) * first_covariance_rad2);
     }
     return nodes;
   }
@@ -72,7 +75,8 @@ struct Flight {
   static constexpr double kNoise_rad_s = 3e-5;
   Matrix3d first_covariance_rad2 = Vector3d{1e-6, 4e-6, 9e-6}.asDiagonal();
   Matrix3d bias_covariance_rad2_s2 = Vector3d{1e-10, 4e-10, 2e-10}.asDiagonal();
-  Matrix3d start_bias_covariance = Matrix3d::Zero();
+  PerShared start_per_shared = PerShared::Zero();
+  SharedCovariance file_errors = SharedCovariance::Zero();
 };
 
 TEST(History, BehindT2ItIsWhatTheNodesSay) {
@@ -86,7 +90,7 @@ TEST(History, BehindT2ItIsWhatTheNodesSay) {
     const ReconstructedAttitude& one = attitudes[30 + i];
     EXPECT_EQ(one.t, at_s(nodes.times_s[i]));
     EXPECT_EQ(one.q_icrf_body.coeffs(), nodes.q_icrf_body[i].coeffs());
-    EXPECT_EQ(one.covariance_rad2, nodes.covariances_rad2[i]);
+    EXPECT_EQ(one.covariance_rad2, nodes.own_rad2[i]);
     EXPECT_LT((one.rate_body_rad_s - flight.rate_rad_s).norm(), 1e-14);
     EXPECT_LT((one.rate_covariance_rad2_s2 - rate_covariance).norm(), 1e-20);
   }
@@ -189,18 +193,21 @@ TEST(History, ErrorsGrowBackToT1AsTheyDoForABodyAtRest) {
   Flight flight;
   flight.rate_rad_s = 1e-9 * Vector3d::UnitX();
   flight.disturbance_rad_s2 = 2e-6;
-  flight.start_bias_covariance = (Matrix3d{} << 3e-9, 1e-9, 0.0,  //
-                                  -2e-9, 5e-9, 0.0,               //
-                                  0.0, 0.0, -4e-9)
-                                     .finished();
+  const Matrix3d per_bias_s = (Matrix3d{} << 30.0, 10.0, 0.0,  //
+                               -20.0, 50.0, 0.0,               //
+                               0.0, 0.0, -40.0)
+                                  .finished();
+  flight.start_per_shared.leftCols<3>() = per_bias_s;
+  const Matrix3d with_bias = per_bias_s * flight.bias_covariance_rad2_s2;
+  const Matrix3d first_covariance_rad2 =
+      flight.first_covariance_rad2 + with_bias * per_bias_s.transpose();
   const Matrix3d rate_covariance =
       flight.bias_covariance_rad2_s2 + std::pow(Flight::kNoise_rad_s, 2) * Matrix3d::Identity();
   const auto attitudes = flight.history().attitudes;
   for (const std::size_t i : {0U, 10U, 29U}) {
     const double back_s = seconds_between(attitudes[i].t, kControlOn);
-    const Matrix3d with_bias = flight.start_bias_covariance;
     const Matrix3d expected =
-        flight.first_covariance_rad2 + back_s * back_s * rate_covariance +
+        first_covariance_rad2 + back_s * back_s * rate_covariance +
         back_s * (with_bias + with_bias.transpose()) +
         std::pow(0.5 * back_s * back_s * flight.disturbance_rad_s2, 2) * Matrix3d::Identity();
     EXPECT_LT((attitudes[i].covariance_rad2 - expected).norm(), 1e-6 * expected.norm()) << i;
@@ -209,6 +216,41 @@ TEST(History, ErrorsGrowBackToT1AsTheyDoForABodyAtRest) {
     EXPECT_LT((attitudes[i].rate_covariance_rad2_s2 - expected_rate).norm(),
               1e-6 * expected_rate.norm());
   }
+}
+
+/// A body that turns evenly about z: a gyro whose scale is off by a part is off by that part of the
+/// turn, and a star tracker that is turned turns every attitude alike.
+TEST(History, ErrorsOfTheMissionFileGrowBackToT1BesideTheNoise) {
+  Flight flight;
+  flight.rate_rad_s = {0.0, 0.0, 0.02};
+  const double scale = 1e-3;
+  const double turned_rad = 2e-4;
+  flight.file_errors(SharedGyro + 2, SharedGyro + 2) = scale * scale;
+  flight.file_errors(SharedStarTracker + 2, SharedStarTracker + 2) = turned_rad * turned_rad;
+  flight.start_per_shared(2, SharedStarTracker + 2) = 1.0;
+  const auto attitudes = flight.history().attitudes;
+  const auto exact = [&] {
+    Flight other = flight;
+    other.file_errors.setZero();
+    return other.history().attitudes;
+  }();
+  for (const std::size_t i : {0U, 10U, 29U}) {
+    const double back_rad = 0.02 * seconds_between(attitudes[i].t, kControlOn);
+    Matrix3d expected = exact[i].covariance_rad2;
+    expected(2, 2) += std::pow(scale * back_rad, 2) + turned_rad * turned_rad;
+    EXPECT_LT((attitudes[i].covariance_rad2 - expected).norm(), 1e-9 * expected.norm()) << i;
+    EXPECT_EQ(attitudes[i].noise_covariance_rad2, exact[i].covariance_rad2);
+  }
+}
+
+TEST(History, AnInertiaThatIsUncertainIsNoNoise) {
+  Flight flight;
+  flight.rate_rad_s = {0.05, -0.03, 0.2};
+  const auto exact = flight.history().attitudes;
+  flight.inertia->sigma_fraction = 0.05;
+  const auto attitudes = flight.history().attitudes;
+  EXPECT_GT(attitudes.front().sigma_rad(), 2.0 * exact.front().sigma_rad());
+  EXPECT_EQ(attitudes.front().noise_covariance_rad2, exact.front().covariance_rad2);
 }
 
 TEST(History, WhoseFirstSamplesAreMissingKnowsItsFirstRateWorse) {

@@ -34,6 +34,7 @@ ReconstructedAttitude found(const Quaterniond& q_icrf_body, double sigma_deg) {
           .q_icrf_body = q_icrf_body,
           .rate_body_rad_s = Vector3d::Zero(),
           .covariance_rad2 = std::pow(sigma_deg * kRadPerDeg, 2) * Matrix3d::Identity(),
+          .noise_covariance_rad2 = Matrix3d::Identity(),
           .rate_covariance_rad2_s2 = Matrix3d::Identity()};
 }
 

@@ -84,6 +84,30 @@ TEST(RateTrack, SlopesByTheBiasAreThoseOfTheTurn) {
   }
 }
 
+/// The gyro measures (1 + M) times the true rate.
+TEST(RateTrack, SlopesByScaleAndAxesAreThoseOfTheTurn) {
+  const std::vector<TimedRate> measured = samples_at(0.5, 61);
+  constexpr double kStep = 1e-6;
+  const Turn turn = whole(track_of(measured));
+  const std::vector<std::pair<int, int>> elements{{0, 0}, {1, 1}, {2, 2}, {0, 1}, {0, 2},
+                                                  {1, 0}, {1, 2}, {2, 0}, {2, 1}};
+  for (std::size_t i = 0; i < elements.size(); ++i) {
+    const auto with = [&](double error) {
+      Matrix3d gyro = Matrix3d::Identity();
+      gyro(elements[i].first, elements[i].second) += error;
+      std::vector<TimedRate> corrected = measured;
+      for (TimedRate& sample : corrected) {
+        sample.rate_body_rad_s = gyro.inverse() * sample.rate_body_rad_s;
+      }
+      return whole(track_of(corrected)).turn;
+    };
+    const Vector3d numeric =
+        rotation_vector_of(with(-kStep).conjugate() * with(kStep)) / (2.0 * kStep);
+    const Vector3d found = turn.per_gyro_error.col(static_cast<Eigen::Index>(i));
+    EXPECT_LT((found - numeric).norm(), 1e-7 * turn.per_gyro_error.norm()) << i;
+  }
+}
+
 TEST(RateTrack, NoiseOfAllSamplesAddsUp) {
   const RateTrack track = track_of(samples_at(0.25, 401, [](double) { return Vector3d::Zero(); }));
   const double expected_rad = kNoise_rad_s * 0.25 * std::sqrt(400.0);

@@ -369,7 +369,7 @@ TEST(ReconstructBatch, OrderRepetitionAndSignOfSamplesChangeNothing) {
   EXPECT_LT(apart_rad(found, expected), 1e-9);
 }
 
-TEST(ReconstructBatch, EstimatesAMisalignmentOfTheSunSensorWhenAsked) {
+TEST(ReconstructBatch, EstimatesAMisalignmentOfTheSunSensorWithItsPrior) {
   const Vector3d misalignment{0.01, -0.015, 0.0};
   SeparationFlight flight =
       separation_flight({.star_fix_step_s = 1.0, .end_s = 500.0, .sun_noise_deg = 0.1}, 10);
@@ -377,11 +377,37 @@ TEST(ReconstructBatch, EstimatesAMisalignmentOfTheSunSensorWhenAsked) {
     sun.sun_body = quaternion_by(misalignment) * sun.sun_body;
   }
   ReconstructionRequest request = flight.request();
-  request.sensors.sun_sensor->misalignment_sigma_rad = 0.02;
+  request.sensors.alignment.diagonal().segment<3>(SunSensorError).setConstant(0.02 * 0.02);
   const Reconstruction found = batch(request);
   const Vector3d off = found.misalignment->vector_rad - misalignment;
   EXPECT_LT(std::sqrt(off.dot(found.misalignment->covariance_rad2.llt().solve(off))), 3.5);
   EXPECT_LT(off.head<2>().norm(), 0.002);
+}
+
+TEST(Reconstruct, DoubtsASunSensorThatIsFurtherOffThanTheMissionFileAllows) {
+  const SeparationFlight sound =
+      separation_flight({.star_fix_step_s = 5.0, .end_s = 420.0, .sun_noise_deg = 0.1}, 24);
+  const auto reconstructed = [&](double off_deg, ReconstructionMethod method) {
+    ReconstructionRequest request = sound.request();
+    request.sensors.alignment.diagonal()
+        .segment<3>(SunSensorError)
+        .setConstant(std::pow(0.2 * kRadPerDeg, 2));
+    for (SunDirection& sun : request.sun_directions) {
+      sun.sun_body =
+          quaternion_by(off_deg * kRadPerDeg * Vector3d{0.6, -0.64, 0.48}) * sun.sun_body;
+    }
+    return value_or_throw(reconstruct(request, method)).assessment;
+  };
+  for (const auto method : {ReconstructionMethod::Batch, ReconstructionMethod::Sequential}) {
+    EXPECT_EQ(reconstructed(0.3, method).quality, Quality::Ok);
+    const Assessment far = reconstructed(2.0, method);
+    EXPECT_EQ(far.quality, Quality::Doubtful);
+    const auto reason = std::ranges::find(far.reasons, ReasonCode::AlignmentOff, &Reason::code);
+    ASSERT_NE(reason, far.reasons.end());
+    EXPECT_EQ(std::get<std::string>(reason->values.at(0).value),
+              "three_axis.alignment.sun_sensor_deg");
+    EXPECT_NEAR(std::get<double>(reason->values.at(1).value), 10.0, 2.0);
+  }
 }
 
 TEST(ReconstructBatch, NamesTheBiasThatIsOpen) {

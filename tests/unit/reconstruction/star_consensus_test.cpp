@@ -19,7 +19,7 @@ const Observations kAll{
     .events = {},
     .rates = {
         {{0.0, Vector3d{0.0, 0.0, 0.01}}, {100.0, Vector3d{0.0, 0.0, 0.01}}}, 0.0, 100.0, 1e-5}};
-const ConsensusNoise kNoise{kStar_rad, Vector3d::Zero(), 1e-8 * Matrix3d::Identity()};
+const ConsensusNoise kNoise{kStar_rad, Vector3d::Zero(), prior_of(1e-4, AttitudeAlignment::Zero())};
 
 std::vector<StarObservation> fixes(int count) {
   std::vector<StarObservation> stars;
@@ -99,9 +99,42 @@ TEST(StarConsensus, SaysThatTwoContradictEachOther) {
   EXPECT_EQ(found.accepted.size(), 2U);
   EXPECT_EQ(found.said.size(), 2U);
   for (const Observation& said : found.said) {
-    EXPECT_EQ(said.residual.freedom, 0);
+    EXPECT_EQ(said.residual.freedom, 3);
+    EXPECT_GT(said.nis, said.limit);
     EXPECT_FALSE(said.rejected_by);
   }
+}
+
+/// The body turns by 4 rad between the first fix and the last, ever faster.
+TEST(StarConsensus, AllowsForErrorsOfTheMissionFile) {
+  const auto angle_rad = [](double t_s) { return 0.01 * t_s + 5e-5 * t_s * t_s; };
+  const Observations all{
+      .origin = kAll.origin,
+      .events = {},
+      .rates = {
+          {{0.0, Vector3d{0.0, 0.0, 0.01}}, {200.0, Vector3d{0.0, 0.0, 0.03}}}, 0.0, 200.0, 1e-7}};
+  const auto check = [&](int error, double size, const auto& q_at) {
+    std::vector<StarObservation> stars;
+    for (const double t_s : {0.0, 100.0, 200.0}) {
+      stars.push_back({t_s, q_at(t_s)});
+    }
+    const auto agree = [&](double sigma) {
+      ConsensusNoise noise{kStar_rad, Vector3d::Zero(), prior_of(1e-7, AttitudeAlignment::Zero())};
+      noise.shared(error, error) = sigma * sigma;
+      const StarConsensus found = consensus_of(all, stars, noise);
+      return found.gated().empty() && !found.contradict;
+    };
+    EXPECT_TRUE(agree(size)) << error;
+    EXPECT_FALSE(agree(0.01 * size)) << error;
+  };
+  const auto about_z = [](double turned_rad) {
+    return quaternion_by(Vector3d{0.0, 0.0, turned_rad});
+  };
+  check(SharedStarTracker, 0.02, [&](double t_s) {
+    return Quaterniond{about_z(angle_rad(t_s)) * quaternion_by({0.02, 0.0, 0.0})};
+  });
+  check(SharedGyro + 2, 0.02, [&](double t_s) { return about_z(angle_rad(t_s) / 1.02); });
+  check(SharedStarTime, 2.0, [&](double t_s) { return about_z(angle_rad(t_s - 2.0)); });
 }
 
 TEST(StarConsensus, TakesAFlippedSignForTheSameAttitude) {

@@ -40,6 +40,7 @@ TEST(SeparationJson, HasTheEventsInOrder) {
   EXPECT_NEAR(first["euler312_orbit_deg"][2].get<double>(), 3.0, 1e-9);
   EXPECT_TRUE(events[2]["euler312_orbit_deg"].is_null());
   EXPECT_NEAR(first["sigma_deg"].get<double>(), 0.4, 1e-9);
+  EXPECT_NEAR(first["noise_sigma_deg"].get<double>(), 0.2, 1e-9);
   const auto& covariance = first["covariance_deg2"];
   EXPECT_NEAR(covariance[0][0].get<double>() + covariance[1][1].get<double>() +
                   covariance[2][2].get<double>(),
