@@ -110,6 +110,8 @@ class AttitudeEstimator {
   /// Returns the filter; empty before the attitude has begun and after it was lost.
   const std::optional<Mekf>& filter() const { return filter_; }
   bool ever_began() const { return since_.has_value(); }
+  /// Returns the epoch of the last attitude given.
+  std::optional<TaiTime> given() const { return given_; }
 
  private:
   using Sample = std::variant<StarFix, SeenDirection>;

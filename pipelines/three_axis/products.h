@@ -13,6 +13,7 @@
 #include <variant>
 
 #include "pipelines/core/assessment.h"
+#include "pipelines/observation/normal_equations.h"
 #include "pipelines/observation/observation.h"
 #include "pipelines/time/sample_contradiction.h"
 #include "pipelines/time/tai_time.h"
@@ -95,7 +96,7 @@ struct SampleObservation {
   Observation said;
 };
 
-using ThreeAxisProduct =
-    std::variant<RejectedSample, AttitudeEstimate, SampleObservation, SampleContradiction>;
+using ThreeAxisProduct = std::variant<RejectedSample, AttitudeEstimate, SampleObservation,
+                                      SampleContradiction, NormalEquations>;
 
 }  // namespace spindrift

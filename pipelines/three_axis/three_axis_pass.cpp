@@ -83,6 +83,7 @@ ThreeAxisOutput ThreeAxisPass::fall_silent() {
   ThreeAxisOutput out;
   compute(window_.fall_silent(), out);
   estimator_.settle(out.products);
+  tell_of_mission(out);
   doubt_where_orbit_steps(out);
   say_what_is_left_out(out);
   return out;
@@ -97,6 +98,7 @@ ThreeAxisOutput ThreeAxisPass::finish() {
   }
   compute(rest.in_time, out);
   estimator_.settle(out.products);
+  tell_of_mission(out);
   doubt_where_orbit_steps(out);
   say_what_is_left_out(out);
   if (!estimator_.ever_began()) {
@@ -193,6 +195,12 @@ void ThreeAxisPass::compute(const MagneticField& field, ThreeAxisOutput& out) {
                   out.products);
 }
 
+void ThreeAxisPass::tell_of_mission(ThreeAxisOutput& out) const {
+  if (estimator_.filter()) {
+    out.products.emplace_back(normal_equations());
+  }
+}
+
 NormalEquations ThreeAxisPass::normal_equations() const {
   std::vector<int> errors;
   const auto add = [&errors](bool has_sensor, int first, int count) {
@@ -210,7 +218,8 @@ NormalEquations ThreeAxisPass::normal_equations() const {
 
   const auto size = static_cast<Eigen::Index>(errors.size());
   Eigen::VectorXd units{size};
-  NormalEquations equations{.names = {},
+  NormalEquations equations{.t = estimator_.given().value_or(TaiTime{}),
+                            .names = {},
                             .b0 = Eigen::VectorXd::Zero(size),
                             .n = Eigen::MatrixXd::Zero(size, size),
                             .g = Eigen::VectorXd::Zero(size)};

@@ -31,7 +31,7 @@
 #include "pipelines/ephemeris/sun.h"
 #include "pipelines/exclusions/exclusions.h"
 #include "pipelines/geomagnetism/main_field.h"
-#include "pipelines/statistics/normal_equations.h"
+#include "pipelines/observation/normal_equations.h"
 #include "pipelines/three_axis/attitude_action.h"
 #include "pipelines/three_axis/attitude_estimator.h"
 #include "pipelines/three_axis/config.h"
@@ -103,6 +103,7 @@ class ThreeAxisPass {
 
  private:
   ThreeAxisOutput process(const OrderedSample& sample);
+  void tell_of_mission(ThreeAxisOutput& out) const;
   void compare(const OrderedSample& again, ThreeAxisOutput& out);
   void compute(const std::vector<OrderedSample>& in_order, ThreeAxisOutput& out);
   std::optional<OrderedSample> settled(const OrderedSample& due, ThreeAxisOutput& out);

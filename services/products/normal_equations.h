@@ -9,17 +9,10 @@
 #include <string_view>
 #include <tuple>
 
-#include "pipelines/statistics/normal_equations.h"
-#include "pipelines/time/tai_time.h"
+#include "pipelines/observation/normal_equations.h"
 #include "services/products/product_kind.h"
 
 namespace spindrift {
-
-/// The normal equations of the last solution of a run, whose time they have.
-struct RunNormalEquations {
-  TaiTime t = {};
-  NormalEquations equations = {};
-};
 
 /// Returns a JSON array of the elements, of a matrix row by row.
 template <class Matrix>
@@ -38,18 +31,17 @@ struct NormalEquationsTable {
   static constexpr std::array<std::string_view, 1> kKey{"run_id"};
   static constexpr std::string_view kReplaces = "excluded.t_tai_ns >= normal_equations.t_tai_ns";
 
-  using Row = RunNormalEquations;
+  using Row = NormalEquations;
   static constexpr auto kColumns = columns(
       ProductColumn{"t_tai_ns", [](const Row& row) { return tai_ns(row.t); }},
-      ProductColumn{"names",
-                    [](const Row& row) { return nlohmann::json(row.equations.names).dump(); }},
-      ProductColumn{"b0", [](const Row& row) { return json_array(row.equations.b0); }},
-      ProductColumn{"n", [](const Row& row) { return json_array(row.equations.n); }},
-      ProductColumn{"g", [](const Row& row) { return json_array(row.equations.g); }});
+      ProductColumn{"names", [](const Row& row) { return nlohmann::json(row.names).dump(); }},
+      ProductColumn{"b0", [](const Row& row) { return json_array(row.b0); }},
+      ProductColumn{"n", [](const Row& row) { return json_array(row.n); }},
+      ProductColumn{"g", [](const Row& row) { return json_array(row.g); }});
 };
 
 template <>
-struct ProductKind<RunNormalEquations> {
+struct ProductKind<NormalEquations> {
   static constexpr ProductWeight kWeight = ProductWeight::Result;
   using Tables = std::tuple<NormalEquationsTable>;
 };

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "pipelines/core/assessment.h"
-#include "pipelines/statistics/normal_equations.h"
+#include "pipelines/observation/normal_equations.h"
 #include "services/products/product_kind.h"
 
 namespace spindrift {
@@ -62,9 +62,9 @@ std::optional<NotFinite> not_finite(const Kind& product) {
     look_at(product.assessment.reasons);
   } else if constexpr (requires { product->solution.assessment; }) {
     look_at(product->solution.assessment.reasons);
-  } else if constexpr (requires { product.equations; }) {
+  } else if constexpr (std::is_same_v<Kind, NormalEquations>) {
     // These too are text in their columns.
-    if (!is_finite(product.equations)) {
+    if (!is_finite(product)) {
       found = NotFinite{.table = MainTable<Kind>::kName, .column = "n"};
     }
   }

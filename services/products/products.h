@@ -33,7 +33,7 @@ namespace spindrift {
 using Product = std::variant<PulseUse, RevolutionProduct, SpinMeasurement, SpinFix, SpinEstimate,
                              BatchProduct, RunFault, RejectedSample, AttitudeEstimate,
                              SampleObservation, ReconstructionProduct, ChannelComparison,
-                             SampleContradiction, Alert, RunNotice, AxisChoice, RunNormalEquations>;
+                             SampleContradiction, Alert, RunNotice, AxisChoice, NormalEquations>;
 
 /// Index of a kind in Product.
 template <class Kind>

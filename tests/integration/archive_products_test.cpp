@@ -451,12 +451,11 @@ TEST_F(ArchiveProducts, NormalEquationsOfARunAreThoseOfItsLastSolution) {
     information << 4.0, 0.5, 0.25, 0.1;  // Not symmetric, so that rows and columns differ.
     return with_products(
         testing::batch_of("run-1"),
-        {RunNormalEquations{
-            .t = tai_from_ns(t_tai_ns),
-            .equations = {.names = {"spin.ir.north.mount_angle_deg", "spin.alignment.time_tag_s"},
-                          .b0 = Eigen::Vector2d{mount_angle_deg, 0.0},
-                          .n = information,
-                          .g = Eigen::Vector2d{-1.0, 1e-300}}}});
+        {NormalEquations{.t = tai_from_ns(t_tai_ns),
+                         .names = {"spin.ir.north.mount_angle_deg", "spin.alignment.time_tag_s"},
+                         .b0 = Eigen::Vector2d{mount_angle_deg, 0.0},
+                         .n = information,
+                         .g = Eigen::Vector2d{-1.0, 1e-300}}});
   };
   const auto stored = [](std::string_view t_tai_ns, std::string_view mount_angle_deg) {
     return fmt::format(R"({} ["spin.ir.north.mount_angle_deg","spin.alignment.time_tag_s"] )"

@@ -85,13 +85,13 @@ TEST(NotFinite, LooksAtTheValuesOfReasons) {
 }
 
 TEST(NotFinite, LooksAtNumbersThatAreStoredAsText) {
-  RunNormalEquations said{.t = tai_from_ns(7),
-                          .equations = {.names = {"gyro_scale_x"},
-                                        .b0 = Eigen::VectorXd::Zero(1),
-                                        .n = Eigen::MatrixXd::Ones(1, 1),
-                                        .g = Eigen::VectorXd::Zero(1)}};
+  NormalEquations said{.t = tai_from_ns(7),
+                       .names = {"gyro_scale_x"},
+                       .b0 = Eigen::VectorXd::Zero(1),
+                       .n = Eigen::MatrixXd::Ones(1, 1),
+                       .g = Eigen::VectorXd::Zero(1)};
   EXPECT_EQ(place_in(said), "");
-  said.equations.g[0] = kNone;
+  said.g[0] = kNone;
   EXPECT_EQ(place_in(said), "normal_equations.n");
 }
 
