@@ -15,6 +15,7 @@ namespace {
 
 using PerBias = Eigen::Matrix<double, 1, kSensorBiases>;
 using PerError = Eigen::Matrix<double, 1, kModelErrors>;
+using PerAlignment = Eigen::Matrix<double, 1, kSpinAlignmentErrors>;
 using Slope = Eigen::Matrix<double, 5, 1>;
 
 /// Holds the Sun's azimuth, which is that of a slit in a meridian when it sees the Sun.
@@ -90,7 +91,8 @@ std::optional<PredictedEdge> sun1_edge(const ConedSlit& slit, const Eigen::Vecto
   return PredictedEdge{.phase_rad = wrapped_rad(view->phase_rad),
                        .phase_per_rotation = view->phase_per_rotation,
                        .phase_per_error = PerError::Zero(),
-                       .phase_per_bias = per_coning(*view, slit)};
+                       .phase_per_bias = per_coning(*view, slit),
+                       .phase_per_alignment = PerAlignment::Zero()};
 }
 
 std::optional<PredictedEdge> sun2_edge(const ConedSlit& slit, const Eigen::Vector3d& sun_spin,
@@ -99,12 +101,14 @@ std::optional<PredictedEdge> sun2_edge(const ConedSlit& slit, const Eigen::Vecto
   if (!view) {
     return std::nullopt;
   }
-  return PredictedEdge{.phase_rad = wrapped_rad(view->phase_rad + biases[SlitSeparationBias]),
-                       .phase_per_rotation = view->phase_per_rotation,
-                       .phase_per_error = view->phase_per_sun_angle * PerError::Unit(SunAngleError),
-                       .phase_per_bias = view->phase_per_sun_angle * PerBias::Unit(SunAngleBias) +
-                                         PerBias::Unit(SlitSeparationBias) +
-                                         per_coning(*view, slit)};
+  return PredictedEdge{
+      .phase_rad = wrapped_rad(view->phase_rad + biases[SlitSeparationBias]),
+      .phase_per_rotation = view->phase_per_rotation,
+      .phase_per_error = view->phase_per_sun_angle * PerError::Unit(SunAngleError),
+      .phase_per_bias = view->phase_per_sun_angle * PerBias::Unit(SunAngleBias) +
+                        PerBias::Unit(SlitSeparationBias) + per_coning(*view, slit),
+      .phase_per_alignment = view->phase_per_cant * PerAlignment::Unit(SlitCantError) +
+                             PerAlignment::Unit(SlitSeparationError)};
 }
 
 struct Beam {
@@ -117,6 +121,11 @@ Beam beam_of(PulseChannel channel) {
   const bool north = channel == PulseChannel::NorthIn || channel == PulseChannel::NorthOut;
   const bool in = channel == PulseChannel::NorthIn || channel == PulseChannel::SouthIn;
   return {.side = north ? Side::North : Side::South, .crossing = in ? Crossing::In : Crossing::Out};
+}
+
+/// Returns the change of a crossing's azimuth per second that its time tag is late.
+double per_late_tag(const LimbCrossing& limb, const Sky& sky, const Eigen::Matrix3d& R_spin_icrf) {
+  return -limb.azimuth_per_position_km.dot(R_spin_icrf * sky.spacecraft.velocity_icrf_km_s);
 }
 
 EarthView earth_view(const Sky& sky, const Eigen::Matrix3d& R_spin_icrf, TaiTime t) {
@@ -134,8 +143,8 @@ BeamBiases biases_of(Side side) {
                              : BeamBiases{SouthMountAngleBias, SouthChordBias};
 }
 
-std::optional<PredictedEdge> beam_edge(const PlacedSensors& sensors, Beam beam,
-                                       const EarthView& earth) {
+std::optional<PredictedEdge> beam_edge(const PlacedSensors& sensors, Beam beam, const Sky& sky,
+                                       const Eigen::Matrix3d& R_spin_icrf, TaiTime t) {
   const auto [side, crossing] = beam;
   const std::optional<ConedBeam>& placed = sensors.beams.at(index_of(side));
   if (!placed) {
@@ -144,8 +153,8 @@ std::optional<PredictedEdge> beam_edge(const PlacedSensors& sensors, Beam beam,
   const auto& [sensor, mount_angle_per_coning, azimuth_per_coning] = *placed;
   const SensorBiases& biases = sensors.biases;
   const auto [mount_angle, chord] = biases_of(side);
-  const auto limb =
-      limb_crossing(sensors.horizon, earth, sensor.mount_angle_rad + biases[mount_angle], crossing);
+  const auto limb = limb_crossing(sensors.horizon, earth_view(sky, R_spin_icrf, t),
+                                  sensor.mount_angle_rad + biases[mount_angle], crossing);
   if (!limb) {
     return std::nullopt;
   }
@@ -162,7 +171,13 @@ std::optional<PredictedEdge> beam_edge(const PlacedSensors& sensors, Beam beam,
       .phase_per_bias =
           limb->azimuth_per_mount * PerBias::Unit(mount_angle) + half_chord * PerBias::Unit(chord) +
           PerBias::Unit(DihedralBias) + limb->azimuth_per_height_km * PerBias::Unit(Co2HeightBias) +
-          per_coning(limb->azimuth_per_mount * mount_angle_per_coning + azimuth_per_coning)};
+          per_coning(limb->azimuth_per_mount * mount_angle_per_coning + azimuth_per_coning),
+      .phase_per_alignment =
+          limb->azimuth_per_mount *
+              PerAlignment::Unit(north ? NorthMountAngleError : SouthMountAngleError) +
+          PerAlignment::Unit(north ? NorthAzimuthError : SouthAzimuthError) +
+          limb->azimuth_per_height_km * PerAlignment::Unit(Co2AltitudeError) +
+          per_late_tag(*limb, sky, R_spin_icrf) * PerAlignment::Unit(TimeTagError)};
 }
 
 std::optional<ConedBeam> placed_beam(const std::optional<InfraredSensor>& beam,
@@ -214,7 +229,7 @@ std::optional<PredictedEdge> predict_edge(const PlacedSensors& sensors, const Sk
   if (edge.channel == PulseChannel::Sun2) {
     return sun2_edge(sensors.sun2, sun_spin, sensors.biases);
   }
-  return beam_edge(sensors, beam_of(edge.channel), earth_view(sky, R_spin_icrf, edge.t));
+  return beam_edge(sensors, beam_of(edge.channel), sky, R_spin_icrf, edge.t);
 }
 
 std::optional<PredictedEdge> predict_edge(const SpinConfig& config, const Sky& sky,
@@ -247,7 +262,8 @@ std::optional<PredictedEdge> linearise_by_depth(const SpinConfig& config, const 
   return PredictedEdge{.phase_rad = wrapped_rad(phase_rad - limb->depth / scale),
                        .phase_per_rotation = -limb->depth_per_rotation / scale,
                        .phase_per_error = PerError::Zero(),
-                       .phase_per_bias = PerBias::Zero()};
+                       .phase_per_bias = PerBias::Zero(),
+                       .phase_per_alignment = PerAlignment::Zero()};
 }
 
 void EdgeInformation::add(const PredictedEdge& edge, double dt_s, double sigma_rad, double weight) {

@@ -43,6 +43,9 @@ struct PredictedEdge {
   Eigen::Matrix<double, 1, kModelErrors> phase_per_error;
   /// Change of the phase per bias, rad/rad or rad/km.
   Eigen::Matrix<double, 1, kSensorBiases> phase_per_bias;
+  /// Change of the phase per error of the mission file, in rad per unit of alignment.h. A late time
+  /// tag turns the body as well, which the phase takes up: what is left is the motion of the Earth.
+  Eigen::Matrix<double, 1, kSpinAlignmentErrors> phase_per_alignment;
 };
 
 /// Holds the sensors' directions in the body with coning, and the horizon with its bias, shared by
@@ -72,8 +75,8 @@ std::optional<PredictedEdge> predict_edge(const SpinConfig& config, const Sky& s
 /// has the noise of the edge's azimuth, so it only serves to find a state that has the edge.
 /// @param phase_rad Phase of slit 1 at the edge by the state.
 /// @param sigma_rad Noise of the edge.
-/// @return Prediction without slopes by errors or biases, whose third slope by rotation is not -1.
-/// Empty for a slit, and for a beam that points away from the Earth or does not exist.
+/// @return Prediction without slopes by errors, biases or alignment, whose third slope by rotation
+/// is not -1. Empty for a slit, and for a beam that points away from the Earth or does not exist.
 std::optional<PredictedEdge> linearise_by_depth(const SpinConfig& config, const Sky& sky,
                                                 const Eigen::Matrix3d& R_spin_icrf,
                                                 const Pulse& edge, double phase_rad,

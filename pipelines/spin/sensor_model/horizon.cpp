@@ -38,6 +38,12 @@ class TangentForm {
     return along * along_per_km -
            0.5 * (flattening_per_km * north * north * outside_ + squeeze * outside_per_km);
   }
+  /// Returns half the change of d.Q d per km that the spacecraft moves.
+  Eigen::Vector3d half_per_position_km(const Eigen::Vector3d& direction) const {
+    const Eigen::Vector3d squeezed = stretched(direction);
+    return (stretched_.dot(direction) * squeezed - direction.dot(squeezed) * stretched_) /
+           axes_.equatorial_km;
+  }
   bool points_down(const Eigen::Vector3d& direction) const {
     return stretched_.dot(direction) < 0.0;
   }
@@ -116,11 +122,13 @@ std::optional<LimbCrossing> limb_crossing(const HorizonAxes& axes, const EarthVi
       // A chord that changes by more than this factor times the axis motion is about to vanish.
       const bool crosses = form.points_down(beam) && enters == (crossing == Crossing::In) &&
                            per_rotation.norm() < 30.0;
-      return crosses ? std::optional{LimbCrossing{.azimuth_rad = wrapped_rad(azimuth_rad),
-                                                  .azimuth_per_rotation = per_rotation,
-                                                  .azimuth_per_limb = per_limb(earth, beam),
-                                                  .azimuth_per_mount = per_mount,
-                                                  .azimuth_per_height_km = per_height_km}}
+      return crosses ? std::optional{LimbCrossing{
+                           .azimuth_rad = wrapped_rad(azimuth_rad),
+                           .azimuth_per_rotation = per_rotation,
+                           .azimuth_per_limb = per_limb(earth, beam),
+                           .azimuth_per_mount = per_mount,
+                           .azimuth_per_height_km = per_height_km,
+                           .azimuth_per_position_km = -form.half_per_position_km(beam) / slope.z()}}
                      : std::nullopt;
     }
   }
