@@ -389,6 +389,7 @@ CREATE TABLE spin_fix (
   ra_deg               REAL NOT NULL CHECK (ra_deg >= 0 AND ra_deg < 360),
   dec_deg              REAL NOT NULL CHECK (dec_deg BETWEEN -90 AND 90),
   sigma_deg            REAL NOT NULL CHECK (sigma_deg >= 0),
+  noise_sigma_deg      REAL NOT NULL CHECK (noise_sigma_deg >= 0),  -- were the mission file exact
   cov_east_east_deg2   REAL NOT NULL,
   cov_east_north_deg2  REAL NOT NULL,
   cov_north_north_deg2 REAL NOT NULL,
@@ -399,7 +400,8 @@ CREATE TABLE spin_fix (
     OR resolution = 'DISPERSION' OR resolution = 'AMBIGUOUS'),
   norm                 REAL NOT NULL,  -- |P| before normalising: 1 for measurements that agree
   accepted             INTEGER NOT NULL CHECK (accepted IN (0, 1)),
-  -- Chi-square of what the measurements have too much about the axis, by the edges' noise alone.
+  -- Chi-square of what the measurements have too much about the axis, by the edges' noise and what the mission
+  -- file may be off.
   misfit               REAL NOT NULL CHECK (misfit >= 0),
   alternate_misfit     REAL CHECK (alternate_misfit >= 0),
   PRIMARY KEY (run_id, revolution),
@@ -436,6 +438,23 @@ CREATE TABLE axis_choice (
     settled_by IN ('edges', 'geometry', 'constraint', 'prior', 'dispersion', 'nothing')),
   CHECK ((other_ra_deg IS NULL) = (other_dec_deg IS NULL)),
   CHECK (other_ra_deg IS NOT NULL OR delta_chi_square IS NULL)
+) STRICT, WITHOUT ROWID;
+
+-- How far one sigma of each error that the mission file may have moves an answer: true axis minus that of the
+-- answer, ICRF. The errors are one draw a pass, the same for all estimators, so that what two of them share does not
+-- tell them apart (view spin_comparison). Correlated errors stand as independent ones in the order of the mission
+-- file, so that the sum of the squares of all rows of an answer is sigma_deg squared less noise_sigma_deg squared,
+-- where it has estimated no bias.
+-- of_batch: 0, of the pass when it ended; 1, of the last solution by `batch`. No rows: the file counts as exact.
+CREATE TABLE axis_shift (
+  run_id    TEXT NOT NULL REFERENCES run,
+  of_batch  INTEGER NOT NULL CHECK (of_batch IN (0, 1)),
+  estimator TEXT NOT NULL CHECK (estimator IN ('mean', 'sequential', 'batch')),
+  position  INTEGER NOT NULL CHECK (position BETWEEN 1 AND 8),
+  x_deg     REAL NOT NULL,
+  y_deg     REAL NOT NULL,
+  z_deg     REAL NOT NULL,
+  PRIMARY KEY (run_id, of_batch, estimator, position)
 ) STRICT, WITHOUT ROWID;
 
 -- cov_* as in spin_fix.
@@ -490,9 +509,8 @@ CREATE TABLE spin_batch (
   noise                  REAL NOT NULL CHECK (noise >= 1),  -- times the stated one
   iterations             INTEGER NOT NULL,
   changed_tai_ns         INTEGER,  -- attitude or rate did, and only edges after it count; NULL: did not
-  -- Root mean square error of the axis, both directions together, were no bias known better than by its
-  -- prior, those held at zero included.
-  consider_sigma_deg     REAL NOT NULL CHECK (consider_sigma_deg >= 0),
+  noise_sigma_deg        REAL NOT NULL CHECK (noise_sigma_deg >= 0),  -- of the axis, were the mission file exact
+  consider_sigma_deg     REAL NOT NULL CHECK (consider_sigma_deg >= 0),  -- the sigma_deg of its row of spin_estimate
   rate_drift_rpm_h       REAL NOT NULL,  -- of the spin rate, even over the pass
   rate_drift_sigma_rpm_h REAL NOT NULL CHECK (rate_drift_sigma_rpm_h >= 0),
   PRIMARY KEY (run_id, t_tai_ns)

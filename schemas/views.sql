@@ -193,9 +193,11 @@ WHERE NOT EXISTS (
     AND EXISTS (SELECT * FROM spin_estimate AS later WHERE later.run_id = last.run_id
       AND later.estimator IN ('mean', 'sequential', 'batch') AND later.t_tai_ns >= marked.t_tai_ns));
 
--- The answers of a run two by two: apart in degrees and in the larger sigma of the two, since estimators of
--- the same edges differ by no more than the worse of them errs (Hausman 1978: the variance of the difference
--- from an efficient one is the difference of the variances). They contradict each other where both claim their
+-- The answers of a run two by two: apart in degrees and in the sigma of their difference. Of noise that is the
+-- larger of the two, since estimators of the same edges differ by no more than the worse of them errs (Hausman
+-- 1978: the variance of the difference from an efficient one is the difference of the variances). Errors of the
+-- mission file are the same for both, and only what they move one further than the other counts (axis_shift; while a run
+-- goes on, as much as they may move both). They contradict each other where both claim their
 -- axis and disagree, or both are on the same axis and one says that the other root may be it: no more than one can
 -- be right. Two that are AMBIGUOUS do not disagree, whichever of the roots each names first. An answer that is
 -- CONVERGING, DOUBTFUL or LOST claims nothing. They disagree from 3 sigmas on, the alert spin.disagree begins at 5:
@@ -209,7 +211,14 @@ WITH pair AS (
       pow(sin(radians(a.dec_deg - b.dec_deg) / 2), 2)
       + cos(radians(a.dec_deg)) * cos(radians(b.dec_deg))
         * pow(sin(radians(a.ra_deg - b.ra_deg) / 2), 2))))) AS apart_deg,
-    max(a.sigma_deg, b.sigma_deg) AS sigma_deg
+    sqrt(pow(max(a.noise_sigma_deg, b.noise_sigma_deg), 2) + ifnull(
+      (SELECT sum(pow(one.x_deg - other.x_deg, 2) + pow(one.y_deg - other.y_deg, 2)
+        + pow(one.z_deg - other.z_deg, 2))
+       FROM axis_shift AS one JOIN axis_shift AS other USING (run_id, position)
+       WHERE one.run_id = a.run_id AND (one.of_batch, one.estimator) = (a.estimator = 'batch', a.estimator)
+         AND (other.of_batch, other.estimator) = (b.estimator = 'batch', b.estimator)),
+      pow(sqrt(max(pow(a.sigma_deg, 2) - pow(a.noise_sigma_deg, 2), 0))
+        + sqrt(max(pow(b.sigma_deg, 2) - pow(b.noise_sigma_deg, 2), 0)), 2))) AS sigma_deg
   FROM pass_answer AS a JOIN pass_answer AS b USING (run_id)
   WHERE (a.estimator = 'mean' AND b.estimator <> 'mean')
     OR (a.estimator = 'sequential' AND b.estimator = 'batch')

@@ -57,7 +57,7 @@ enum class ReasonCode {
   FewSettled,           ///< open_percent
   Since,                ///< since_tai_ns
   AwaitingFix,          ///< -
-  ModelOff,             ///< deg
+  ModelOff,             ///< deg, key
   Noise,                ///< factor
   CopiesInNoise,        ///< -
   Revolutions,          ///< count

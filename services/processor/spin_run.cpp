@@ -30,12 +30,13 @@ Expected<BatchSolution> solve_edges(SpinConfig config, const Orbit& orbit, PassE
   return solution;
 }
 
-/// Returns the solution as products: its estimate, its choice of the axis and the solution itself.
+/// Returns the solution as products: its estimate, its choice of the axis, what it says of the
+/// mission file and the solution itself.
 Expected<std::vector<Product>> batch_products(BatchSolution solution, bool keeps_residuals) {
   if (!keeps_residuals) {
     solution.said = {};
   }
-  return unless_withheld({solution.estimate, solution.choice,
+  return unless_withheld({solution.estimate, solution.choice, solution.equations,
                           std::make_shared<const BatchSolution>(std::move(solution))});
 }
 

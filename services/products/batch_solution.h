@@ -16,6 +16,7 @@
 #include "pipelines/spin/batch/pass_information.h"
 #include "services/base/bias_words.h"
 #include "services/base/degrees.h"
+#include "services/products/axis_columns.h"
 #include "services/products/product_kind.h"
 
 namespace spindrift {
@@ -43,8 +44,13 @@ struct SpinBatchTable {
                     [](const BatchProduct& s) {
                       return s->changed ? std::optional{tai_ns(*s->changed)} : std::nullopt;
                     }},
-      ProductColumn{"consider_sigma_deg",
-                    [](const BatchProduct& s) { return s->consider_sigma_rad * kDegPerRad; }},
+      ProductColumn{"noise_sigma_deg",
+                    [](const BatchProduct& s) {
+                      return AxisColumns<SpinEstimate>::noise_sigma_deg(s->estimate);
+                    }},
+      ProductColumn{
+          "consider_sigma_deg",
+          [](const BatchProduct& s) { return AxisColumns<SpinEstimate>::sigma_deg(s->estimate); }},
       ProductColumn{"rate_drift_rpm_h",
                     [](const BatchProduct& s) { return s->drift_rad_s2 * kRpmPerHourPerRad_s2; }},
       ProductColumn{"rate_drift_sigma_rpm_h", [](const BatchProduct& s) {

@@ -29,6 +29,7 @@ struct SpinEstimateTable {
                     [](const SpinEstimate& estimate) { return name_of(estimate.estimator); }},
       ProductColumn{"ra_deg", &Axis::ra_deg}, ProductColumn{"dec_deg", &Axis::dec_deg},
       ProductColumn{"sigma_deg", &Axis::sigma_deg},
+      ProductColumn{"noise_sigma_deg", &Axis::noise_sigma_deg},
       ProductColumn{"cov_east_east_deg2", &Axis::covariance_deg2<0, 0>},
       ProductColumn{"cov_east_north_deg2", &Axis::covariance_deg2<0, 1>},
       ProductColumn{"cov_north_north_deg2", &Axis::covariance_deg2<1, 1>},
@@ -71,7 +72,8 @@ struct ProductKind<SpinEstimate> {
             .spin_rate_rad_s = row.real("spin_rate_rpm") / kRpmPerRad_s,
             .spin_rate_sigma_rad_s = row.real("sigma_rpm") / kRpmPerRad_s,
             .assessment = {.quality = named(row.text("quality"), Quality::Lost),
-                           .reasons = reasons_of(row.text("reasons"))}};
+                           .reasons = reasons_of(row.text("reasons"))},
+            .alignment_rad2 = alignment_rad2_of(row)};
   }
 };
 

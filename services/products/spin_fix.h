@@ -33,6 +33,7 @@ struct SpinFixTable {
                     [](const SpinFix& fix) { return std::int64_t{fix.geometry_case}; }},
       ProductColumn{"ra_deg", &Axis::ra_deg}, ProductColumn{"dec_deg", &Axis::dec_deg},
       ProductColumn{"sigma_deg", &Axis::sigma_deg},
+      ProductColumn{"noise_sigma_deg", &Axis::noise_sigma_deg},
       ProductColumn{"cov_east_east_deg2", &Axis::covariance_deg2<0, 0>},
       ProductColumn{"cov_east_north_deg2", &Axis::covariance_deg2<0, 1>},
       ProductColumn{"cov_north_north_deg2", &Axis::covariance_deg2<1, 1>},
@@ -111,7 +112,8 @@ struct ProductKind<SpinFix> {
                 .alternates = {},
                 .resolution = named(row.text("resolution"), Resolution::Ambiguous),
                 .norm = row.real("norm"),
-                .accepted = row.integer("accepted") != 0};
+                .accepted = row.integer("accepted") != 0,
+                .alignment_rad2 = alignment_rad2_of(row)};
     if (row.has("alternate_ra_deg")) {
       fix.alternates = {{.axis_icrf = axis_icrf_from(row.real("alternate_ra_deg"),
                                                      row.real("alternate_dec_deg"))}};
@@ -152,10 +154,48 @@ struct AxisChoiceTable {
       ProductColumn{"settled_by", [](const AxisChoice& one) { return name_of(one.settled_by); }});
 };
 
+/// How errors of the mission file move the axis of each estimator.
+struct AxisShiftTable {
+  static constexpr std::string_view kName = "axis_shift";
+  static constexpr std::array<std::string_view, 3> kKey{"of_batch", "estimator", "position"};
+
+  struct Row {
+    std::int64_t of_batch;
+    SpinEstimator estimator;
+    std::int64_t position;
+    Eigen::Vector3d shift_icrf;
+  };
+  static std::int64_t group(const AxisChoice& choice) {
+    return choice.estimator == SpinEstimator::Batch ? 1 : 0;
+  }
+  /// Gives no row where the mission file counts as exact.
+  static std::vector<Row> rows(const AxisChoice& choice) {
+    std::vector<Row> rows;
+    for (const EstimatorShift& of : choice.shifts) {
+      for (Eigen::Index i = 0; i < kSpinAlignmentErrors && !of.shift_icrf.isZero(0.0); ++i) {
+        rows.push_back({.of_batch = group(choice),
+                        .estimator = of.estimator,
+                        .position = i + 1,
+                        .shift_icrf = of.shift_icrf.col(i)});
+      }
+    }
+    return rows;
+  }
+  template <int kAxis>
+  static double shift_deg(const Row& row) {
+    return row.shift_icrf[kAxis] * kDegPerRad;
+  }
+  static constexpr auto kColumns =
+      columns(ProductColumn{"of_batch", &Row::of_batch},
+              ProductColumn{"estimator", [](const Row& row) { return name_of(row.estimator); }},
+              ProductColumn{"position", &Row::position}, ProductColumn{"x_deg", &shift_deg<0>},
+              ProductColumn{"y_deg", &shift_deg<1>}, ProductColumn{"z_deg", &shift_deg<2>});
+};
+
 template <>
 struct ProductKind<AxisChoice> {
   static constexpr ProductWeight kWeight = ProductWeight::Result;
-  using Tables = std::tuple<AxisChoiceTable>;
+  using Tables = std::tuple<AxisChoiceTable, AxisShiftTable>;
 };
 
 }  // namespace spindrift

@@ -103,9 +103,8 @@ std::string to_text(const BatchSolution& solution) {
       fmt::format("  bound        {} deg (Cramer-Rao), {} edges, {} outliers, noise x {:.2f}\n",
                   to_its_digits(solution.bound_rad * kDegPerRad, 4), solution.edges,
                   solution.outliers, solution.noise);
-  text +=
-      fmt::format("  consider     {} deg (sigma, were no bias known better than by its prior)\n",
-                  to_its_digits(solution.consider_sigma_rad * kDegPerRad, 4));
+  text += fmt::format("  noise        {} deg (sigma, were the mission file exact)\n",
+                      to_its_digits(noise_sigma_rad(solution.estimate) * kDegPerRad, 4));
   text += fmt::format("  rate drift   {} rpm/h\n",
                       signed_with_sigma(solution.drift_rad_s2 * kRpmPerHourPerRad_s2,
                                         solution.drift_sigma_rad_s2 * kRpmPerHourPerRad_s2, 6));
@@ -143,7 +142,8 @@ nlohmann::json to_json(const BatchSolution& solution) {
   }
   nlohmann::json json{
       {"bound_deg", solution.bound_rad * kDegPerRad},
-      {"consider_sigma_deg", solution.consider_sigma_rad * kDegPerRad},
+      {"noise_sigma_deg", noise_sigma_rad(solution.estimate) * kDegPerRad},
+      {"consider_sigma_deg", sigma_deg(solution.estimate.covariance_rad2)},
       {"rate_drift_rpm_h", solution.drift_rad_s2 * kRpmPerHourPerRad_s2},
       {"rate_drift_sigma_rpm_h", solution.drift_sigma_rad_s2 * kRpmPerHourPerRad_s2},
       {"edges", solution.edges},

@@ -350,7 +350,6 @@ BatchSolution solution_at(std::int64_t t_tai_ns, std::vector<BiasEstimate> biase
           .drift_rad_s2 = 1e-6,
           .drift_sigma_rad_s2 = 1e-8,
           .bound_rad = 1e-4,
-          .consider_sigma_rad = 1e-3,
           .biases = std::move(biases),
           .undetermined = {},
           .singular_values = {},

@@ -37,7 +37,7 @@ inline double sigma_deg(const SpinEstimate& estimate) {
 /// Returns the fixes that are complete before the revolution of that index is processed.
 using Fixes = std::function<std::vector<SpinFix>(std::size_t index)>;
 
-/// Returns all estimates; the text of each one's reasons must fit a field of 63 characters.
+/// Returns all estimates; the text of each one's reasons must fit a field of 95 characters.
 inline std::vector<SpinEstimate> estimates(const SpinConfig& config,
                                            const std::vector<ObservedRevolution>& seen,
                                            const Fixes& fixes) {
@@ -46,7 +46,7 @@ inline std::vector<SpinEstimate> estimates(const SpinConfig& config,
   for (std::size_t i = 0; i < seen.size(); ++i) {
     const auto estimate = estimator.update(seen[i].revolution, seen[i].sky, fixes(i));
     if (estimate) {
-      EXPECT_LE(sentence_of(estimate->assessment).size(), 63U) << sentence_of(estimate->assessment);
+      EXPECT_LE(sentence_of(estimate->assessment).size(), 95U) << sentence_of(estimate->assessment);
       EXPECT_EQ(estimate->estimator, SpinEstimator::Sequential);
       all.push_back(*estimate);
     }

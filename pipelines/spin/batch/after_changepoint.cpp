@@ -18,13 +18,16 @@ namespace {
 constexpr std::int64_t kFewestTurns = 3;
 constexpr int kMostChanges = 4;
 
-/// Rejects a change that a further bias explains, since a wrong bias also makes residuals drift.
+/// Rejects a change that the mission file's alignment or a further bias explains, since these make
+/// residuals drift as well.
 bool is_change(const std::optional<Changepoint>& change, const EvaluatedFit& found) {
   if (!change) {
     return false;
   }
-  const auto bias = most_significant_bias(found.beside_offsets(), found.estimated);
-  return !bias || change->gain > bias->gain + kSettled;
+  const double by_alignment = found.information.misfit() - found.misfit();
+  const auto bias = most_significant_bias(found.beside_considered(), found.estimated);
+  const double by_model = by_alignment + (bias ? bias->gain : 0.0);
+  return by_model == 0.0 || change->gain > by_model + kSettled;
 }
 
 /// Dates a rate step by pulse times alone: a state lies between the two rates or fits neither.

@@ -12,7 +12,7 @@ namespace spindrift {
 namespace {
 
 bool is_far_off(const BiasEstimate& bias) {
-  return bias.estimated && std::abs(bias.value) > kFarOffPriorSigmas * prior_of(bias.bias).sigma;
+  return bias.estimated && std::abs(bias.value) > kFarOffPriorSigmas * bias.prior_sigma;
 }
 
 bool is_doubtful(const BatchSolution& solution, const BatchDoubts& doubts) {
@@ -21,7 +21,7 @@ bool is_doubtful(const BatchSolution& solution, const BatchDoubts& doubts) {
   const bool contradicted = doubts.left_out && (rests_on_few(solution, *doubts.left_out) ||
                                                 !doubts.left_out->fit_one_attitude);
   return solution.noise > 1.0 || dirty || contradicted || doubts.at_bound.any() || doubts.wanted ||
-         (doubts.coning_by_edges && solution.coning.verdict.detected) ||
+         doubts.model_off || (doubts.coning_by_edges && solution.coning.verdict.detected) ||
          std::any_of(solution.biases.begin(), solution.biases.end(), is_far_off);
 }
 
@@ -92,6 +92,9 @@ void add_biases(const BatchSolution& solution, const BatchDoubts& doubts, Reason
     } else if (bias.estimated) {
       add_bias(bias, reasons);
     }
+  }
+  if (doubts.model_off) {
+    reasons.push_back(*doubts.model_off);
   }
   if (doubts.wanted) {
     reasons.push_back({ReasonCode::BiasWanted, {named(*doubts.wanted)}});

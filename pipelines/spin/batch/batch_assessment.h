@@ -20,6 +20,7 @@ struct BatchDoubts {
   BiasSet at_bound;
   bool coning_by_edges;              ///< True when the edges, not the mission file, ask for coning.
   std::optional<SensorBias> wanted;  ///< Bias that the residuals still call for.
+  std::optional<Reason> model_off = {};  ///< Error of the mission file beyond what it states.
 };
 
 /// Returns whether left-out edges and outliers exceed twice the edges that the solution rests on.

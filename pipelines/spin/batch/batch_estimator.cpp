@@ -18,6 +18,7 @@
 #include "pipelines/spin/batch/bias_selection.h"
 #include "pipelines/spin/batch/initial_state.h"
 #include "pipelines/spin/batch/observability.h"
+#include "pipelines/spin/batch/pass_evidence.h"
 #include "pipelines/spin/batch/pass_nutation.h"
 #include "pipelines/spin/telemetry_order/time_grid.h"
 #include "pipelines/statistics/median.h"
@@ -65,17 +66,24 @@ Error why_diverged(const Solved& solved) {
 }
 
 /// Returns all biases but coning. Those not estimated get one step from the state, taken together.
-std::vector<BiasEstimate> all_biases(const EvaluatedFit& found) {
-  const PassInformation information = found.beside_offsets();
+std::vector<BiasEstimate> all_biases(const SpinConfig& config, const EvaluatedFit& found) {
   const SensorBiases& now = found.fit.state.biases;
-  const Observability together{information, seen_biases(information) | found.estimated};
-  const Observability alone{information, found.estimated};
-  const SensorBiases step = together.bias_step(information, now);
+  const BiasSet all = seen_biases(found.information) | found.estimated;
+  const PassInformation beside_all =
+      found.beside(considered_prior(config.noise, alignment_beside(config, all)));
+  const Observability together{beside_all, all};
+  const SensorBiases step = together.bias_step(beside_all, now);
   std::vector<BiasEstimate> biases = together.biases(now + step);
+  // Their sigmas have the offsets by elimination, and the alignment by the gains of the solution.
+  const PassInformation beside_offsets = found.beside(considered_prior(config.noise));
+  const Observability alone{beside_offsets, found.estimated};
+  const Observability::Matrix by_alignment =
+      Observability{found.information, found.estimated}.considered(
+          found.information, considered_prior(alignment_beside(config, found.estimated)));
   for (BiasEstimate& bias : biases) {
     bias.estimated = false;
   }
-  for (const BiasEstimate& estimated : alone.biases(now)) {
+  for (const BiasEstimate& estimated : alone.biases(now, by_alignment)) {
     *std::find_if(biases.begin(), biases.end(), [&](const BiasEstimate& bias) {
       return bias.bias == estimated.bias;
     }) = estimated;
@@ -84,14 +92,6 @@ std::vector<BiasEstimate> all_biases(const EvaluatedFit& found) {
     return bias.bias == ConingX || bias.bias == ConingY;
   });
   return biases;
-}
-
-double consider_sigma_rad(const EvaluatedFit& found, double excess_noise) {
-  PassInformation information = found.information;
-  information.information /= excess_noise;
-  information.score /= excess_noise;
-  const Observability unknown{information, seen_biases(information) | found.estimated};
-  return unknown.rms_error_rad(information, found.fit.state.biases);
 }
 
 ConingEstimate coning_of(const EvaluatedFit& found, double excess_noise) {
@@ -118,14 +118,63 @@ std::vector<BatchEdge> said_to(const Solved& solved) {
   std::vector<BatchEdge> said;
   said.reserve(solved.edges.size());
   for (const PassEdge& edge : solved.edges) {
-    const double sigma_s = edge_sigma_s(solved.model.config().noise, edge.pulse.channel);
+    const SpinConfig& config = solved.model.config();
+    const double noise_s = edge_sigma_s(config.noise, edge.pulse.channel);
     const auto residual = at.residual(edge.pulse);
+    const double sigmas = residual ? residual->sigma(config.alignment) : 1.0;
     said.push_back({.pulse = edge.pulse,
-                    .residual_s = residual ? std::optional{residual->off * sigma_s} : std::nullopt,
-                    .sigma_s = sigma_s,
-                    .used = residual && std::abs(residual->off) < kOutlierSigmas});
+                    .residual_s = residual ? std::optional{residual->off * noise_s} : std::nullopt,
+                    .sigma_s = noise_s * sigmas,
+                    .used = residual && std::abs(residual->off) < kOutlierSigmas * sigmas});
   }
   return said;
+}
+
+/// Returns the error of the mission file that explains most of what those stated leave over; empty
+/// where it is exact.
+std::optional<AlignmentExcess> excess_of(const SpinConfig& config, const EvaluatedFit& found) {
+  return is_stated(config.alignment)
+             ? worst_excess(alignment_evidence(config, found), config.alignment)
+             : std::nullopt;
+}
+
+/// Returns the fit with edges that are so far off that a wrong model explains them, but no stray.
+EvaluatedFit with_far_edges(const Solved& solved) {
+  // Limit of an edge in its sigmas.
+  constexpr double kFar = 4.0 * kOutlierSigmas;
+  EvaluatedFit far = solved.of.best;
+  far.information = information_of(solved.model, solved.edges, far.fit.state, kFar);
+  return far;
+}
+
+/// Returns the size of an error as an angle at the limb.
+double as_angle_rad(const PassModel& model, const AlignmentExcess& excess) {
+  const OrbitState& at = model.sky_at(model.middle()).spacecraft;
+  const double range_km = at.position_icrf_km.norm();
+  switch (excess.error) {
+    case Co2AltitudeError: {
+      const double radius_km = horizon_axes(model.config().horizon).equatorial_km;
+      return excess.value / std::sqrt(range_km * range_km - radius_km * radius_km);
+    }
+    case TimeTagError:
+      return excess.value * at.velocity_icrf_km_s.norm() / range_km;
+    default:
+      return excess.value;
+  }
+}
+
+/// Returns the reason where the mission file is off by more than it states, or a bias explains what
+/// it does not.
+/// @param beyond Excess before biases were added. @param culprit The same with far edges.
+std::optional<Reason> model_off(const Solved& solved, const std::optional<AlignmentExcess>& beyond,
+                                const std::optional<AlignmentExcess>& culprit) {
+  const bool added = !solved.model.config().batch.biases && solved.of.best.estimated.any();
+  if (!beyond || !culprit || !(added || beyond->gain > significance_gain())) {
+    return std::nullopt;
+  }
+  return Reason{ReasonCode::ModelOff,
+                {{"deg", degrees(std::abs(as_angle_rad(solved.model, *culprit)))},
+                 {"key", std::string{kSpinAlignmentKeys.at(culprit->error)}}}};
 }
 
 /// Returns the solution without assessment, choice and undetermined directions.
@@ -138,28 +187,37 @@ BatchSolution solution_of(const Solved& solved, const Eigen::Matrix2d& open_rad2
   const Eigen::Matrix2d bound_rad2 = observed.axis_covariance_rad2();
   const double excess_noise = best.excess_noise();
   const Eigen::Matrix2d turned = tangent_from_tilts(best.fit.state.q_icrf_spin);
+  const SpinConfig& config = solved.model.config();
+  const Observability::Matrix by_offsets =
+      observed.considered(information, considered_prior(config.noise));
+  const Observability::Matrix by_alignment =
+      observed.considered(information, considered_prior(alignment_beside(config, best.estimated)));
+  const Observability::Matrix total = observed.covariance() * excess_noise + by_alignment;
+  const Eigen::Matrix2d alignment_rad2 =
+      turned * by_alignment.topLeftCorner<2, 2>() * turned.transpose();
   const double half_s = solved.model.half_s();
-  const double of_grid_rad = best.fit.state.rate_rad_s * grid_sigma_s(solved.model.config().noise);
+  const double of_grid_rad = best.fit.state.rate_rad_s * grid_sigma_s(config.noise);
   BatchSolution solution{
       .estimate = {.t = solved.edges.back().pulse.t,
                    .estimator = SpinEstimator::Batch,
                    .axis_icrf = best.fit.state.axis_icrf(),
                    .covariance_rad2 = turned *
-                                      (bound_rad2 * (excess_noise / kEfficiency) + open_rad2 +
-                                       observed.offsets_rad2(information, best.offsets_s2)) *
-                                      turned.transpose(),
+                                          (bound_rad2 * (excess_noise / kEfficiency) + open_rad2 +
+                                           by_offsets.topLeftCorner<2, 2>()) *
+                                          turned.transpose() +
+                                      alignment_rad2,
                    .spin_rate_rad_s =
                        best.fit.state.rate_rad_s + best.fit.state.drift_rad_s2 * half_s,
                    .spin_rate_sigma_rad_s =
-                       std::hypot(std::sqrt(observed.last_rate_variance(half_s) * excess_noise),
+                       std::hypot(std::sqrt(last_rate_variance(total, half_s)),
                                   kLastRateOfThree * of_grid_rad / (2.0 * half_s)),
-                   .assessment = {}},
+                   .assessment = {},
+                   .alignment_rad2 = alignment_rad2},
       .drift_rad_s2 = best.fit.state.drift_rad_s2,
-      .drift_sigma_rad_s2 = std::hypot(std::sqrt(observed.drift_variance(half_s) * excess_noise),
+      .drift_sigma_rad_s2 = std::hypot(std::sqrt(drift_variance(total, half_s)),
                                        kDriftOfThree * of_grid_rad / (4.0 * half_s * half_s)),
       .bound_rad = std::sqrt(bound_rad2.trace()),
-      .consider_sigma_rad = consider_sigma_rad(best, excess_noise),
-      .biases = all_biases(best),
+      .biases = all_biases(config, best),
       .undetermined = {},
       .singular_values = observed.singular_values(),
       .changed = solved.left_out ? std::optional{solved.left_out->until} : std::nullopt,
@@ -170,7 +228,10 @@ BatchSolution solution_of(const Solved& solved, const Eigen::Matrix2d& open_rad2
       .nutation = best.nutation,
       .nutation_t = solved.edges.back().pulse.t,
       .coning = coning_of(best, excess_noise),
-      .said = said_to(solved)};
+      .said = said_to(solved),
+      .choice = {},
+      .equations = normal_equations(config, best)};
+  solution.equations.t = solution.estimate.t;
   if (best.nutation && best.nutation->found) {
     solution.nutation->found = as_fitted(*best.nutation->found, solved.model, best.fit.state);
     solution.nutation_t = later_by_s(solved.model.middle(), best.nutation->found->t_s);
@@ -194,6 +255,14 @@ bool follows(const Eigen::Vector3d& axis_icrf, const std::optional<OtherAxis>& o
                         angle_between_rad(of_pass.axis_icrf, other->axis_icrf));
 }
 
+AxisShift axis_shift(const Solved& solved) {
+  const EvaluatedFit& best = solved.of.best;
+  const auto moved = Observability{best.information, best.estimated}.moved(best.information);
+  return tangent_basis(best.fit.state.axis_icrf()) *
+         tangent_from_tilts(best.fit.state.q_icrf_spin) *
+         moved.topRightCorner<2, kSpinAlignmentErrors>() * root_of(solved.model.config().alignment);
+}
+
 /// Records which of the competing axes the solution has taken and what settled the choice.
 /// @param of_pass Earlier choice of the same pass, if any.
 AxisChoice axis_choice(const Solved& solved, const std::optional<AxisChoice>& of_pass) {
@@ -215,6 +284,7 @@ AxisChoice axis_choice(const Solved& solved, const std::optional<AxisChoice>& of
   } else if (of_pass && follows(choice.axis_icrf, other, *of_pass)) {
     choice.settled_by = of_pass->settled_by;
   }
+  choice.shifts = {{.estimator = SpinEstimator::Batch, .shift_icrf = axis_shift(solved)}};
   return choice;
 }
 
@@ -265,6 +335,8 @@ Expected<Heard> solve_with_noise(const SpinConfig& config, const Orbit& orbit,
   if (!solved) {
     return Unexpected{solved.error()};
   }
+  const auto beyond = excess_of(config, solved->of.best);
+  const auto culprit = beyond ? excess_of(config, with_far_edges(*solved)) : std::nullopt;
   Eigen::Matrix2d open_rad2 = Eigen::Matrix2d::Zero();
   if (!config.batch.biases) {
     auto added = select_biases(solved->model, solved->edges, solved->of.best);
@@ -302,7 +374,7 @@ Expected<Heard> solve_with_noise(const SpinConfig& config, const Orbit& orbit,
   solution.choice = axis_choice(*solved, starts.of_pass);
   const BiasSet suspected = config.batch.biases.value_or(seen_biases(information));
   solution.undetermined = Observability{information, suspected}.undetermined();
-  const auto wanted = most_significant_bias(best.beside_offsets(), best.estimated);
+  const auto wanted = most_significant_bias(best.beside_considered(), best.estimated);
   solution.estimate.assessment = assess(
       solution,
       {.alternate_axis_icrf = solved->of.alternate_axis_icrf,
@@ -311,7 +383,8 @@ Expected<Heard> solve_with_noise(const SpinConfig& config, const Orbit& orbit,
        .estimated = best.estimated,
        .at_bound = best.fit.at_bound,
        .coning_by_edges = !config.batch.biases.has_value(),
-       .wanted = wanted ? std::optional{wanted->bias} : std::nullopt});
+       .wanted = wanted ? std::optional{wanted->bias} : std::nullopt,
+       .model_off = model_off(*solved, beyond, culprit)});
   if (const auto step = step_within(orbit_steps(orbit), solved->edges.front().pulse.t,
                                     solved->edges.back().pulse.t)) {
     doubt(solution.estimate.assessment, reason_of(*step));

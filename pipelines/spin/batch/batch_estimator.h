@@ -13,7 +13,7 @@
 ///     AMBIGUOUS  another axis, which is named, fits as well
 ///     DOUBTFUL   the edges scatter more than their noise, many are outliers, most of them lie
 ///                before a change or fit no axis; a bias or coning is implausible, or the residuals
-///                call for another bias
+///                call for another bias; or the mission file is off by more than it states
 
 #pragma once
 

@@ -12,6 +12,8 @@
 #include <algorithm>
 #include <cmath>
 #include <deque>
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include "pipelines/spin/batch/nutation_stretch.h"
@@ -47,6 +49,7 @@ class Fit final : public ceres::EvaluationCallback {
             .biases = parameters_.biases,
             .nutation = parameters_.nutation};
   }
+  const PassModel& model() const { return model_; }
   Parameters& parameters() { return parameters_; }
 
   /// Ceres has written the new parameters; the work that all edges share is done once here.
@@ -119,16 +122,51 @@ class EdgeCost final : public ceres::SizedCostFunction<1, 4, 2, kSensorBiases, k
 
 class PriorCost final : public ceres::SizedCostFunction<kSensorBiases, kSensorBiases> {
  public:
+  explicit PriorCost(SensorBiases sigmas) : sigmas_{std::move(sigmas)} {}
+
   bool Evaluate(double const* const* at, double* residuals, double** jacobians) const override {
     for (int i = 0; i < kSensorBiases; ++i) {
-      const double sigma = prior_of(static_cast<SensorBias>(i)).sigma;
-      residuals[i] = at[0][i] / sigma;
+      residuals[i] = at[0][i] / sigmas_[i];
       for (int j = 0; jacobians != nullptr && jacobians[0] != nullptr && j < kSensorBiases; ++j) {
-        jacobians[0][i * kSensorBiases + j] = i == j ? 1.0 / sigma : 0.0;
+        jacobians[0][i * kSensorBiases + j] = i == j ? 1.0 / sigmas_[i] : 0.0;
       }
     }
     return true;
   }
+
+ private:
+  SensorBiases sigmas_;
+};
+
+/// Holds the loss of each edge.
+class Losses {
+ public:
+  /// Huber's loss, where edges beyond the limit of the fine fit must still pull.
+  static Losses coarse() { return Losses{}; }
+  /// Tukey's loss about a state near the best one, wider where the mission file may be off.
+  static Losses fine(const PassAtState& near, const SpinAlignment& alignment) {
+    Losses losses;
+    losses.near_ = &near;
+    losses.alignment_ = alignment;
+    return losses;
+  }
+
+  ceres::LossFunction* of(const Pulse& edge) {
+    if (near_ == nullptr) {
+      return &huber_;
+    }
+    const auto residual = is_stated(alignment_) ? near_->residual(edge) : std::nullopt;
+    return residual ? &wider_.emplace_back(kOutlierSigmas * residual->sigma(alignment_)) : &tukey_;
+  }
+
+ private:
+  Losses() = default;
+
+  ceres::HuberLoss huber_{3.0};
+  ceres::TukeyLoss tukey_{kOutlierSigmas};
+  std::deque<ceres::TukeyLoss> wider_;  // A deque keeps the addresses that Ceres holds.
+  const PassAtState* near_ = nullptr;
+  SpinAlignment alignment_ = SpinAlignment::Zero();
 };
 
 void hold_biases(ceres::Problem& problem, double* biases, BiasSet estimated) {
@@ -149,8 +187,8 @@ void hold_biases(ceres::Problem& problem, double* biases, BiasSet estimated) {
   }
 }
 
-void add_edges(Fit& fit, std::span<const PassEdge> edges, std::size_t stride,
-               ceres::LossFunction& loss, std::deque<EdgeCost>& costs, ceres::Problem& problem) {
+void add_edges(Fit& fit, std::span<const PassEdge> edges, std::size_t stride, Losses& losses,
+               std::deque<EdgeCost>& costs, ceres::Problem& problem) {
   Parameters& at = fit.parameters();
   auto stretch = at.nutation.begin();
   for (std::size_t i = 0; i < edges.size(); i += stride) {
@@ -160,8 +198,9 @@ void add_edges(Fit& fit, std::span<const PassEdge> edges, std::size_t stride,
     }
     const bool nutates = stretch != at.nutation.end() && stretch->holds(edge.t);
     EdgeCost& cost = costs.emplace_back(fit, edge);
-    problem.AddResidualBlock(&cost, &loss, at.q_icrf_spin.coeffs().data(), at.clock.data(),
-                             at.biases.data(), nutates ? stretch->unknowns.data() : at.none.data());
+    problem.AddResidualBlock(&cost, losses.of(edge), at.q_icrf_spin.coeffs().data(),
+                             at.clock.data(), at.biases.data(),
+                             nutates ? stretch->unknowns.data() : at.none.data());
   }
   if (problem.HasParameterBlock(at.none.data())) {
     problem.SetParameterBlockConstant(at.none.data());
@@ -169,17 +208,17 @@ void add_edges(Fit& fit, std::span<const PassEdge> edges, std::size_t stride,
 }
 
 ceres::Solver::Summary solve(Fit& fit, std::span<const PassEdge> edges, std::size_t stride,
-                             ceres::LossFunction& loss, BiasSet estimated) {
+                             Losses& losses, BiasSet estimated) {
   ceres::Problem::Options keeping;
   keeping.cost_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
   keeping.loss_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
   keeping.disable_all_safety_checks = true;
   keeping.evaluation_callback = &fit;
   std::deque<EdgeCost> costs;  // A deque keeps the addresses that Ceres holds.
-  PriorCost prior;
+  PriorCost prior{bias_sigmas(fit.model().config())};
   ceres::Problem problem{keeping};
   Parameters& at = fit.parameters();
-  add_edges(fit, edges, stride, loss, costs, problem);
+  add_edges(fit, edges, stride, losses, costs, problem);
   problem.AddResidualBlock(&prior, nullptr, at.biases.data());
   problem.SetManifold(at.q_icrf_spin.coeffs().data(), new ceres::EigenQuaternionManifold);
   hold_biases(problem, at.biases.data(), estimated);
@@ -214,10 +253,9 @@ BiasSet biases_at_bound(const SensorBiases& biases, BiasSet estimated) {
 SpinState coarse_fit(const PassModel& model, std::span<const PassEdge> edges,
                      const SpinState& start, BiasSet estimated) {
   Fit fit{model, start};
-  // The coarse fit begins far from the solution, so edges beyond this limit must still pull.
-  ceres::HuberLoss loss{3.0};
+  Losses losses = Losses::coarse();
   const std::size_t stride = std::max<std::size_t>(edges.size() / kCoarseEdges, 1);
-  solve(fit, edges, stride, loss, estimated);
+  solve(fit, edges, stride, losses, estimated);
   return fit.state();
 }
 
@@ -225,8 +263,9 @@ Expected<BatchFit> fit(const PassModel& model, std::span<const PassEdge> edges,
                        const SpinState& start, BiasSet estimated) {
   // A start with nutation is already the end of a fit, and a coarse fit would lose its frequency.
   Fit fit{model, start.nutation.empty() ? coarse_fit(model, edges, start, estimated) : start};
-  ceres::TukeyLoss fine{kOutlierSigmas};
-  const ceres::Solver::Summary summary = solve(fit, edges, 1, fine, estimated);
+  const PassAtState near = model.at(fit.state());
+  Losses losses = Losses::fine(near, model.config().alignment);
+  const ceres::Solver::Summary summary = solve(fit, edges, 1, losses, estimated);
   if (!summary.IsSolutionUsable()) {
     return unobservable(
         fmt::format("no state of the body explains the edges: {}", summary.message));

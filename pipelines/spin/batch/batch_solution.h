@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "pipelines/observation/normal_equations.h"
 #include "pipelines/spin/nutation/nutation.h"
 #include "pipelines/spin/sensor_model/coning.h"
 #include "pipelines/spin/types/products.h"
@@ -23,6 +24,7 @@ struct BiasEstimate {
   double sigma;  ///< Standard deviation in rad or km; that of the prior where not observable.
   bool observable;
   bool estimated;  ///< False for a one-step estimate outside the solution.
+  double prior_sigma = prior_of(bias).sigma;  ///< Standard deviation of the prior in rad or km.
 };
 
 /// Holds the coning estimate: the sensors' axis leans away from the principal axis.
@@ -37,7 +39,7 @@ struct BatchEdge {
   Pulse pulse;
   /// Lateness of the edge against the prediction; empty when the state predicts no such edge.
   std::optional<double> residual_s;
-  double sigma_s;  ///< Noise of the edge that the solution assumes, s.
+  double sigma_s;  ///< Standard deviation by noise and alignment that the solution assumes, s.
   bool used;       ///< True within kOutlierSigmas.
 };
 
@@ -48,9 +50,6 @@ struct BatchSolution {
   /// Cramer-Rao bound of the axis, both directions together, with the stated noise and the
   /// estimated biases.
   double bound_rad;
-  /// Root mean square error of the axis if every bias, including those held at zero, were known
-  /// only to its prior (consider analysis): the error that misplaced sensors could hide.
-  double consider_sigma_rad;
   /// All biases but coning. Those not estimated with the axis hold what the edges would give if all
   /// biases were estimated together.
   std::vector<BiasEstimate> biases;
@@ -69,6 +68,8 @@ struct BatchSolution {
   ConingEstimate coning;
   std::vector<BatchEdge> said = {};  ///< Residuals of all edges of the solution, in order of time.
   AxisChoice choice = {};
+  /// What the pass says of the mission file: normal equations about the file's values.
+  NormalEquations equations = {};
 };
 
 }  // namespace spindrift

@@ -22,7 +22,7 @@ constexpr std::size_t kMostRivals = 3;
 double cost_of(const EvaluatedFit& with, SensorBias bias) {
   double cost = with.misfit() + significance_gain(bias);
   for (int i = 0; i < kSensorBiases; ++i) {
-    cost += std::pow(with.fit.state.biases[i] / prior_of(static_cast<SensorBias>(i)).sigma, 2);
+    cost += std::pow(with.fit.state.biases[i] / with.information.bias_sigmas[i], 2);
   }
   return cost;
 }
@@ -95,7 +95,7 @@ Step step_with(const PassInformation& pass, BiasSet estimated, SensorBias bias) 
       const int row = kMotionUnknowns + i;
       rows.push_back(row);
       score[row] = pass.score[row];
-      prior_volume *= prior_of(static_cast<SensorBias>(i)).sigma;
+      prior_volume *= pass.bias_sigmas[i];
     }
   }
   const Unknowns unknowns = -together.covariance() * score;
@@ -106,6 +106,8 @@ Step step_with(const PassInformation& pass, BiasSet estimated, SensorBias bias) 
 }
 
 }  // namespace
+
+double significance_gain() { return kWanted; }
 
 double significance_gain(SensorBias bias) { return bias == ConingX ? kConingWanted : kWanted; }
 
@@ -154,7 +156,7 @@ Expected<BiasSelection> select_biases(const PassModel& model, std::span<const Pa
   BiasSelection added{.best = std::move(without), .open_rad2 = Eigen::Matrix2d::Zero()};
   for (int i = 0; i < kMostBiases; ++i) {
     const EvaluatedFit& now = added.best;
-    const auto wanted = significant_biases(now.beside_offsets(), now.estimated);
+    const auto wanted = significant_biases(now.beside_considered(), now.estimated);
     if (wanted.empty()) {
       break;
     }
@@ -162,7 +164,7 @@ Expected<BiasSelection> select_biases(const PassModel& model, std::span<const Pa
     if (!likeliest) {
       return Unexpected{likeliest.error()};
     }
-    added.open_rad2 += other_biases_rad2(now.beside_offsets(), now.estimated, likeliest->first);
+    added.open_rad2 += other_biases_rad2(now.beside_considered(), now.estimated, likeliest->first);
     if (likeliest->first == ConingX) {
       // A misplaced sensor that no modelled bias describes looks like coning, and then the axis is
       // off by about the coning angle in any direction.

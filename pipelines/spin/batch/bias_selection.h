@@ -23,6 +23,9 @@ struct BiasGain {
 /// two unknowns.
 double significance_gain(SensorBias bias);
 
+/// Returns the gain above which noise does not explain a parameter of one degree of freedom.
+double significance_gain();
+
 /// Returns the biases, beyond those already estimated, that would explain the residuals, best
 /// first.
 /// @param information Equations at the best state with `estimated`.

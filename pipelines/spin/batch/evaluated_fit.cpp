@@ -1,37 +1,50 @@
 #include "pipelines/spin/batch/evaluated_fit.h"
 
+#include <utility>
+
 #include "pipelines/spin/batch/observability.h"
 #include "pipelines/spin/batch/pass_nutation.h"
 
 namespace spindrift {
 
-PassInformation EvaluatedFit::beside_offsets() const {
-  if ((offsets_s2.array() == 0.0).all()) {
+PassInformation EvaluatedFit::beside(const ConsideredPrior& prior) const {
+  if ((prior.array() == 0.0).all()) {
     return information;
   }
-  PassInformation beside = information.less_offsets(offsets_s2);
+  PassInformation beside = information.less_considered(prior);
   const auto step = Observability{beside, estimated}.step(beside, fit.state.biases);
-  beside.score += beside.information * step;
+  const auto change = (beside.information * step).eval();
+  beside.squares += 2.0 * beside.score.dot(step) + step.dot(change);
+  beside.score += change;
   return beside;
 }
 
 double EvaluatedFit::excess_noise() const {
-  return beside_offsets().excess_noise(kMotionUnknowns + static_cast<int>(estimated.count()) +
-                                       kNutationUnknowns *
-                                           static_cast<int>(fit.state.nutation.size()));
+  return beside_considered().excess_noise(kMotionUnknowns + static_cast<int>(estimated.count()) +
+                                          kNutationUnknowns *
+                                              static_cast<int>(fit.state.nutation.size()));
 }
 
-double EvaluatedFit::misfit() const { return information.misfit(); }
+double EvaluatedFit::misfit() const {
+  return beside(considered_prior(of_alignment(considered))).misfit();
+}
+
+EvaluatedFit evaluated(const PassModel& model, std::span<const PassEdge> edges, BatchFit fit,
+                       BiasSet estimated) {
+  const SpinConfig& config = model.config();
+  PassInformation information =
+      less_nutation(information_of(model, edges, fit.state), model, edges, fit.state);
+  return {.fit = std::move(fit),
+          .estimated = estimated,
+          .information = std::move(information),
+          .considered = considered_prior(config.noise, alignment_beside(config, estimated)),
+          .nutation = {}};
+}
 
 Expected<EvaluatedFit> explain(const PassModel& model, std::span<const PassEdge> edges,
                                const SpinState& start, BiasSet estimated) {
   return fit(model, edges, start, estimated).map([&](const BatchFit& found) {
-    return EvaluatedFit{.fit = found,
-                        .estimated = estimated,
-                        .information = less_nutation(information_of(model, edges, found.state),
-                                                     model, edges, found.state),
-                        .offsets_s2 = offset_prior_s2(model.config().noise),
-                        .nutation = {}};
+    return evaluated(model, edges, found, estimated);
   });
 }
 

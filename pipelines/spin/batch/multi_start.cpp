@@ -160,7 +160,10 @@ OtherAxis compared_with(const EvaluatedFit& best, const PassModel& model,
   const SpinState end = coarse_fit(model, edges, *near, best.estimated);
   const SpinState& other = same_axis(end, best.fit.state) ? *near : end;
   return {.axis_icrf = other.axis_icrf(),
-          .more_misfit = information_of(model, edges, other).misfit() - best.misfit()};
+          .more_misfit = evaluated(model, edges, {.state = other, .at_bound = {}, .iterations = 0},
+                                   best.estimated)
+                             .misfit() -
+                         best.misfit()};
 }
 
 }  // namespace spindrift

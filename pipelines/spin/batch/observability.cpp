@@ -13,11 +13,9 @@ namespace {
 using Scales = Eigen::Matrix<double, kBatchUnknowns, 1>;
 
 /// Returns the units of the unknowns: one radian for motion, one prior sigma for a bias.
-Scales scales() {
+Scales scales(const SensorBiases& sigmas) {
   Scales all = Scales::Ones();
-  for (int i = 0; i < kSensorBiases; ++i) {
-    all[kMotionUnknowns + i] = prior_of(static_cast<SensorBias>(i)).sigma;
-  }
+  all.tail<kSensorBiases>() = sigmas;
   return all;
 }
 
@@ -32,8 +30,9 @@ BiasSet seen_biases(const PassInformation& information) {
   return seen;
 }
 
-Observability::Observability(const PassInformation& information, BiasSet estimated) {
-  const Scales unit = scales();
+Observability::Observability(const PassInformation& information, BiasSet estimated)
+    : sigmas_{information.bias_sigmas} {
+  const Scales unit = scales(sigmas_);
   scaled_ = unit.asDiagonal() * information.information * unit.asDiagonal();
   Matrix with_priors = scaled_;
   for (int i = 0; i < kSensorBiases; ++i) {
@@ -54,21 +53,36 @@ Observability::Observability(const PassInformation& information, BiasSet estimat
       unit.asDiagonal() * with_priors.ldlt().solve(Matrix::Identity()).eval() * unit.asDiagonal();
 }
 
-Eigen::Matrix2d Observability::offsets_rad2(const PassInformation& information,
-                                            const OffsetPrior& offsets_s2) const {
-  const Eigen::Matrix<double, 2, kChannelOffsets> moved =
-      covariance_.topRows<2>() * information.offsets.shared;
-  return moved * offsets_s2 * moved.transpose();
+Eigen::Matrix<double, kBatchUnknowns, kSpinConsidered> Observability::moved(
+    const PassInformation& information) const {
+  Eigen::Matrix<double, kBatchUnknowns, kSpinConsidered> moved =
+      covariance_ * information.considered.shared;
+  for (int i = 0; i < kSensorBiases; ++i) {
+    if (std::find(estimated_.begin(), estimated_.end(), i) == estimated_.end()) {
+      moved.row(kMotionUnknowns + i).setZero();
+    }
+  }
+  return moved;
 }
 
-double Observability::drift_variance(double half_s) const {
-  return covariance_(4, 4) * std::pow(2.0 / (half_s * half_s), 2);
+Observability::Matrix Observability::considered(const PassInformation& information,
+                                                const ConsideredPrior& prior) const {
+  const auto by = moved(information);
+  return by * prior * by.transpose();
 }
 
-double Observability::last_rate_variance(double half_s) const {
+ConsideredPrior Observability::taken(const PassInformation& information) const {
+  return information.considered.shared.transpose() * moved(information);
+}
+
+double drift_variance(const Observability::Matrix& covariance, double half_s) {
+  return covariance(4, 4) * std::pow(2.0 / (half_s * half_s), 2);
+}
+
+double last_rate_variance(const Observability::Matrix& covariance, double half_s) {
   // Rate at the middle plus the change by drift over half the pass, from the unknowns as angles.
   const Eigen::Vector2d last{1.0 / half_s, 2.0 / half_s};
-  return last.dot(covariance_.block<2, 2>(3, 3) * last);
+  return last.dot(covariance.block<2, 2>(3, 3) * last);
 }
 
 Eigen::Matrix<double, kBatchUnknowns, 1> Observability::step(const PassInformation& information,
@@ -76,7 +90,7 @@ Eigen::Matrix<double, kBatchUnknowns, 1> Observability::step(const PassInformati
   Eigen::Matrix<double, kBatchUnknowns, 1> score = information.score;
   score.tail<kSensorBiases>().setZero();
   for (const SensorBias bias : estimated_) {
-    const double prior = prior_of(bias).sigma;
+    const double prior = sigmas_[bias];
     const int row = kMotionUnknowns + bias;
     score[row] = information.score[row] + biases[bias] / (prior * prior);
   }
@@ -86,12 +100,6 @@ Eigen::Matrix<double, kBatchUnknowns, 1> Observability::step(const PassInformati
 SensorBiases Observability::bias_step(const PassInformation& information,
                                       const SensorBiases& biases) const {
   return step(information, biases).tail<kSensorBiases>();
-}
-
-double Observability::rms_error_rad(const PassInformation& information,
-                                    const SensorBiases& biases) const {
-  return std::sqrt(step(information, biases).head<2>().squaredNorm() +
-                   axis_covariance_rad2().trace());
 }
 
 std::vector<double> Observability::singular_values() const {
@@ -104,17 +112,20 @@ std::vector<double> Observability::singular_values() const {
   return values;
 }
 
-std::vector<BiasEstimate> Observability::biases(const SensorBiases& biases) const {
+std::vector<BiasEstimate> Observability::biases(const SensorBiases& biases,
+                                                const Matrix& considered) const {
   std::vector<BiasEstimate> all;
   for (const SensorBias bias : estimated_) {
-    const double prior = prior_of(bias).sigma;
-    const double sigma = std::sqrt(covariance_(kMotionUnknowns + bias, kMotionUnknowns + bias));
+    const double prior = sigmas_[bias];
+    const int row = kMotionUnknowns + bias;
+    const double sigma = std::sqrt(covariance_(row, row) + considered(row, row));
     const bool observable = sigma < kObservableShare * prior;
     all.push_back({.bias = bias,
                    .value = observable ? biases[bias] : 0.0,
                    .sigma = observable ? sigma : prior,
                    .observable = observable,
-                   .estimated = true});
+                   .estimated = true,
+                   .prior_sigma = prior});
   }
   return all;
 }

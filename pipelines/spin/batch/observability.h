@@ -29,14 +29,15 @@ class Observability {
   Eigen::Matrix2d coning_covariance_rad2() const {
     return covariance_.block<2, 2>(kMotionUnknowns + ConingX, kMotionUnknowns + ConingX);
   }
-  /// Returns the axis covariance that unknown time offsets of the channels add, rad^2.
+  /// Returns true unknowns minus these per considered parameter; zero of known biases.
   /// @param information Equations that this object was made from.
-  Eigen::Matrix2d offsets_rad2(const PassInformation& information,
-                               const OffsetPrior& offsets_s2) const;
-  /// Returns the variance of the rate drift, (rad/s^2)^2. @param half_s Half length of the pass.
-  double drift_variance(double half_s) const;
-  /// Returns the variance of the rate at the end of the pass. @param half_s Its half length.
-  double last_rate_variance(double half_s) const;
+  Eigen::Matrix<double, kBatchUnknowns, kSpinConsidered> moved(
+      const PassInformation& information) const;
+  /// Returns the covariance of all unknowns that considered parameters add.
+  /// @param information Equations that this object was made from.
+  Matrix considered(const PassInformation& information, const ConsideredPrior& prior) const;
+  /// Returns the information on considered parameters that the unknowns take up.
+  ConsideredPrior taken(const PassInformation& information) const;
 
   /// Returns the step of all unknowns from a state to the best one; zero for known biases.
   /// @param information Equations at that state. @param biases Biases of that state.
@@ -47,14 +48,13 @@ class Observability {
   /// @param information Equations at that state. @param biases Biases of that state.
   SensorBiases bias_step(const PassInformation& information, const SensorBiases& biases) const;
 
-  /// Returns the root mean square error of the axis, rad, from step and covariance.
-  double rms_error_rad(const PassInformation& information, const SensorBiases& biases) const;
-
   /// Returns the singular values of the whitened equations in units of the priors (motion: 1 rad),
   /// largest first. Below 1 the edges say less about a direction than the prior.
   std::vector<double> singular_values() const;
 
-  std::vector<BiasEstimate> biases(const SensorBiases& biases) const;
+  /// @param considered Part of the covariance of all unknowns that considered parameters add.
+  std::vector<BiasEstimate> biases(const SensorBiases& biases,
+                                   const Matrix& considered = Matrix::Zero()) const;
 
   /// Returns the biases that take part in each bias direction that the edges leave open.
   std::vector<BiasSet> undetermined() const;
@@ -63,8 +63,15 @@ class Observability {
   Eigen::MatrixXd of_biases() const;
 
   std::vector<SensorBias> estimated_;
+  SensorBiases sigmas_;
   Matrix scaled_ = Matrix::Zero();  ///< Information without the priors, in their units.
   Matrix covariance_ = Matrix::Zero();
 };
+
+/// Returns the variance of the rate drift, (rad/s^2)^2, from the covariance of all unknowns.
+/// @param half_s Half length of the pass.
+double drift_variance(const Observability::Matrix& covariance, double half_s);
+/// Returns the variance of the rate at the end of the pass, likewise.
+double last_rate_variance(const Observability::Matrix& covariance, double half_s);
 
 }  // namespace spindrift

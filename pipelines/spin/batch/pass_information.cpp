@@ -19,7 +19,7 @@ const double kSignificantSigmas = normal_beyond(1e-6);
 PassInformation& PassInformation::operator+=(const PassInformation& other) {
   information += other.information;
   score += other.score;
-  offsets += other.offsets;
+  considered += other.considered;
   squares += other.squares;
   edges += other.edges;
   outliers += other.outliers;
@@ -46,38 +46,43 @@ double PassInformation::excess_noise(int unknowns) const {
   return squares > limit ? squares / freedom : 1.0;
 }
 
-PassInformation PassInformation::less_offsets(const OffsetPrior& offsets_s2) const {
+PassInformation PassInformation::less_considered(const ConsideredPrior& prior) const {
   PassInformation less = *this;
-  offsets.eliminate(offsets_s2, less.information, less.score);
-  less.squares -= offsets.explained(offsets_s2);
-  less.offsets = {};
+  considered.eliminate(prior, less.information, less.score);
+  less.squares -= considered.explained(prior);
+  less.considered = {};
   return less;
 }
 
 PassInformation information_of(const PassModel& model, std::span<const PassEdge> edges,
                                const SpinState& state, double outlier_sigmas) {
   const PassAtState at = model.at(state);
-  PassInformation sum;
+  const SpinConfig& config = model.config();
+  PassInformation sum{.bias_sigmas = bias_sigmas(config)};
   for (const PassEdge& edge : edges) {
     const auto residual = at.residual(edge.pulse);
-    if (!residual || !(std::abs(residual->off) < outlier_sigmas)) {
+    const double limit = residual ? outlier_sigmas * residual->sigma(config.alignment) : 0.0;
+    if (!residual || !(std::abs(residual->off) < limit)) {
       ++sum.outliers;
       continue;
     }
     sum.information.selfadjointView<Eigen::Lower>().rankUpdate(residual->slopes.transpose());
-    const double part = residual->off / outlier_sigmas;
+    const double part = residual->off / limit;
     const double weight = (1.0 - part * part) * (1.0 - part * part) / kMeanSlope;
     sum.score += residual->slopes.transpose() * (weight * residual->off);
-    const auto channel = static_cast<Eigen::Index>(edge.pulse.channel);
-    const double by_offset = 1.0 / edge_sigma_s(model.config().noise, edge.pulse.channel);
-    sum.offsets.shared.col(channel) += residual->slopes.transpose() * by_offset;
-    sum.offsets.own(channel, channel) += by_offset * by_offset;
-    sum.offsets.score(channel) += by_offset * weight * residual->off;
+    PerConsidered considered = PerConsidered::Zero();
+    considered(static_cast<Eigen::Index>(edge.pulse.channel)) =
+        1.0 / edge_sigma_s(config.noise, edge.pulse.channel);
+    considered.tail<kSpinAlignmentErrors>() = residual->per_alignment;
+    sum.considered.shared += residual->slopes.transpose() * considered;
+    sum.considered.own.selfadjointView<Eigen::Lower>().rankUpdate(considered.transpose());
+    sum.considered.score += considered.transpose() * (weight * residual->off);
     sum.squares += residual->off * residual->off;
     ++sum.edges;
   }
   sum.information = Eigen::Matrix<double, kBatchUnknowns, kBatchUnknowns>{
       sum.information.selfadjointView<Eigen::Lower>()};
+  sum.considered.own = ConsideredPrior{sum.considered.own.selfadjointView<Eigen::Lower>()};
   return sum;
 }
 

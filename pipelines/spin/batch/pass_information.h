@@ -15,7 +15,8 @@
 
 namespace spindrift {
 
-/// Residual, in sigmas, beyond which an edge has no weight in Tukey's biweight.
+/// Residual, in sigmas of EdgeResidual::sigma(), beyond which an edge has no weight in Tukey's
+/// biweight.
 inline constexpr double kOutlierSigmas = 8.0;
 /// Share of outliers beyond which a state explains nothing.
 inline constexpr double kMostOutliers = 0.5;
@@ -29,8 +30,9 @@ struct PassInformation {
       Eigen::Matrix<double, kBatchUnknowns, kBatchUnknowns>::Zero();
   /// Slopes times residuals; the step -(information^-1 score) of the unknowns makes it zero.
   Eigen::Matrix<double, kBatchUnknowns, 1> score = Eigen::Matrix<double, kBatchUnknowns, 1>::Zero();
-  Considered<kBatchUnknowns, kChannelOffsets> offsets = {};  ///< Terms of the channels' offsets.
-  double squares = 0.0;                                      ///< Sum of the squared residuals.
+  Considered<kBatchUnknowns, kSpinConsidered> considered = {};  ///< Terms of model_allowance.h.
+  SensorBiases bias_sigmas = suspected_sigmas();                ///< Priors of the biases.
+  double squares = 0.0;                                         ///< Sum of the squared residuals.
   std::int64_t edges = 0;
   std::int64_t outliers = 0;  ///< Number of outliers, not counted in `edges`.
 
@@ -40,8 +42,8 @@ struct PassInformation {
   /// Returns the ratio of the observed to the stated variance; 1 unless significantly more.
   /// @param unknowns Number of unknowns estimated from these edges.
   double excess_noise(int unknowns) const;
-  /// Returns the equations with the channels' time offsets, which are no biases, eliminated.
-  PassInformation less_offsets(const OffsetPrior& offsets_s2) const;
+  /// Returns the equations with the considered parameters, which are no biases, eliminated.
+  PassInformation less_considered(const ConsideredPrior& prior) const;
 };
 
 /// @param outlier_sigmas Infinity for a state so far off that all edges seem outliers.

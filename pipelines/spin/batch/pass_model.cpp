@@ -121,6 +121,7 @@ std::optional<EdgeResidual> PassAtState::residual(const Pulse& edge) const {
       met->off_per_phase * part * part, -met->expected.phase_per_bias;
   residual.slopes /= met->sigma_rad;
   residual.nutation_slopes = met->off_per_nutation / met->sigma_rad;
+  residual.per_alignment = met->expected.phase_per_alignment / met->sigma_rad;
   // A timing error corresponds to an angle through the rate, so the rate adds a first-order slope.
   const double by_rate = -residual.off / met->rate_rad_s;
   residual.slopes[3] += by_rate / half_s;

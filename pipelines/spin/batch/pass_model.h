@@ -15,6 +15,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -71,6 +72,14 @@ struct EdgeResidual {
   double off;         ///< Residual in standard deviations of the noise; positive when late.
   EdgeSlopes slopes;  ///< Derivatives of `off` by the unknowns.
   NutationSlopes nutation_slopes = NutationSlopes::Zero();
+  /// Change of `off` where the mission file is off, per unit of alignment.h.
+  Eigen::Matrix<double, 1, kSpinAlignmentErrors> per_alignment =
+      Eigen::Matrix<double, 1, kSpinAlignmentErrors>::Zero();
+
+  /// Returns the standard deviation of `off` by noise and by what the mission file may be off.
+  double sigma(const SpinAlignment& alignment) const {
+    return std::sqrt(1.0 + per_alignment * alignment * per_alignment.transpose());
+  }
 };
 
 class PassModel;

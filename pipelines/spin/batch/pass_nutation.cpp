@@ -120,19 +120,28 @@ FoundNutation as_fitted(const FoundNutation& found, const PassModel& model,
 PassInformation less_nutation(PassInformation information, const PassModel& model,
                               std::span<const PassEdge> edges, const SpinState& state) {
   const PassAtState at = model.at(state);
+  const SpinAlignment& alignment = model.config().alignment;
   auto edge = edges.begin();
   for (const NutationStretch& stretch : state.nutation) {
     Eigen::Matrix4d own = Eigen::Matrix4d::Zero();
     Eigen::Matrix<double, kBatchUnknowns, kNutationUnknowns> shared =
         Eigen::Matrix<double, kBatchUnknowns, kNutationUnknowns>::Zero();
+    Eigen::Matrix<double, kSpinAlignmentErrors, kNutationUnknowns> of_alignment =
+        Eigen::Matrix<double, kSpinAlignmentErrors, kNutationUnknowns>::Zero();
     for (; edge != edges.end() && edge->pulse.t < stretch.end; ++edge) {
       const auto residual = at.residual(edge->pulse);
-      if (residual && std::abs(residual->off) < kOutlierSigmas) {
+      if (residual && std::abs(residual->off) < kOutlierSigmas * residual->sigma(alignment)) {
         own += residual->nutation_slopes.transpose() * residual->nutation_slopes;
         shared += residual->slopes.transpose() * residual->nutation_slopes;
+        of_alignment += residual->per_alignment.transpose() * residual->nutation_slopes;
       }
     }
-    information.information -= shared * own.ldlt().solve(shared.transpose());
+    const auto solved = own.ldlt();
+    information.information -= shared * solved.solve(shared.transpose());
+    const auto of_nutation = solved.solve(of_alignment.transpose()).eval();
+    information.considered.shared.rightCols<kSpinAlignmentErrors>() -= shared * of_nutation;
+    information.considered.own.bottomRightCorner<kSpinAlignmentErrors, kSpinAlignmentErrors>() -=
+        of_alignment * of_nutation;
   }
   return information;
 }

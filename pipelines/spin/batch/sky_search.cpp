@@ -66,6 +66,12 @@ std::vector<Eigen::Vector3d> places_about(const Eigen::Vector3d& sun_icrf) {
   return places;
 }
 
+double misfit_of(const PassModel& model, std::span<const PassEdge> edges, const SpinState& state,
+                 BiasSet estimated) {
+  return evaluated(model, edges, {.state = state, .at_bound = {}, .iterations = 0}, estimated)
+      .misfit();
+}
+
 struct End {
   SpinState state;
   double misfit;
@@ -94,7 +100,7 @@ std::vector<End> ends_in(const PassModel& model, std::span<const PassEdge> sampl
   for (const Eigen::Vector3d& place : places_about(sun_icrf)) {
     if (const auto near = initial_state(model, sample, place)) {
       const SpinState end = coarse_fit(model, sample, *near, estimated);
-      ends.push_back({.state = end, .misfit = information_of(model, sample, end).misfit()});
+      ends.push_back({.state = end, .misfit = misfit_of(model, sample, end, estimated)});
     }
   }
   put_in_order(ends);
@@ -106,7 +112,7 @@ std::vector<End> ends_in(const PassModel& model, std::span<const PassEdge> sampl
 std::vector<Eigen::Vector3d> competing_axes(const SpinState& state, const PassModel& model,
                                             std::span<const PassEdge> edges, BiasSet estimated) {
   const std::vector<PassEdge> sample = sample_of(edges);
-  const double most = information_of(model, sample, state).misfit() + kNearly;
+  const double most = misfit_of(model, sample, state, estimated) + kNearly;
   std::vector<End> ends = ends_in(model, sample, estimated);
   ends.resize(std::min(ends.size(), kTried));
   for (End& end : ends) {

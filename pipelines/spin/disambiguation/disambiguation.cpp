@@ -21,7 +21,7 @@ constexpr double kWidest_rad = 3.0 * kRadPerDeg;
 constexpr int kContradictionsInARow = 20;
 
 double sigma_of(const AxisCandidate& candidate) {
-  return std::sqrt(candidate.covariance_rad2.trace());
+  return std::sqrt(candidate.total_covariance_rad2().trace());
 }
 
 /// The range of chords that a beam may see about a candidate, within noise and model errors.
@@ -37,7 +37,7 @@ ChordRange chords_from(const AxisCandidate& candidate, const SunEarthDirections&
   const Eigen::Vector2d towards =
       tangent_basis(axis).transpose() * sun_earth.earth_icrf / std::sin(earth_rad);
   const double margin_rad =
-      kContradictionSigmas * std::sqrt(towards.dot(candidate.covariance_rad2 * towards)) +
+      kContradictionSigmas * std::sqrt(towards.dot(candidate.total_covariance_rad2() * towards)) +
       kModelLimit_rad;
   constexpr int kPlaces = 5;  // Places on either side.
   ChordRange range;
@@ -106,18 +106,21 @@ SpinFix fix_of(std::int64_t revolution, TaiTime t, const AxisCandidates& found, 
               .t = t,
               .geometry_case = found.geometry_case,
               .axis_icrf = candidate.axis_icrf,
-              .covariance_rad2 = candidate.covariance_rad2,
+              .covariance_rad2 = candidate.total_covariance_rad2(),
               .alternates = {},
               .resolution = resolution,
               .norm = candidate.norm,
               .accepted = candidate.consistent && resolution != Resolution::Ambiguous,
               .near_tangent = found.near_tangent,
-              .misfit = candidate.misfit};
+              .misfit = candidate.misfit,
+              .alignment_rad2 = candidate.alignment_rad2};
   for (std::size_t i = 0; i < found.candidates.size(); ++i) {
+    const AxisCandidate& other = found.candidates[i];
     if (i != chosen) {
-      fix.alternates.push_back({.axis_icrf = found.candidates[i].axis_icrf,
-                                .covariance_rad2 = found.candidates[i].covariance_rad2,
-                                .misfit = found.candidates[i].misfit});
+      fix.alternates.push_back({.axis_icrf = other.axis_icrf,
+                                .covariance_rad2 = other.total_covariance_rad2(),
+                                .misfit = other.misfit,
+                                .alignment_rad2 = other.alignment_rad2});
     }
   }
   return fix;

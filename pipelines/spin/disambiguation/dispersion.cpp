@@ -46,13 +46,19 @@ Eigen::Vector2d offset_rad(const Eigen::Vector3d& from, const Eigen::Vector3d& t
   return sine > 0.0 ? Eigen::Vector2d{along * (angle_between_rad(from, to) / sine)} : along;
 }
 
+AllowedShift allowed_shift_icrf(const AxisCandidate& candidate) {
+  AllowedShift shift;
+  shift << candidate.model_shift_icrf * kModelError_rad, candidate.alignment_shift_icrf;
+  return shift;
+}
+
 }  // namespace
 
 double squared_distance(const Eigen::Vector3d& axis_icrf, const AxisCandidate& candidate,
                         double mean_of) {
   const Eigen::Matrix<double, 3, 2> basis = tangent_basis(candidate.axis_icrf);
-  const Eigen::Matrix<double, 2, kModelErrors> shift =
-      basis.transpose() * candidate.model_shift_icrf * kModelError_rad;
+  const Eigen::Matrix<double, 2, kAllowedErrors> shift =
+      basis.transpose() * allowed_shift_icrf(candidate);
   const Eigen::Matrix2d covariance_rad2 = candidate.covariance_rad2 * (1.0 + 1.0 / mean_of) +
                                           shift * shift.transpose() +
                                           kFloor_rad * kFloor_rad * Eigen::Matrix2d::Identity();
@@ -65,7 +71,7 @@ void Dispersion::Block::add(const AxisCandidate& candidate) {
   ++count;
   axis_sum += candidate.axis_icrf;
   covariance_sum_rad2 += basis * candidate.covariance_rad2 * basis.transpose();
-  shift_sum += candidate.model_shift_icrf;
+  shift_sum += allowed_shift_icrf(candidate);
 }
 
 void Dispersion::Block::add(const Block& later) {
@@ -229,17 +235,17 @@ Dispersion::Scatter Dispersion::scatter_of(std::span<const Block> blocks) {
   }
   const Eigen::Vector3d middle = sum.normalized();
   const Eigen::Matrix<double, 3, 2> basis = tangent_basis(middle);
-  constexpr int kUnknowns = 2 + kModelErrors;
+  constexpr int kUnknowns = 2 + kAllowedErrors;
   using Unknowns = Eigen::Matrix<double, kUnknowns, 1>;
   Eigen::Matrix<double, kUnknowns, kUnknowns> normal =
       Eigen::Matrix<double, kUnknowns, kUnknowns>::Zero();
-  normal.diagonal().tail<kModelErrors>().setOnes();
+  normal.diagonal().tail<kAllowedErrors>().setOnes();
   Unknowns right = Unknowns::Zero();
   double squares = 0.0;
   for (const Block& block : blocks) {
     const double count = block.count;
-    const Eigen::Matrix<double, 2, kModelErrors> shift =
-        basis.transpose() * block.shift_sum * (kModelError_rad / count);
+    const Eigen::Matrix<double, 2, kAllowedErrors> shift =
+        basis.transpose() * block.shift_sum / count;
     const Eigen::Matrix2d covariance_rad2 =
         basis.transpose() * block.covariance_sum_rad2 * basis / (count * count) +
         kModelChange * kModelChange * shift * shift.transpose() +

@@ -17,6 +17,11 @@
 
 namespace spindrift {
 
+/// Motion of an axis per constant error, each of unit variance: the allowed model errors, and those
+/// that the mission file states.
+inline constexpr int kAllowedErrors = kModelErrors + kSpinAlignmentErrors;
+using AllowedShift = Eigen::Matrix<double, 3, kAllowedErrors>;
+
 /// Squared distance between an axis and a candidate, in standard deviations of the candidate.
 /// @param mean_of How many such candidates `axis_icrf` is the mean of.
 double squared_distance(const Eigen::Vector3d& axis_icrf, const AxisCandidate& candidate,
@@ -68,8 +73,7 @@ class Dispersion {
     int count = 0;
     Eigen::Vector3d axis_sum = Eigen::Vector3d::Zero();
     Eigen::Matrix3d covariance_sum_rad2 = Eigen::Matrix3d::Zero();
-    Eigen::Matrix<double, 3, kModelErrors> shift_sum =
-        Eigen::Matrix<double, 3, kModelErrors>::Zero();
+    AllowedShift shift_sum = AllowedShift::Zero();
 
     void add(const AxisCandidate& candidate);
     void add(const Block& later);

@@ -9,6 +9,7 @@
 #include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
 #include "pipelines/spin/measurement/beam_view.h"
+#include "pipelines/spin/measurement/errors_of_alignment.h"
 #include "pipelines/spin/measurement/uncertain.h"
 #include "pipelines/spin/sensor_model/geometry.h"
 #include "pipelines/statistics/significance.h"
@@ -17,33 +18,84 @@ namespace spindrift {
 namespace {
 
 using Tangent = Eigen::Matrix<double, 2, kEdges + kModelErrors>;
+using PerAlignment = Eigen::Matrix<double, 2, kSpinAlignmentErrors>;
 
 tl::unexpected<NoCandidates> unobservable(WhyNoFix why) {
   return tl::unexpected{NoCandidates{.why = std::move(why)}};
 }
 
-/// Holds a value that should be zero, and its noise.
+/// Holds a value that should be zero, and its standard deviation by noise and alignment.
 struct Contradiction {
   double value;
-  double noise;
+  double sigma;
 
-  bool agrees() const { return std::abs(value) <= kContradictionSigmas * noise + kModelLimit_rad; }
-  /// Zero when the noise is rounding only.
+  bool agrees() const { return std::abs(value) <= kContradictionSigmas * sigma + kModelLimit_rad; }
+  /// Zero when the sigma is rounding only.
   double chi_square() const {
     constexpr double kRounding = 1e-12;
-    return noise > kRounding ? value * value / (noise * noise) : 0.0;
+    return sigma > kRounding ? value * value / (sigma * sigma) : 0.0;
   }
 };
 
+/// Returns how errors of the mission file act on a place as model errors. Where slit 2 alone saw
+/// the Sun, its separation is an azimuth.
+ErrorsOfAlignment errors_at(const FixInput& input, const AxisAngles& place) {
+  ErrorsOfAlignment errors =
+      errors_of_alignment(input.config, {.sun_angle_rad = place.sun_angle_rad.value(),
+                                         .earth_angle_rad = place.earth_angle_rad.value(),
+                                         .disc_rad = input.sun_earth.disc_rad});
+  if (input.mixed_azimuth && !input.sun_angle && !input.dihedral) {
+    errors.col(SlitSeparationError) << 0.0, 0.0, 0.0, -1.0, -1.0;
+  }
+  return errors;
+}
+
+Eigen::Vector3d axis_of(const SunEarthDirections& sun_earth, const AxisAngles& place) {
+  return axis_icrf(AxisInput<double>{.sun_icrf = sun_earth.sun_icrf,
+                                     .earth_icrf = sun_earth.earth_icrf,
+                                     .sun_angle_rad = place.sun_angle_rad.value(),
+                                     .earth_angle_rad = place.earth_angle_rad.value(),
+                                     .dihedral_rad = place.dihedral_rad.value()})
+      .normalized();
+}
+
+/// Returns the motion of a root per second of the Earth's motion, with fixed angles and views.
+Eigen::Vector3d moved_by_earth_icrf_s(const FixInput& input, const Eigen::Vector3d& root_icrf) {
+  SunEarthDirections later = input.sun_earth;
+  const Eigen::Vector3d& motion = later.earth_motion_icrf_s;
+  later.disc_rad -= std::tan(later.disc_rad) * motion.dot(later.earth_icrf);
+  later.earth_icrf = (later.earth_icrf + motion).normalized();
+  Eigen::Vector3d nearest = root_icrf;
+  double most = -1.0;
+  for (const AxisAngles& place :
+       solve_axis_angles(
+           fix_input(input.config, input.measured, later,
+                     views_of_horizon(input.config, input.measured, later, root_icrf)))
+           .places) {
+    const Eigen::Vector3d axis = axis_of(later, place);
+    if (axis.dot(root_icrf) > most) {
+      most = axis.dot(root_icrf);
+      nearest = axis;
+    }
+  }
+  return nearest - root_icrf;
+}
+
 /// Returns the disc that both chords show less that of the orbit; empty if they show none.
-std::optional<Contradiction> disc_contradiction(const FixInput& input, const AxisAngles& place) {
+/// @param errors Model errors by the alignment, of unit variance.
+std::optional<Contradiction> disc_contradiction(const FixInput& input, const AxisAngles& place,
+                                                const ErrorsOfAlignment& errors) {
   const Uncertain cosine = cos_disc_seen(*input.north(), place.earth_angle_rad);
   if (!(std::abs(cosine.value()) < 1.0)) {
     return std::nullopt;
   }
   const Uncertain disc_rad = acos(cosine);
-  return Contradiction{.value = disc_rad.value() - place.beams.at(index_of(Side::North)).disc_rad,
-                       .noise = noise_of(disc_rad)};
+  const double off_rad = disc_rad.value() - place.beams.at(index_of(Side::North)).disc_rad;
+  Eigen::Matrix<double, kModelErrors, 1> by_errors = disc_rad.derivatives().tail<kModelErrors>();
+  by_errors[NorthLimb] -= 1.0;
+  return Contradiction{
+      .value = off_rad,
+      .sigma = std::hypot(noise_of(disc_rad), (by_errors.transpose() * errors).norm())};
 }
 
 /// Returns the motion of the solution per motion of the axis from which its beams see the horizon,
@@ -78,20 +130,34 @@ AxisCandidate candidate_at(const FixInput& input, const AxisAngles& place) {
   const Eigen::Matrix<double, 3, 2> basis = tangent_basis(unit);
   Tangent tangent = basis.transpose() * shifts / norm;
   // Another axis sees another limb, which moves the axis again: a geometric series.
-  tangent = (Eigen::Matrix2d::Identity() - moved_by_views(place.beams, basis, tangent))
-                .partialPivLu()
-                .solve(tangent)
-                .eval();
+  const Eigen::PartialPivLU<Eigen::Matrix2d> views{Eigen::Matrix2d::Identity() -
+                                                   moved_by_views(place.beams, basis, tangent)};
+  tangent = views.solve(tangent).eval();
   const auto noise = tangent.leftCols<kEdges>();
-  const Contradiction length{.value = norm - 1.0,
-                             .noise = (unit.transpose() * shifts.leftCols<kEdges>()).norm()};
-  const auto disc = input.both_chords() ? disc_contradiction(input, place) : std::nullopt;
+  const SpinAlignment& alignment = input.config.alignment;
+  const SpinAlignment root = root_of(alignment);
+  const ErrorsOfAlignment errors = errors_at(input, place);
+  PerAlignment by_alignment = -tangent.rightCols<kModelErrors>() * errors;
+  if (alignment(TimeTagError, TimeTagError) > 0.0) {
+    by_alignment.col(TimeTagError) -=
+        views.solve(basis.transpose() * moved_by_earth_icrf_s(input, unit));
+  }
+  by_alignment *= root;
+  const Eigen::RowVector3d along = unit.transpose();
+  const Contradiction length{
+      .value = norm - 1.0,
+      .sigma = std::hypot((along * shifts.leftCols<kEdges>()).norm(),
+                          (along * shifts.rightCols<kModelErrors>() * errors * root).norm())};
+  const auto disc =
+      input.both_chords() ? disc_contradiction(input, place, errors * root) : std::nullopt;
   return {.axis_icrf = unit,
           .covariance_rad2 = noise * noise.transpose(),
+          .alignment_rad2 = by_alignment * by_alignment.transpose(),
           .norm = norm,
           .consistent = length.agrees() && (!input.both_chords() || (disc && disc->agrees())),
           .misfit = length.chi_square() + (disc ? disc->chi_square() : 0.0),
-          .model_shift_icrf = basis * tangent.rightCols<kModelErrors>()};
+          .model_shift_icrf = basis * tangent.rightCols<kModelErrors>(),
+          .alignment_shift_icrf = basis * by_alignment};
 }
 
 NoFixCode cone_code(int geometry_case) {
@@ -115,15 +181,6 @@ bool determined(const AxisCandidate& candidate) {
 // Each step is at most a tenth of the last; a slower root is about to vanish.
 constexpr int kMostSteps = 10;
 constexpr double kAtRest_rad = 1e-8;
-
-Eigen::Vector3d axis_of(const SunEarthDirections& sun_earth, const AxisAngles& place) {
-  return axis_icrf(AxisInput<double>{.sun_icrf = sun_earth.sun_icrf,
-                                     .earth_icrf = sun_earth.earth_icrf,
-                                     .sun_angle_rad = place.sun_angle_rad.value(),
-                                     .earth_angle_rad = place.earth_angle_rad.value(),
-                                     .dihedral_rad = place.dihedral_rad.value()})
-      .normalized();
-}
 
 /// Returns the root that `place` converges to, or no root if it vanishes.
 AxisSolutions follow(const FixInput& on_sphere, const AxisAngles& place) {

@@ -25,15 +25,23 @@ namespace spindrift {
 struct AxisCandidate {
   Eigen::Vector3d axis_icrf;        ///< Unit vector.
   Eigen::Matrix2d covariance_rad2;  ///< From edge noise, tangent plane: east, north.
-  double norm;                      ///< Length of the axis before normalising.
+  /// From errors of the mission file, likewise.
+  Eigen::Matrix2d alignment_rad2 = Eigen::Matrix2d::Zero();
+  double norm;  ///< Length of the axis before normalising.
   /// True when the measurements agree: norm - 1 and, with both chords, the half-angle of the disc
-  /// minus rho are within five of their sigmas plus half a degree, which is more than the Earth's
-  /// shape and the height of its CO2 account for.
+  /// minus rho are within five of their total sigmas plus half a degree, which is more than the
+  /// Earth's shape and the height of its CO2 account for.
   bool consistent;
-  /// Chi-square, by the edges' noise alone, of norm - 1 and of the disc that both chords show.
+  /// Chi-square, by noise and alignment, of norm - 1 and of the disc that both chords show.
   double misfit = 0.0;
   /// Motion of the axis per model error, rad/rad, ICRF.
   Eigen::Matrix<double, 3, kModelErrors> model_shift_icrf;
+  /// True axis minus this one per error of the mission file, each as independent ones of unit
+  /// variance (root_of()), rad, ICRF.
+  Eigen::Matrix<double, 3, kSpinAlignmentErrors> alignment_shift_icrf =
+      Eigen::Matrix<double, 3, kSpinAlignmentErrors>::Zero();
+
+  Eigen::Matrix2d total_covariance_rad2() const { return covariance_rad2 + alignment_rad2; }
 };
 
 struct AxisCandidates {

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "pipelines/frames/celestial.h"
+#include "pipelines/spin/measurement/errors_of_alignment.h"
 #include "pipelines/spin/screening/screening.h"
 
 namespace spindrift {
@@ -18,6 +19,7 @@ using Errors = Eigen::Matrix<double, kModelErrors, 1>;
 struct Slope {
   Eigen::Vector3d by_axis;  ///< Slope in ICRF, across the axis.
   Errors by_errors = Errors::Zero();
+  double by_late_tag = 0.0;  ///< Slope by the time tag, per second that it is late.
 };
 
 /// Holds a direction relative to the axis.
@@ -50,7 +52,26 @@ class Slopes {
       : config_{config},
         disc_rad_{sun_earth.disc_rad},
         sun_{axis, sun_earth.sun_icrf},
-        earth_{axis, sun_earth.earth_icrf} {}
+        earth_{axis, sun_earth.earth_icrf},
+        errors_of_alignment_{
+            spindrift::errors_of_alignment(config, {.sun_angle_rad = sun_.angle_rad,
+                                                    .earth_angle_rad = earth_.angle_rad,
+                                                    .disc_rad = sun_earth.disc_rad})} {
+    const Eigen::Vector3d& motion = sun_earth.earth_motion_icrf_s;
+    const Eigen::Vector3d outwards =
+        std::cos(earth_.angle_rad) * earth_.towards - std::sin(earth_.angle_rad) * axis;
+    earth_angle_per_s_ = motion.dot(outwards);
+    dihedral_per_s_ = motion.dot(earth_.beside) / std::sin(earth_.angle_rad);
+    disc_per_s_ = -std::tan(disc_rad_) * motion.dot(sun_earth.earth_icrf);
+  }
+
+  /// Returns the slope of an angle by errors of the mission file.
+  Eigen::Matrix<double, 1, kSpinAlignmentErrors> by_alignment(const Slope& slope) const {
+    Eigen::Matrix<double, 1, kSpinAlignmentErrors> by =
+        slope.by_errors.transpose() * errors_of_alignment_;
+    by(TimeTagError) += slope.by_late_tag;
+    return by;
+  }
 
   /// Returns empty for an angle that is not linear.
   std::optional<Slope> of(SpinQuantity quantity, const Measured& value,
@@ -89,7 +110,8 @@ class Slopes {
     return {.by_axis =
                 sun_.beside / std::tan(sun_.angle_rad) - earth_.beside / std::tan(earth_.angle_rad),
             .by_errors = (north * Errors::Unit(NorthAzimuth) + south * Errors::Unit(SouthAzimuth)) /
-                         (north + south)};
+                         (north + south),
+            .by_late_tag = -dihedral_per_s_};
   }
 
   /// Slope of predict_mixed_azimuth_rad(): the dihedral less the lag of slit 2.
@@ -117,13 +139,18 @@ class Slopes {
       return std::nullopt;
     }
     return Slope{.by_axis = -by_earth_angle * earth_.towards,
-                 .by_errors = -by_limb * Errors::Unit(limb)};
+                 .by_errors = -by_limb * Errors::Unit(limb),
+                 .by_late_tag = -by_earth_angle * earth_angle_per_s_ - by_limb * disc_per_s_};
   }
 
   const SpinConfig& config_;
   double disc_rad_;
   Seen sun_;
   Seen earth_;
+  ErrorsOfAlignment errors_of_alignment_;
+  double earth_angle_per_s_;
+  double dihedral_per_s_;
+  double disc_per_s_;
 };
 
 }  // namespace
@@ -135,7 +162,7 @@ void AngleEquations::add(const SpinConfig& config, const RevolutionMeasurements&
   Eigen::Matrix<double, kMostAngles, kUnknowns> design;
   Eigen::Matrix<double, kMostAngles, 1> off_rad;
   Eigen::Matrix<double, kMostAngles, kPulseChannels> noise_rad;
-  Eigen::Matrix<double, kMostAngles, kChannelOffsets> by_offsets;
+  Eigen::Matrix<double, kMostAngles, kSpinConsidered> by_considered;
   int rows = 0;
   for (const AngleResidual& residual : residuals(config, measured, sun_earth, axis_icrf)) {
     const Measured value = *good_value_of(measured, residual.quantity);
@@ -144,7 +171,8 @@ void AngleEquations::add(const SpinConfig& config, const RevolutionMeasurements&
       design.row(rows) << slope->by_axis.transpose() * basis, slope->by_errors.transpose();
       off_rad(rows) = residual.value_rad + slope->by_axis.dot(axis_icrf - reference_icrf_);
       noise_rad.row(rows) = value.noise_rad.transpose();
-      by_offsets.row(rows) = per_second(value.noise_rad, measured.noise);
+      by_considered.row(rows) << per_second(value.noise_rad, measured.noise),
+          slopes.by_alignment(*slope);
       ++rows;
     }
   }
@@ -160,10 +188,10 @@ void AngleEquations::add(const SpinConfig& config, const RevolutionMeasurements&
   normal_ += white_design.transpose() * white_design;
   right_ += white_design.transpose() * white_off;
   squares_ += white_off.squaredNorm();
-  const auto white_offsets = covariance.matrixL().solve(by_offsets.topRows(rows)).eval();
-  offsets_.shared += white_design.transpose() * white_offsets;
-  offsets_.own += white_offsets.transpose() * white_offsets;
-  offsets_.score += white_offsets.transpose() * white_off;
+  const auto white_considered = covariance.matrixL().solve(by_considered.topRows(rows)).eval();
+  considered_.shared += white_design.transpose() * white_considered;
+  considered_.own += white_considered.transpose() * white_considered;
+  considered_.score += white_considered.transpose() * white_off;
   angles_ += rows;
 }
 
@@ -171,7 +199,7 @@ AngleEquations& AngleEquations::operator+=(const AngleEquations& other) {
   normal_ += other.normal_;
   right_ += other.right_;
   squares_ += other.squares_;
-  offsets_ += other.offsets_;
+  considered_ += other.considered_;
   angles_ += other.angles_;
   return *this;
 }
@@ -209,8 +237,24 @@ Eigen::Matrix<double, 2, kModelErrors> AngleEquations::model_shift() const {
          axis_information().ldlt().solve(normal_.topRightCorner<2, kModelErrors>());
 }
 
-Eigen::Matrix<double, 2, kChannelOffsets> AngleEquations::offset_shift() const {
-  return tangent_from_reference() * axis_information().ldlt().solve(offsets_.shared.topRows<2>());
+Eigen::Matrix<double, 2, kSpinConsidered> AngleEquations::considered_shift() const {
+  return tangent_from_reference() *
+         axis_information().ldlt().solve(considered_.shared.topRows<2>());
+}
+
+ErrorInformation AngleEquations::less_axis() const {
+  const auto axis = axis_information().ldlt();
+  const Eigen::Matrix<double, 2, kModelErrors> coupling = normal_.topRightCorner<2, kModelErrors>();
+  const Eigen::Matrix<double, kModelErrors, 2> taken = axis.solve(coupling).transpose();
+  const auto shared = considered_.shared.topRows<2>();
+  const Eigen::Matrix<double, kSpinConsidered, 2> of_considered = axis.solve(shared).transpose();
+  ErrorInformation left;
+  left.information = normal_.bottomRightCorner<kModelErrors, kModelErrors>() - taken * coupling;
+  left.score = right_.tail<kModelErrors>() - taken * right_.head<2>();
+  left.considered = {.shared = considered_.shared.bottomRows<kModelErrors>() - taken * shared,
+                     .own = considered_.own - of_considered * shared,
+                     .score = considered_.score - of_considered * right_.head<2>()};
+  return left;
 }
 
 }  // namespace spindrift

@@ -4,10 +4,10 @@
 ///     r = H x + B b + C c + noise,
 ///
 /// with the residuals r against an axis near the true one, the displacement x of the axis in the
-/// tangent plane, the model errors b, the offsets c of the channels' times, and the noise of the
-/// edges that the angles share. The slopes H and B are those at the axis that the angles are
-/// compared with, never at measured values: if an angle's weight depended on its own noise, the
-/// mean would be biased.
+/// tangent plane, the model errors b, the considered parameters c (offsets of the channels' times
+/// and errors of the mission file), and the noise of the edges that the angles share. The slopes H
+/// and B are those at the axis that the angles are compared with, never at measured values: if an
+/// angle's weight depended on its own noise, the mean would be biased.
 
 #pragma once
 
@@ -48,8 +48,10 @@ class AngleEquations {
   /// Returns the axis motion per model error, rad/rad, in the tangent plane.
   Eigen::Matrix<double, 2, kModelErrors> model_shift() const;
 
-  /// Returns the axis motion per time offset of each channel, rad/s, in the tangent plane.
-  Eigen::Matrix<double, 2, kChannelOffsets> offset_shift() const;
+  /// Returns the axis motion per considered parameter, in the tangent plane.
+  Eigen::Matrix<double, 2, kSpinConsidered> considered_shift() const;
+  /// Returns the equations of the model errors with the axis eliminated.
+  ErrorInformation less_axis() const;
 
   /// @name The normal equations of x and b
   /// @{
@@ -57,7 +59,7 @@ class AngleEquations {
   const Eigen::Matrix<double, kUnknowns, 1>& right() const { return right_; }
   double squares() const { return squares_; }  ///< Sum of squares against the reference.
   int angles() const { return angles_; }
-  const Considered<kUnknowns, kChannelOffsets>& offsets() const { return offsets_; }
+  const Considered<kUnknowns, kSpinConsidered>& considered() const { return considered_; }
   /// @}
 
  private:
@@ -70,7 +72,7 @@ class AngleEquations {
   Eigen::Matrix<double, kUnknowns, 1> right_ = Eigen::Matrix<double, kUnknowns, 1>::Zero();
   double squares_ = 0.0;
   int angles_ = 0;
-  Considered<kUnknowns, kChannelOffsets> offsets_;
+  Considered<kUnknowns, kSpinConsidered> considered_;
 };
 
 }  // namespace spindrift

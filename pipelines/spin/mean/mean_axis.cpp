@@ -11,13 +11,18 @@ double weight_of(const Eigen::Matrix2d& covariance_rad2) { return 1.0 / covarian
 
 }  // namespace
 
-void MeanAxis::add_fix(const SpinFix& fix) { add_fix(fix.axis_icrf, fix.covariance_rad2); }
+void MeanAxis::add_fix(const SpinFix& fix) {
+  add_fix(fix.axis_icrf, fix.covariance_rad2, fix.alignment_rad2);
+}
 
-void MeanAxis::add_fix(const Eigen::Vector3d& axis_icrf, const Eigen::Matrix2d& covariance_rad2) {
+void MeanAxis::add_fix(const Eigen::Vector3d& axis_icrf, const Eigen::Matrix2d& covariance_rad2,
+                       const Eigen::Matrix2d& alignment_rad2) {
   const Eigen::Matrix<double, 3, 2> basis = tangent_basis(axis_icrf);
-  const double weight = weight_of(covariance_rad2);
+  const Eigen::Matrix2d noise_rad2 = covariance_rad2 - alignment_rad2;
+  const double weight = weight_of(noise_rad2);
   sum_icrf_ += weight * axis_icrf;
-  covariance_sum_ += weight * weight * basis * covariance_rad2 * basis.transpose();
+  covariance_sum_ += weight * weight * basis * noise_rad2 * basis.transpose();
+  alignment_sum_ += weight * basis * alignment_rad2 * basis.transpose();
   weight_sum_ += weight;
   ++count_;
 }
@@ -25,6 +30,11 @@ void MeanAxis::add_fix(const Eigen::Vector3d& axis_icrf, const Eigen::Matrix2d& 
 Eigen::Matrix2d MeanAxis::covariance_rad2() const {
   const Eigen::Matrix<double, 3, 2> basis = tangent_basis(axis_icrf());
   return basis.transpose() * covariance_sum_ * basis / (weight_sum_ * weight_sum_);
+}
+
+Eigen::Matrix2d MeanAxis::alignment_rad2() const {
+  const Eigen::Matrix<double, 3, 2> basis = tangent_basis(axis_icrf());
+  return basis.transpose() * alignment_sum_ * basis / weight_sum_;
 }
 
 double MeanAxis::excess_scatter() const {
@@ -38,7 +48,7 @@ double MeanAxis::excess_scatter() const {
 }
 
 void AxisWindow::add_fix(const SpinFix& fix) {
-  weighted_icrf_.emplace_back(weight_of(fix.covariance_rad2) * fix.axis_icrf);
+  weighted_icrf_.emplace_back(weight_of(fix.covariance_rad2 - fix.alignment_rad2) * fix.axis_icrf);
   if (weighted_icrf_.size() > length_) {
     weighted_icrf_.pop_front();
   }

@@ -18,14 +18,19 @@ namespace spindrift {
 class MeanAxis {
  public:
   void add_fix(const SpinFix& fix);
-  void add_fix(const Eigen::Vector3d& axis_icrf, const Eigen::Matrix2d& covariance_rad2);
+  /// @param covariance_rad2 Total covariance. @param alignment_rad2 Its part by the mission file.
+  void add_fix(const Eigen::Vector3d& axis_icrf, const Eigen::Matrix2d& covariance_rad2,
+               const Eigen::Matrix2d& alignment_rad2 = Eigen::Matrix2d::Zero());
 
   std::size_t count() const { return count_; }
   /// Mean axis, unit vector; at least one fix must have been added.
   Eigen::Vector3d axis_icrf() const { return sum_icrf_.normalized(); }
-  /// Covariance in the tangent plane at the mean: east, north. Fixes of different revolutions share
-  /// no edge, so their errors add in quadrature.
+  /// Covariance by noise in the tangent plane at the mean: east, north. Fixes of different
+  /// revolutions share no edge, so their errors add in quadrature.
   Eigen::Matrix2d covariance_rad2() const;
+  /// Covariance that errors of the mission file add: the mean of those of the fixes, as all share
+  /// these errors.
+  Eigen::Matrix2d alignment_rad2() const;
   /// Returns the ratio of the fixes' observed to stated variance about the mean, where
   /// significantly more than 1; else 1.
   double excess_scatter() const;
@@ -33,6 +38,7 @@ class MeanAxis {
  private:
   Eigen::Vector3d sum_icrf_ = Eigen::Vector3d::Zero();  ///< Weighted sum of the axes.
   Eigen::Matrix3d covariance_sum_ = Eigen::Matrix3d::Zero();
+  Eigen::Matrix3d alignment_sum_ = Eigen::Matrix3d::Zero();
   double weight_sum_ = 0.0;
   std::size_t count_ = 0;
 };

@@ -92,7 +92,7 @@ void MeanEstimator::settle(Kept& kept, const SpinFix& fix) {
     relinearise();
   }
   if (mean_->covariance_rad2.trace() < kLinear_rad * kLinear_rad) {
-    verdict_ = test_model(mean_->equations, offset_prior_s2(noise_));
+    verdict_ = test_model(mean_->equations, considered_prior(noise_, config_.alignment));
   }
 }
 
@@ -156,19 +156,29 @@ Eigen::Matrix2d MeanEstimator::covariance_rad2() const {
   const double off_rad = less_informative_than_one_fix() ? 0.0 : distance_from_average_rad();
   return average_.covariance_rad2() * average_.excess_scatter() *
              static_cast<double>(average_.count()) +
-         0.5 * off_rad * off_rad * Eigen::Matrix2d::Identity();
+         0.5 * off_rad * off_rad * Eigen::Matrix2d::Identity() + average_.alignment_rad2();
 }
 
 Eigen::Matrix2d MeanEstimator::least_squares_covariance_rad2() const {
   const Eigen::Matrix<double, 2, kModelErrors> shift = mean_->equations.model_shift();
   const Eigen::Matrix2d shown_rad2 =
       mean_->covariance_rad2 * excess_noise() + shift * verdict_.errors_rad2 * shift.transpose();
-  return shown_rad2 + offsets_rad2();
+  return shown_rad2 + considered_rad2(considered_prior(noise_, config_.alignment));
 }
 
-Eigen::Matrix2d MeanEstimator::offsets_rad2() const {
-  const Eigen::Matrix<double, 2, kChannelOffsets> shift = mean_->equations.offset_shift();
-  return shift * offset_prior_s2(noise_) * shift.transpose();
+Eigen::Matrix2d MeanEstimator::considered_rad2(const ConsideredPrior& prior) const {
+  const Eigen::Matrix<double, 2, kSpinConsidered> shift = mean_->equations.considered_shift();
+  return shift * prior * shift.transpose();
+}
+
+Eigen::Matrix2d MeanEstimator::alignment_rad2() const {
+  return agrees_with_average() ? considered_rad2(considered_prior(config_.alignment))
+                               : average_.alignment_rad2();
+}
+
+Eigen::Matrix<double, 3, kSpinAlignmentErrors> MeanEstimator::axis_of_alignment_icrf() const {
+  return -tangent_basis(mean_->equations.axis_icrf()) *
+         mean_->equations.considered_shift().rightCols<kSpinAlignmentErrors>();
 }
 
 /// Returns the excess noise of the residuals, or of the fixes where these differ and no model error
@@ -209,8 +219,9 @@ Eigen::Matrix2d MeanEstimator::covariance_if_moved_rad2() const {
   if (!agrees_with_average()) {
     return average_.covariance_rad2() * static_cast<double>(average_.count());
   }
-  return excess_noise() > 1.0 ? Eigen::Matrix2d{mean_->covariance_rad2 + offsets_rad2()}
-                              : covariance_rad2();
+  const Eigen::Matrix2d noise_rad2 =
+      mean_->covariance_rad2 + considered_rad2(considered_prior(noise_));
+  return excess_noise() > 1.0 ? noise_rad2 : Eigen::Matrix2d{covariance_rad2() - alignment_rad2()};
 }
 
 SpinEstimate MeanEstimator::estimate(const Revolution& revolution) const {
@@ -222,7 +233,8 @@ SpinEstimate MeanEstimator::estimate(const Revolution& revolution) const {
           .spin_rate_rad_s = rate_rad_s,
           .spin_rate_sigma_rad_s =
               rate_rad_s / revolution.period.period_s * period_sigma_s(revolution.period, noise_),
-          .assessment = assess()};
+          .assessment = assess(),
+          .alignment_rad2 = mean_ ? alignment_rad2() : Eigen::Matrix2d{Eigen::Matrix2d::Zero()}};
 }
 
 /// Returns empty if nothing but the residuals may speak against the mean.
@@ -264,7 +276,7 @@ Assessment MeanEstimator::assess() const {
     assessment.quality = Quality::Doubtful;
   }
   if (verdict_.error_rad > 0.0) {
-    assessment.reasons.push_back({ModelOff, {{"deg", degrees(verdict_.error_rad)}}});
+    assessment.reasons.push_back(verdict_.reason());
   }
   if (noisy) {
     assessment.reasons.push_back({Noise, {{"factor", std::sqrt(verdict_.excess_noise)}}});

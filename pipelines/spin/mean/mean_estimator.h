@@ -11,7 +11,8 @@
 /// start there and are checked against it; where they leave it, or the angles are not linear and
 /// leave the axis open, the plain average is used instead.
 ///
-/// The covariance holds the noise of the fixes, the error of a time grid, the shift by fixes left
+/// The covariance holds the noise of the fixes, the errors that the mission file states, of a time
+/// grid, the shift by fixes left
 /// out because of their noise (fixes_by_case.h), and the errors of noise and model that the
 /// residuals show. Cases that may shift the mean by more than they help are not in it. The
 /// qualities are
@@ -64,9 +65,15 @@ class MeanEstimator {
   /// Number of fixes in the mean; axis and covariances need one.
   std::size_t count() const { return mean_ ? mean_->count : 0; }
   Eigen::Vector3d axis_icrf() const;
-  Eigen::Matrix2d covariance_rad2() const;  ///< Tangent plane: east, north.
-  /// Covariance for testing whether the axis has moved. Scatter beyond the stated noise, which a
-  /// move causes, does not enlarge it.
+  Eigen::Matrix2d covariance_rad2() const;  ///< Total, tangent plane: east, north.
+  /// Part of the covariance that errors of the mission file make.
+  Eigen::Matrix2d alignment_rad2() const;
+  /// Returns whether the mean is that of the least squares, not the plain average.
+  bool agrees_with_average() const;
+  /// True axis minus this one per error of the mission file, ICRF; of the least squares.
+  Eigen::Matrix<double, 3, kSpinAlignmentErrors> axis_of_alignment_icrf() const;
+  /// Covariance by noise for testing whether the axis has moved. Scatter beyond the stated noise,
+  /// which a move causes, does not enlarge it.
   Eigen::Matrix2d covariance_if_moved_rad2() const;
 
   /// Estimate of the mean, or of the one given up; one of them must exist.
@@ -89,12 +96,11 @@ class MeanEstimator {
   void relinearise();
   void linearise_about(const Eigen::Vector3d& axis_icrf);
   Eigen::Matrix2d least_squares_covariance_rad2() const;
-  Eigen::Matrix2d offsets_rad2() const;
+  Eigen::Matrix2d considered_rad2(const ConsideredPrior& prior) const;
   double excess_noise() const;
   double fix_rad2() const;
   bool less_informative_than_one_fix() const;
   double distance_from_average_rad() const;
-  bool agrees_with_average() const;
   std::optional<Reason> doubt() const;
   Assessment assess() const;
 

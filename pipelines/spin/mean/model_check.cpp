@@ -4,8 +4,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <string>
 #include <vector>
 
+#include "pipelines/frames/angle.h"
+#include "pipelines/spin/types/alignment_evidence.h"
 #include "pipelines/statistics/distributions.h"
 #include "pipelines/statistics/significance.h"
 #include "pipelines/statistics/symmetric_eigen.h"
@@ -146,15 +149,21 @@ void explain(const ErrorMatrix& information, const Errors& score, ModelTest& ver
   verdict.error_rad = std::sqrt(verdict.errors_rad2.diagonal().maxCoeff());
 }
 
-double excess_noise(const AngleEquations& equations) {
+/// Tests the noise by what model errors and the mission file's errors do not explain.
+double excess_noise(const AngleEquations& equations, const SpinAlignment& alignment) {
+  Normal normal = equations.normal();
+  Right right = equations.right();
+  const ConsideredPrior prior = considered_prior(alignment);
+  equations.considered().eliminate(prior, normal, right);
   // The unit prior keeps undetermined directions in place.
-  const auto normal = (equations.normal() + Normal::Identity()).eval();
-  const double fitted = equations.right().dot(normal.ldlt().solve(equations.right()));
+  normal += Normal::Identity();
+  const double fitted = right.dot(normal.ldlt().solve(right));
   const double freedom = equations.angles() - AngleEquations::kUnknowns;
   if (!(freedom > 0.0)) {
     return 1.0;
   }
-  const double excess = (equations.squares() - fitted) / freedom;
+  const double explained = is_stated(alignment) ? equations.considered().explained(prior) : 0.0;
+  const double excess = (equations.squares() - explained - fitted) / freedom;
   // Caps the angles for the noise test, so that noise slightly above the stated is not called
   // wrong.
   return variance_factor(excess, std::min(freedom, 300.0));
@@ -165,24 +174,24 @@ constexpr double kFadedEdges = 100.0;
 
 }  // namespace
 
-ModelTest test_model(const AngleEquations& equations, const OffsetPrior& offsets_s2) {
-  Normal normal = equations.normal();
-  Right right = equations.right();
-  equations.offsets().eliminate(offsets_s2, normal, right);
-  const auto axis = (normal.topLeftCorner<2, 2>() + Eigen::Matrix2d::Identity()).ldlt();
-  const Eigen::Matrix<double, 2, kModelErrors> coupling = normal.topRightCorner<2, kModelErrors>();
-  const ErrorMatrix information = normal.bottomRightCorner<kModelErrors, kModelErrors>() -
-                                  coupling.transpose() * axis.solve(coupling);
-  const Errors score =
-      right.tail<kModelErrors>() - coupling.transpose() * axis.solve(right.head<2>());
-  return test_model_errors({.information = information, .score = score}, excess_noise(equations));
+Reason ModelTest::reason() const {
+  Reason reason{ReasonCode::ModelOff, {{"deg", degrees(error_rad)}}};
+  if (culprit) {
+    reason.values.push_back({"key", std::string{kSpinAlignmentKeys.at(*culprit)}});
+  }
+  return reason;
+}
+
+ModelTest test_model(const AngleEquations& equations, const ConsideredPrior& prior) {
+  return test_model_errors(equations.less_axis(), excess_noise(equations, of_alignment(prior)),
+                           prior);
 }
 
 ModelTest test_model_errors(const ErrorInformation& seen, double excess_noise,
-                            const OffsetPrior& offsets_s2) {
+                            const ConsideredPrior& prior) {
   ModelTest verdict{.excess_noise = excess_noise};
   ErrorInformation errors = seen;
-  errors.offsets.eliminate(offsets_s2, errors.information, errors.score);
+  errors.considered.eliminate(prior, errors.information, errors.score);
   const Spectrum spectrum{errors.information, errors.score, excess_noise};
   if (spectrum.freedom() == 0) {
     return verdict;
@@ -192,7 +201,13 @@ ModelTest test_model_errors(const ErrorInformation& seen, double excess_noise,
     return verdict;
   }
   explain(errors.information, errors.score, verdict);
-  verdict.beyond_allowance = spectrum.chi_square(kModelError_rad * kModelError_rad) > significant;
+  const SpinAlignment alignment = of_alignment(prior);
+  verdict.beyond_allowance =
+      is_stated(alignment) || spectrum.chi_square(kModelError_rad * kModelError_rad) > significant;
+  if (const auto worst = worst_excess(
+          beside_offsets(seen.considered.own, seen.considered.score, prior), alignment)) {
+    verdict.culprit = worst->error;
+  }
   return verdict;
 }
 

@@ -7,11 +7,16 @@
 /// have the information L and the score s, whose covariance is L if b = 0. Then s.L^-1 s is a
 /// chi-square with as many degrees of freedom as L has directions that the pass can see; others are
 /// not tested.
+///
+/// Where the mission file states how far it may be off, such errors are considered first: the test
+/// is of what they leave over, and all of that is beyond the allowance.
 
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 
+#include "pipelines/core/assessment.h"
 #include "pipelines/spin/mean/angle_equations.h"
 #include "pipelines/spin/types/model_allowance.h"
 
@@ -26,19 +31,25 @@ struct ModelTest {
   /// Mean products of the model errors: observed part and possible rest.
   Eigen::Matrix<double, kModelErrors, kModelErrors> errors_rad2 =
       Eigen::Matrix<double, kModelErrors, kModelErrors>::Zero();
-  /// True when the errors are more than kModelError_rad accounts for.
+  /// True when the errors are more than the mission file states, or kModelError_rad accounts for
+  /// where it states nothing.
   bool beyond_allowance = false;
+  /// The error of the mission file that would explain most; empty where `error_rad` is 0.
+  std::optional<SpinAlignmentError> culprit = {};
+
+  /// Returns the reason that says so.
+  Reason reason() const;
 };
 
 /// @param excess_noise Ratio of the observed to the stated variance.
-/// @param offsets_s2 Prior covariance of the channels' time offsets, which are no model error.
+/// @param prior Prior covariance of the considered parameters, which are no model error.
 ModelTest test_model_errors(const ErrorInformation& errors, double excess_noise,
-                            const OffsetPrior& offsets_s2 = OffsetPrior::Zero());
+                            const ConsideredPrior& prior = ConsideredPrior::Zero());
 
 /// @param equations Equations at axes so near the true one that the angles are linear in between.
-/// @param offsets_s2 Prior covariance of the channels' time offsets.
+/// @param prior Prior covariance of the considered parameters.
 ModelTest test_model(const AngleEquations& equations,
-                     const OffsetPrior& offsets_s2 = OffsetPrior::Zero());
+                     const ConsideredPrior& prior = ConsideredPrior::Zero());
 
 /// Accumulates evidence of model errors (misplaced slits or beams, limb altitude) from innovations.
 /// Innovations should have zero mean. The part of a model error that looks like another axis moves
@@ -51,9 +62,9 @@ class ModelEvidence {
   /// Reduces the weight of earlier evidence when the filter restarts.
   void fade();
 
-  /// @param excess_noise, offsets_s2 Arguments of test_model_errors().
-  ModelTest test(double excess_noise, const OffsetPrior& offsets_s2) const {
-    return test_model_errors(errors_, excess_noise, offsets_s2);
+  /// @param excess_noise, prior Arguments of test_model_errors().
+  ModelTest test(double excess_noise, const ConsideredPrior& prior) const {
+    return test_model_errors(errors_, excess_noise, prior);
   }
 
  private:

@@ -134,6 +134,7 @@ SpinOutput SpinPass::finish() {
     leave_out_of_time(pulse, out);
   }
   if (auto choice = axis_choice()) {
+    choice->shifts = shifts();
     out.products.emplace_back(*std::move(choice));
   }
   notices_.used(out.products);
@@ -552,6 +553,21 @@ std::optional<AxisChoice> SpinPass::axis_choice() const {
       .settled_by = sequential_.settled_by_edges() ? SettledBy::Edges : settled_by(by_fix)};
 }
 
+/// Returns the shifts of the last answers; `mean` has none as a plain average.
+std::vector<EstimatorShift> SpinPass::shifts() const {
+  const SpinAlignment root = root_of(config_.alignment);
+  std::vector<EstimatorShift> all;
+  if (mean_.count() > 0 && mean_.agrees_with_average()) {
+    all.push_back(
+        {.estimator = SpinEstimator::Mean, .shift_icrf = mean_.axis_of_alignment_icrf() * root});
+  }
+  if (sequential_.has_begun()) {
+    all.push_back({.estimator = SpinEstimator::Sequential,
+                   .shift_icrf = sequential_.axis_of_alignment_icrf() * root});
+  }
+  return all;
+}
+
 void SpinPass::doubt_where_orbit_steps(SpinEstimate& estimate) {
   if (const auto step = step_within(orbit_steps_, *on_orbit_since_, estimate.t)) {
     const Reason reason = reason_of(*step);
@@ -588,7 +604,7 @@ void SpinPass::choose_root(TaiTime t, const AxisCandidates& found) {
     others_icrf.push_back(other.axis_icrf);
   }
   const SpinPrior prior = prior_choosing(root.axis_icrf, others_icrf);
-  if (prior.sigma_rad > std::sqrt(root.covariance_rad2.trace())) {
+  if (prior.sigma_rad > std::sqrt(root.total_covariance_rad2().trace())) {
     apply(t, SetPrior{prior});
   }
 }
@@ -655,8 +671,13 @@ void SpinPass::start_again_where_moved(const SpinEstimate& sequential) {
     return;
   }
   const double apart_rad = angle_between_rad(mean_.axis_icrf(), sequential.axis_icrf);
-  const double sigma_rad =
-      std::sqrt(mean_.covariance_if_moved_rad2().trace() + sequential.covariance_rad2.trace());
+  // Errors of the mission file move both axes, and alike as far as both rest on the same angles.
+  const double alignment_rad2 =
+      ((mean_.axis_of_alignment_icrf() - sequential_.axis_of_alignment_icrf()) *
+       root_of(config_.alignment))
+          .squaredNorm();
+  const double sigma_rad = std::sqrt(mean_.covariance_if_moved_rad2().trace() +
+                                     std::pow(noise_sigma_rad(sequential), 2) + alignment_rad2);
   if (apart_rad <= std::hypot(kContradictionSigmas * sigma_rad, kModelLimit_rad)) {
     return;
   }

@@ -116,6 +116,7 @@ class SpinPass {
   void say_why_not_accepted(const SpinFix& fix);
   void announce_axis(Candidate& candidate, SpinOutput& out);
   void note_choice(const SpinFix& fix);
+  std::vector<EstimatorShift> shifts() const;
   std::optional<Eigen::Vector3d> other_axis_icrf(const Eigen::Vector3d& axis_icrf) const;
   std::optional<KnownAxis> established_axis() const;
   bool recent_fixes_left_the_mean_for(const Eigen::Vector3d& axis_icrf) const;

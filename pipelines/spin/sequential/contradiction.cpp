@@ -58,7 +58,7 @@ void Contradiction::count_fix(const Hypotheses& followed, const StartingPoints::
       said.points.begin(), said.points.end(), [&](const StartingPoint& a, const StartingPoint& b) {
         return a.axis_icrf.dot(axis_icrf) < b.axis_icrf.dot(axis_icrf);
       });
-  mean_.add_fix(nearest.axis_icrf, nearest.covariance_rad2);
+  mean_.add_fix(nearest.axis_icrf, nearest.covariance_rad2, nearest.alignment_rad2);
 }
 
 bool Contradiction::stands(const Hypotheses& followed, bool edges_doubt) const {
@@ -66,9 +66,10 @@ bool Contradiction::stands(const Hypotheses& followed, bool edges_doubt) const {
   if (against_ < needed.fixes) {
     return false;
   }
-  const double mean_rad2 = mean_.covariance_rad2().trace() * mean_.excess_scatter();
+  const double mean_rad2 =
+      mean_.covariance_rad2().trace() * mean_.excess_scatter() + mean_.alignment_rad2().trace();
   return std::all_of(followed.all().begin(), followed.all().end(), [&](const Hypothesis& one) {
-    const double sigma_rad = std::sqrt(mean_rad2 + one.filter.axis_covariance_rad2().trace());
+    const double sigma_rad = std::sqrt(mean_rad2 + one.filter.total_covariance_rad2().trace());
     return angle_between_rad(mean_.axis_icrf(), one.filter.axis_icrf()) >
            std::hypot(needed.sigmas * sigma_rad, kModelLimit_rad);
   });

@@ -16,7 +16,7 @@ constexpr double kUnlikely = 5.0;
 
 StartingPoint place_of(const Hypothesis& hypothesis) {
   return {.axis_icrf = hypothesis.filter.axis_icrf(),
-          .covariance_rad2 = hypothesis.filter.axis_covariance_rad2()};
+          .covariance_rad2 = hypothesis.filter.total_covariance_rad2()};
 }
 
 /// Returns whether both filters have converged to one axis.
@@ -128,10 +128,11 @@ bool Hypotheses::work_in(const SpinConfig& config, const Revolution& revolution,
     // After a gap that makes the phase this uncertain, turns can no longer be counted and phase and
     // rate start anew.
     if (filter.phase_sigma_rad() > 0.3) {
-      filter = SpinFilter::about(filter.axis_icrf(),
-                                 filter.axis_covariance_rad2() +
-                                     filter.offsets_rad2(offset_prior_s2(config.noise)),
-                                 config, revolution, sky)
+      filter = SpinFilter::about(
+                   filter.axis_icrf(),
+                   filter.axis_covariance_rad2() +
+                       filter.considered_rad2(considered_prior(config.noise, config.alignment)),
+                   config, revolution, sky)
                    .value_or(filter);
       hypothesis.said = {};
     } else {

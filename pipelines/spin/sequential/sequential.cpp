@@ -60,9 +60,11 @@ std::optional<SpinEstimate> SequentialEstimator::update(const Revolution& revolu
                       .axis_icrf = best.axis_icrf(),
                       .covariance_rad2 = covariance_rad2(),
                       .spin_rate_rad_s = best.rate_rad_s(),
-                      .spin_rate_sigma_rad_s =
+                      .spin_rate_sigma_rad_s = std::hypot(
                           rate_sigma_rad_s(best, config_.noise) * std::sqrt(verdict_.excess_noise),
-                      .assessment = assess()};
+                          std::sqrt(best.rate_alignment_rad2_s2())),
+                      .assessment = assess(),
+                      .alignment_rad2 = alignment_rad2()};
 }
 
 /// @return True when filters began here.
@@ -72,7 +74,7 @@ bool SequentialEstimator::apply_fix(const SpinFix& fix, const Revolution& revolu
   if (start_confirmation_.unconfirmed()) {
     const SpinFilter& filter = hypotheses_.published().filter;
     start_confirmation_.add_fix(
-        fix, {.axis_icrf = filter.axis_icrf(), .covariance_rad2 = filter.axis_covariance_rad2()});
+        fix, {.axis_icrf = filter.axis_icrf(), .covariance_rad2 = filter.total_covariance_rad2()});
   }
   StartingPoints* const starts = starting_points_for(fix);
   const auto said = starts != nullptr ? starts->add(candidates_of(fix)) : std::nullopt;
@@ -211,7 +213,7 @@ void SequentialEstimator::work_in(const Revolution& revolution, const Sky& sky) 
   }
   const Hypothesis& published = hypotheses_.published();
   const std::span<const Observation> said = published.said.edges();
-  ledger_.add(said);
+  ledger_.add(published.said.independent());
   evidence_.add(published.said.errors,
                 static_cast<double>(std::count_if(
                     said.begin(), said.end(), [](const auto& edge) { return !edge.rejected_by; })));
@@ -227,7 +229,8 @@ void SequentialEstimator::work_in(const Revolution& revolution, const Sky& sky) 
 }
 
 void SequentialEstimator::test_model_and_noise() {
-  verdict_ = evidence_.test(ledger_.all().excess_noise(), offset_prior_s2(config_.noise));
+  verdict_ = evidence_.test(ledger_.all().excess_noise(),
+                            considered_prior(config_.noise, config_.alignment));
 }
 
 /// Returns whether most edges are gated, which shows that the axis is wrong.
@@ -244,7 +247,13 @@ Eigen::Matrix2d SequentialEstimator::covariance_rad2() const {
   const Eigen::Matrix<double, 2, kModelErrors> moved = filter.axis_of_errors();
   const Eigen::Matrix2d shown_rad2 = filter.axis_covariance_rad2() * verdict_.excess_noise +
                                      moved * verdict_.errors_rad2 * moved.transpose();
-  return shown_rad2 + filter.offsets_rad2(offset_prior_s2(config_.noise));
+  return shown_rad2 + filter.considered_rad2(considered_prior(config_.noise, config_.alignment));
+}
+
+Eigen::Matrix2d SequentialEstimator::alignment_rad2() const {
+  return most_left_out()
+             ? Eigen::Matrix2d{Eigen::Matrix2d::Zero()}
+             : hypotheses_.published().filter.considered_rad2(considered_prior(config_.alignment));
 }
 
 double SequentialEstimator::model_leverage() const {
@@ -300,17 +309,13 @@ std::optional<Reason> SequentialEstimator::doubt() const {
     return Reason{Noise, {{"factor", std::sqrt(verdict_.excess_noise)}}};
   }
   if (verdict_.error_rad > 0.0) {
-    return model_contradicts() ? std::optional{model_off()} : std::nullopt;
+    return model_contradicts() ? std::optional{verdict_.reason()} : std::nullopt;
   }
   // If the edges beat rival filters, the search covered more than one starting point.
   if (start_confirmation_.unconfirmed() && !hypotheses_.settled_by_edges()) {
     return Reason{StartUnconfirmed};
   }
   return std::nullopt;
-}
-
-Reason SequentialEstimator::model_off() const {
-  return {ReasonCode::ModelOff, {{"deg", degrees(verdict_.error_rad)}}};
 }
 
 Assessment SequentialEstimator::assess() const {
@@ -331,7 +336,7 @@ Assessment SequentialEstimator::assess() const {
   }
   const Quality unopposed = unopposed_quality(static_cast<double>(ledger_.turns()));
   if (verdict_.error_rad > 0.0) {
-    return {unopposed, {model_off(), revolutions}};
+    return {unopposed, {verdict_.reason(), revolutions}};
   }
   Assessment assessment{unopposed, {revolutions, gated}};
   if (model_leverage() > kPoorLeverage) {

@@ -84,6 +84,10 @@ class SequentialEstimator {
 
   /// Axis of the published candidate, which must exist.
   Eigen::Vector3d axis_icrf() const { return hypotheses_.published().filter.axis_icrf(); }
+  /// True axis minus that of the published candidate per error of the mission file, ICRF.
+  Eigen::Matrix<double, 3, kSpinAlignmentErrors> axis_of_alignment_icrf() const {
+    return hypotheses_.published().filter.axis_of_alignment_icrf();
+  }
   bool has_begun() const { return !hypotheses_.empty(); }
   std::optional<Hypotheses::Rival> rival() const { return hypotheses_.rival(); }
 
@@ -106,10 +110,10 @@ class SequentialEstimator {
   bool most_left_out() const;
   void work_in(const Revolution& revolution, const Sky& sky);
   Eigen::Matrix2d covariance_rad2() const;
+  Eigen::Matrix2d alignment_rad2() const;
   bool model_contradicts() const;
   Assessment assess_ambiguous() const;
   std::optional<Reason> doubt() const;
-  Reason model_off() const;
   Assessment assess() const;
 
   SpinConfig config_;

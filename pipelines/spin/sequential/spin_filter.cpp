@@ -43,7 +43,7 @@ GoodEdges::GoodEdges(const SpinConfig& config, const Revolution& revolution) {
 
 double RevolutionObservations::squared_innovations() const {
   double sum = 0.0;
-  for (const Observation& edge : edges()) {
+  for (const Observation& edge : independent()) {
     sum += edge.bounded_nis();
   }
   return sum;
@@ -72,6 +72,8 @@ std::optional<SpinFilter> SpinFilter::about(const Eigen::Vector3d& axis_icrf,
         rate_rad_s * (kFirstRateSigmas * revolution.period.sigma_s / revolution.period.period_s +
                       kFirstRateShare));
     filter.covariance_(kDrift, kDrift) = square(kFirstDrift_rad_s2);
+    filter.alignment_ = config.alignment;
+    filter.unknown_ = config.alignment;
     return filter;
   }
   return std::nullopt;
@@ -86,8 +88,9 @@ void SpinFilter::predict(TaiTime t) {
   rate_rad_s_ += drift_rad_s2_ * dt_s;
   of_errors_.row(kPhase) += dt_s * (of_errors_.row(kRate) + 0.5 * dt_s * of_errors_.row(kDrift));
   of_errors_.row(kRate) += dt_s * of_errors_.row(kDrift);
-  of_offsets_.row(kPhase) += dt_s * (of_offsets_.row(kRate) + 0.5 * dt_s * of_offsets_.row(kDrift));
-  of_offsets_.row(kRate) += dt_s * of_offsets_.row(kDrift);
+  of_considered_.row(kPhase) +=
+      dt_s * (of_considered_.row(kRate) + 0.5 * dt_s * of_considered_.row(kDrift));
+  of_considered_.row(kRate) += dt_s * of_considered_.row(kDrift);
   covariance_.row(kPhase) += dt_s * (covariance_.row(kRate) + 0.5 * dt_s * covariance_.row(kDrift));
   covariance_.col(kPhase) += dt_s * (covariance_.col(kRate) + 0.5 * dt_s * covariance_.col(kDrift));
   covariance_.row(kRate) += dt_s * covariance_.row(kDrift);
@@ -149,7 +152,9 @@ SpinFilter::Linearised SpinFilter::update_linearised_here(const SpinFilter& prio
   said = {};
   covariance_ = prior.covariance_;
   of_errors_ = prior.of_errors_;
-  of_offsets_ = prior.of_offsets_;
+  of_considered_ = prior.of_considered_;
+  learnt_ = prior.learnt_;
+  unknown_ = prior.unknown_;
   Error error = error_of(prior);
   const auto gate_of = [&noise = noise](PulseChannel channel) {
     return square(kGateSigmas) * noise.at(index_of(channel));
@@ -172,6 +177,9 @@ SpinFilter::Linearised SpinFilter::update_linearised_here(const SpinFilter& prio
       continue;
     }
     const double by_phase = predicted->phase_per_rotation.z();
+    PerConsidered per_considered = PerConsidered::Zero();
+    per_considered(static_cast<Eigen::Index>(edge.channel)) = rate_rad_s_;
+    per_considered.tail<kSpinAlignmentErrors>() = predicted->phase_per_alignment;
     const Measured measured{
         .edge = edge,
         .residual_rad = phase_rad - predicted->phase_rad,
@@ -179,10 +187,8 @@ SpinFilter::Linearised SpinFilter::update_linearised_here(const SpinFilter& prio
         .slope = Error{predicted->phase_per_rotation.x(), predicted->phase_per_rotation.y(),
                        by_phase, by_phase * dt_s, by_phase * 0.5 * square(dt_s)},
         .per_error = predicted->phase_per_error,
-        .per_offset_rad_s = rate_rad_s_};
-    const Observation observation = work_in(measured, gate_of(edge.channel), error, said);
-    said.add(observation);
-    if (observation.rejected_by) {
+        .per_considered = per_considered};
+    if (!work_in(measured, gate_of(edge.channel), error, said)) {
       said.log_likelihood += kLogSpurious;
       continue;
     }
@@ -194,44 +200,64 @@ SpinFilter::Linearised SpinFilter::update_linearised_here(const SpinFilter& prio
   return here;
 }
 
-/// Leaves the state unchanged for an edge beyond the gate.
-Observation SpinFilter::work_in(const Measured& measured, double gate, Error& error,
-                                RevolutionObservations& said) {
+/// @return False for an edge beyond the gate, which leaves the state unchanged.
+bool SpinFilter::work_in(const Measured& measured, double gate, Error& error,
+                         RevolutionObservations& said) {
   using Update = LinearUpdate<5, 1>;
   const Update update{covariance_, measured.slope.transpose(),
                       Update::Noise{square(measured.sigma_rad)}};
   const double variance = update.expected(0, 0);
   const double innovation = wrapped_rad(measured.residual_rad - measured.slope.dot(error));
-  Observation observation{.t = measured.edge.t,
-                          .source = source_of(measured.edge.channel),
-                          .residual = {.freedom = 1},
-                          .nis = square(innovation) / variance,
-                          .limit = gate};
-  observation.residual.value[0] = innovation / rate_rad_s_;
-  observation.residual.sigma[0] = std::sqrt(variance) / rate_rad_s_;
-  if (observation.nis > gate) {
-    observation.rejected_by = Rejection::Innovation;
-    return observation;
-  }
   // An edge that is late by an angle looks as if the phase were ahead by it.
+  const PerConsidered innovation_of_considered =
+      measured.slope.transpose() * of_considered_ + measured.per_considered;
+  const auto of_alignment = innovation_of_considered.tail<kSpinAlignmentErrors>().eval();
+  const auto observed = [&](double off_rad, double total) {
+    return Observation{.t = measured.edge.t,
+                       .source = source_of(measured.edge.channel),
+                       .residual = {.freedom = 1,
+                                    .value = {off_rad / rate_rad_s_, 0.0, 0.0},
+                                    .sigma = {std::sqrt(total) / rate_rad_s_, 0.0, 0.0}},
+                       .nis = square(off_rad) / total,
+                       .limit = gate};
+  };
+  const double left = innovation - of_alignment.dot(learnt_);
+  const double left_variance = variance + of_alignment * unknown_ * of_alignment.transpose();
+  Observation observation =
+      observed(innovation, variance + of_alignment * alignment_ * of_alignment.transpose());
+  Observation independent = observed(left, left_variance);
+  if (observation.nis > gate) {
+    observation.rejected_by = independent.rejected_by = Rejection::Innovation;
+  }
+  said.add(observation, independent);
+  if (observation.rejected_by) {
+    return false;
+  }
   const Eigen::Matrix<double, 1, kModelErrors> innovation_of_errors =
       measured.slope.transpose() * of_errors_ + measured.per_error;
   of_errors_ -= update.gain * innovation_of_errors;
   ErrorInformation& errors = said.errors;
   errors.information += innovation_of_errors.transpose() * innovation_of_errors / variance;
   errors.score += innovation_of_errors.transpose() * (innovation / variance);
-  Eigen::Matrix<double, 1, kChannelOffsets> innovation_of_offsets =
-      measured.slope.transpose() * of_offsets_;
-  innovation_of_offsets(static_cast<Eigen::Index>(measured.edge.channel)) +=
-      measured.per_offset_rad_s;
-  of_offsets_ -= update.gain * innovation_of_offsets;
-  errors.offsets.shared += innovation_of_errors.transpose() * innovation_of_offsets / variance;
-  errors.offsets.own += innovation_of_offsets.transpose() * innovation_of_offsets / variance;
-  errors.offsets.score += innovation_of_offsets.transpose() * (innovation / variance);
+  of_considered_ -= update.gain * innovation_of_considered;
+  errors.considered.shared +=
+      innovation_of_errors.transpose() * innovation_of_considered / variance;
+  errors.considered.own +=
+      innovation_of_considered.transpose() * innovation_of_considered / variance;
+  errors.considered.score += innovation_of_considered.transpose() * (innovation / variance);
   error += update.gain * innovation;
   covariance_ = update.left_of(covariance_);
-  said.log_likelihood += log_normal_density(observation.nis, variance);
-  return observation;
+  said.log_likelihood += log_normal_density(independent.nis, left_variance);
+  learn_alignment(of_alignment, left, left_variance);
+  return true;
+}
+
+/// @param left Innovation less what is known of the errors. @param variance Its variance.
+void SpinFilter::learn_alignment(const Eigen::Matrix<double, 1, kSpinAlignmentErrors>& slope,
+                                 double left, double variance) {
+  const SpinAlignmentVector shared = unknown_ * slope.transpose();
+  learnt_ += shared * (left / variance);
+  unknown_ -= shared * shared.transpose() / variance;
 }
 
 /// Returns the error of this state if `truth` is true.
@@ -262,10 +288,20 @@ Eigen::Matrix<double, 2, kModelErrors> SpinFilter::axis_of_errors() const {
   return tangent_from_tilts(q_icrf_spin_) * of_errors_.topRows<2>();
 }
 
-Eigen::Matrix2d SpinFilter::offsets_rad2(const OffsetPrior& offsets_s2) const {
-  const Eigen::Matrix<double, 2, kChannelOffsets> moved =
-      tangent_from_tilts(q_icrf_spin_) * of_offsets_.topRows<2>();
-  return moved * offsets_s2 * moved.transpose();
+Eigen::Matrix2d SpinFilter::considered_rad2(const ConsideredPrior& prior) const {
+  const Eigen::Matrix<double, 2, kSpinConsidered> moved =
+      tangent_from_tilts(q_icrf_spin_) * of_considered_.topRows<2>();
+  return moved * prior * moved.transpose();
+}
+
+Eigen::Matrix<double, 3, kSpinAlignmentErrors> SpinFilter::axis_of_alignment_icrf() const {
+  return tangent_basis(axis_icrf()) * tangent_from_tilts(q_icrf_spin_) *
+         of_considered_.topRightCorner<2, kSpinAlignmentErrors>();
+}
+
+double SpinFilter::rate_alignment_rad2_s2() const {
+  const auto of_rate = of_considered_.row(kRate).tail<kSpinAlignmentErrors>().eval();
+  return of_rate * alignment_ * of_rate.transpose();
 }
 
 double SpinFilter::rate_sigma_rad_s() const { return std::sqrt(covariance_(kRate, kRate)); }

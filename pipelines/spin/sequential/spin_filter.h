@@ -10,6 +10,16 @@
 ///
 /// with dt = t - t_ref, so any subset of the channels will do. The body is assumed to turn about a
 /// fixed axis at a uniformly drifting rate, with a slow random walk of all three.
+///
+/// Errors b of the mission file, with prior covariance B, do not enter the gains: the filter
+/// carries the sensitivity S of its state to them. Then an innovation is
+///
+///     nu = h b + noise of variance v,    h = H S + H_b
+///
+/// and the gate is that of its total variance, v + h B h'. As b is one draw a pass, innovations are
+/// not independent. Those less what the pass so far says of b are (separate-bias estimation):
+/// nu - h m has the variance v + h C h', where m and C follow b as a state. Likelihoods and tests
+/// of the noise use these.
 
 #pragma once
 
@@ -40,22 +50,30 @@ inline constexpr ChannelNoise kStatedNoise = {1.0, 1.0, 1.0, 1.0, 1.0, 1.0};
 class RevolutionObservations {
  public:
   /// @param edge Observation of an edge, at most one per channel.
-  void add(const Observation& edge) { edges_[count_++] = edge; }
+  void add(const Observation& edge) { add(edge, edge); }
+  /// @param independent The same, less what earlier ones say of the mission file's errors.
+  void add(const Observation& edge, const Observation& independent) {
+    independent_[count_] = independent;
+    edges_[count_++] = edge;
+  }
   /// Observations with residuals in seconds; an edge that the state does not predict has no
   /// residual.
   std::span<const Observation> edges() const { return {edges_.data(), count_}; }
 
-  /// Sum of the NIS values, each bounded by its gate.
+  /// Sum of the NIS values of the independent observations, each bounded by its gate.
   double squared_innovations() const;
 
   /// Log probability density of the edges, per rad each; gated edges count as spurious.
   double log_likelihood = 0.0;
+  /// The observations less what earlier ones say of the mission file's errors: independent.
+  std::span<const Observation> independent() const { return {independent_.data(), count_}; }
   /// Evidence of model errors from the innovations used, with axis, phase and rate eliminated and
   /// the innovations decorrelated by the filter (Friedland's separate-bias estimation).
   ErrorInformation errors = {};
 
  private:
   std::array<Observation, kPulseChannels> edges_ = {};
+  std::array<Observation, kPulseChannels> independent_ = {};
   std::size_t count_ = 0;
 };
 
@@ -88,10 +106,18 @@ class SpinFilter {
   Eigen::Matrix2d axis_covariance_rad2() const;
   /// Axis motion per model error in the tangent plane: east, north; rad/rad.
   Eigen::Matrix<double, 2, kModelErrors> axis_of_errors() const;
-  /// Axis covariance that unknown time offsets of the channels add, in the tangent plane.
-  Eigen::Matrix2d offsets_rad2(const OffsetPrior& offsets_s2) const;
+  /// Axis covariance that considered parameters add, in the tangent plane.
+  Eigen::Matrix2d considered_rad2(const ConsideredPrior& prior) const;
+  /// Axis covariance by noise and by what the mission file may be off, in the tangent plane.
+  Eigen::Matrix2d total_covariance_rad2() const {
+    return axis_covariance_rad2() + considered_rad2(considered_prior(alignment_));
+  }
+  /// True axis minus this one per error of the mission file, ICRF.
+  Eigen::Matrix<double, 3, kSpinAlignmentErrors> axis_of_alignment_icrf() const;
   double rate_rad_s() const { return rate_rad_s_; }
   double rate_sigma_rad_s() const;
+  /// Part of the variance of the rate that errors of the mission file make.
+  double rate_alignment_rad2_s2() const;
   double phase_sigma_rad() const;
 
  private:
@@ -125,12 +151,13 @@ class SpinFilter {
     double sigma_rad;
     Error slope;
     Eigen::Matrix<double, 1, kModelErrors> per_error;
-    double per_offset_rad_s;  ///< Change of the phase per second that the channel is late.
+    PerConsidered per_considered;
   };
   Linearised update_linearised_here(const SpinFilter& prior, const RevolutionEdges& seen,
                                     Missing missing, RevolutionObservations& said);
-  Observation work_in(const Measured& measured, double gate, Error& error,
-                      RevolutionObservations& said);
+  bool work_in(const Measured& measured, double gate, Error& error, RevolutionObservations& said);
+  void learn_alignment(const Eigen::Matrix<double, 1, kSpinAlignmentErrors>& slope, double left,
+                       double variance);
   Error error_of(const SpinFilter& truth) const;
   void correct(const Error& error);
 
@@ -143,9 +170,13 @@ class SpinFilter {
   /// Sensitivity of the error state to each model error, per rad.
   Eigen::Matrix<double, 5, kModelErrors> of_errors_ =
       Eigen::Matrix<double, 5, kModelErrors>::Zero();
-  /// Sensitivity of the error state to the time offset of each channel, per second.
-  Eigen::Matrix<double, 5, kChannelOffsets> of_offsets_ =
-      Eigen::Matrix<double, 5, kChannelOffsets>::Zero();
+  /// Sensitivity of the error state to considered parameters.
+  Eigen::Matrix<double, 5, kSpinConsidered> of_considered_ =
+      Eigen::Matrix<double, 5, kSpinConsidered>::Zero();
+  SpinAlignment alignment_ = SpinAlignment::Zero();  ///< Prior covariance of the errors.
+  /// Mean and covariance of the errors by the innovations so far.
+  SpinAlignmentVector learnt_ = SpinAlignmentVector::Zero();
+  SpinAlignment unknown_ = SpinAlignment::Zero();
 };
 
 /// Selects the good edges of a revolution from channels that have a sensor.

@@ -17,7 +17,10 @@ namespace {
 constexpr double kPoorest_rad = 3.0 * kRadPerDeg;
 
 StartingPoint middle_of(const MeanAxis& branch) {
-  return {.axis_icrf = branch.axis_icrf(), .covariance_rad2 = branch.covariance_rad2()};
+  const Eigen::Matrix2d alignment_rad2 = branch.alignment_rad2();
+  return {.axis_icrf = branch.axis_icrf(),
+          .covariance_rad2 = branch.covariance_rad2() + alignment_rad2,
+          .alignment_rad2 = alignment_rad2};
 }
 
 }  // namespace
@@ -27,10 +30,11 @@ bool leaves_open(const SpinFix& fix) {
 }
 
 std::vector<StartingPoint> candidates_of(const SpinFix& fix) {
-  std::vector<StartingPoint> candidates{{fix.axis_icrf, fix.covariance_rad2}};
+  std::vector<StartingPoint> candidates{{fix.axis_icrf, fix.covariance_rad2, fix.alignment_rad2}};
   if (leaves_open(fix)) {
     for (const SpinAlternate& alternate : fix.alternates) {
-      candidates.push_back({alternate.axis_icrf, alternate.covariance_rad2});
+      candidates.push_back(
+          {alternate.axis_icrf, alternate.covariance_rad2, alternate.alignment_rad2});
     }
   }
   return candidates;
@@ -65,7 +69,8 @@ std::optional<StartingPoints::Known> StartingPoints::add(
   for (const StartingPoint& candidate : candidates) {
     const std::size_t branch = branch_of(candidate, taken);
     branches_.resize(std::max(branches_.size(), branch + 1));
-    branches_[branch].add_fix(candidate.axis_icrf, candidate.covariance_rad2);
+    branches_[branch].add_fix(candidate.axis_icrf, candidate.covariance_rad2,
+                              candidate.alignment_rad2);
     taken.push_back(branch);
     known.points.push_back(middle_of(branches_[branch]));
   }

@@ -18,7 +18,9 @@ namespace spindrift {
 
 struct StartingPoint {
   Eigen::Vector3d axis_icrf;        ///< Unit vector.
-  Eigen::Matrix2d covariance_rad2;  ///< Covariance in the tangent plane at the axis: east, north.
+  Eigen::Matrix2d covariance_rad2;  ///< Total, in the tangent plane at the axis: east, north.
+  /// Part of the covariance that errors of the mission file make.
+  Eigen::Matrix2d alignment_rad2 = Eigen::Matrix2d::Zero();
 };
 
 /// Returns whether the fix has not ruled out its other candidates.

@@ -13,19 +13,41 @@
 
 namespace spindrift {
 
-/// Offsets of a channel's times that are constant over a pass: consider parameters
-/// (statistics/considered.h), since no edge of the pass shows them.
+/// @name Parameters that estimators consider (statistics/considered.h)
+/// First the offset of each channel's times, constant over a pass, in s; then the errors of the
+/// mission file (alignment.h) in their units.
+/// @{
 inline constexpr int kChannelOffsets = static_cast<int>(kPulseChannels);
+inline constexpr int kSpinConsidered = kChannelOffsets + kSpinAlignmentErrors;
 
-/// Covariance of the channels' offsets, s^2.
-using OffsetPrior = Eigen::Matrix<double, kChannelOffsets, kChannelOffsets>;
+using PerConsidered = Eigen::Matrix<double, 1, kSpinConsidered>;
+using ConsideredVector = Eigen::Matrix<double, kSpinConsidered, 1>;
+using ConsideredPrior = Eigen::Matrix<double, kSpinConsidered, kSpinConsidered>;
 
-/// Where the spin rate is commensurate with the grid of the times, each channel has an offset of
-/// its own. Elsewhere the grid's error averages out, and this prior is too large.
-inline OffsetPrior offset_prior_s2(const PulseNoise& noise) {
-  const double sigma_s = grid_sigma_s(noise);
-  return sigma_s * sigma_s * OffsetPrior::Identity();
+/// Returns the prior of the mission file's errors, with all offsets known to be zero.
+inline ConsideredPrior considered_prior(const SpinAlignment& alignment) {
+  ConsideredPrior prior = ConsideredPrior::Zero();
+  prior.bottomRightCorner<kSpinAlignmentErrors, kSpinAlignmentErrors>() = alignment;
+  return prior;
 }
+
+/// Returns the part of a matrix over all considered parameters that holds the mission file's
+/// errors.
+inline SpinAlignment of_alignment(const ConsideredPrior& all) {
+  return all.bottomRightCorner<kSpinAlignmentErrors, kSpinAlignmentErrors>();
+}
+
+/// Returns the prior of all. Where the spin rate is commensurate with the grid of the times, each
+/// channel has an offset of its own. Elsewhere the grid's error averages out, and this prior is too
+/// large.
+inline ConsideredPrior considered_prior(const PulseNoise& noise,
+                                        const SpinAlignment& alignment = SpinAlignment::Zero()) {
+  ConsideredPrior prior = considered_prior(alignment);
+  const double sigma_s = grid_sigma_s(noise);
+  prior.diagonal().head<kChannelOffsets>().setConstant(sigma_s * sigma_s);
+  return prior;
+}
+/// @}
 
 /// Model errors: the place of the limb for the north and the south beam (mounting angle included),
 /// the sun angle, and the azimuths of the beams behind sun slit 1.
@@ -38,18 +60,18 @@ struct ErrorInformation {
       Eigen::Matrix<double, kModelErrors, kModelErrors>::Zero();  ///< 1/rad^2
   /// Score, 1/rad; its covariance is `information` where all errors are zero.
   Eigen::Matrix<double, kModelErrors, 1> score = Eigen::Matrix<double, kModelErrors, 1>::Zero();
-  Considered<kModelErrors, kChannelOffsets> offsets = {};
+  Considered<kModelErrors, kSpinConsidered> considered = {};
 
   ErrorInformation& operator+=(const ErrorInformation& other) {
     information += other.information;
     score += other.score;
-    offsets += other.offsets;
+    considered += other.considered;
     return *this;
   }
   ErrorInformation& operator*=(double share) {
     information *= share;
     score *= share;
-    offsets *= share;
+    considered *= share;
     return *this;
   }
 };

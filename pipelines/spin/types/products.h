@@ -4,6 +4,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <string_view>
@@ -12,6 +14,7 @@
 
 #include "pipelines/core/assessment.h"
 #include "pipelines/observation/observation.h"
+#include "pipelines/spin/types/alignment.h"
 #include "pipelines/spin/types/pulse.h"
 #include "pipelines/time/sample_contradiction.h"
 #include "pipelines/time/tai_time.h"
@@ -80,9 +83,12 @@ std::string_view name_of(Resolution resolution);
 /// Another axis that the same revolution leaves possible.
 struct SpinAlternate {
   Eigen::Vector3d axis_icrf;  ///< Unit vector.
-  /// Covariance in the tangent plane at this axis (east, north); zero where it was not kept.
+  /// Total covariance in the tangent plane at this axis (east, north); zero where it was not kept.
   Eigen::Matrix2d covariance_rad2 = Eigen::Matrix2d::Zero();
-  double misfit = 0.0;  ///< Chi-square of the measurements about the axis, by the edges' noise.
+  /// Chi-square of the measurements about the axis, by the noise of the edges and the alignment.
+  double misfit = 0.0;
+  /// Part of the covariance that errors of the mission file make.
+  Eigen::Matrix2d alignment_rad2 = Eigen::Matrix2d::Zero();
 };
 
 /// Spin axis from one revolution alone.
@@ -91,7 +97,7 @@ struct SpinFix {
   TaiTime t;  ///< Time of its sun1 edge.
   int geometry_case;
   Eigen::Vector3d axis_icrf;
-  Eigen::Matrix2d covariance_rad2;        ///< Tangent plane at the axis: east, north.
+  Eigen::Matrix2d covariance_rad2;        ///< Total, tangent plane at the axis: east, north.
   std::vector<SpinAlternate> alternates;  ///< The other candidates, best first.
   Resolution resolution;
   double norm;  ///< |P| before normalising: 1 for measurements that agree.
@@ -102,6 +108,8 @@ struct SpinFix {
   /// then too small, and the true candidate may be missing.
   bool near_tangent = false;
   double misfit = 0.0;  ///< Chi-square as in SpinAlternate.
+  /// Part of the covariance that errors of the mission file make.
+  Eigen::Matrix2d alignment_rad2 = Eigen::Matrix2d::Zero();
   /// For a PRIOR fix by an axis that the pass has established: what had settled that axis.
   std::optional<Resolution> settled_before = {};
 };
@@ -116,6 +124,15 @@ enum class SettledBy { Edges, Geometry, Constraint, Prior, Dispersion, Nothing }
 std::string_view name_of(SettledBy settled_by);
 SettledBy settled_by(Resolution resolution);
 
+/// True axis minus that of an estimate per error of the mission file, each error as independent
+/// ones of unit variance (root_of()), rad, ICRF. Errors of several estimators in one pass are the
+/// same.
+using AxisShift = Eigen::Matrix<double, 3, kSpinAlignmentErrors>;
+struct EstimatorShift {
+  SpinEstimator estimator;
+  AxisShift shift_icrf;
+};
+
 /// The axis that a pass has taken, and the best other one.
 struct AxisChoice {
   TaiTime t;  ///< Time of the estimate with this axis.
@@ -126,17 +143,26 @@ struct AxisChoice {
   /// PassInformation::misfit(). Empty unless `batch`, which alone compares them.
   std::optional<double> delta_chi_square;
   SettledBy settled_by;
+  std::vector<EstimatorShift> shifts = {};  ///< Of the answers of the pass, or of `batch`.
 };
 
 struct SpinEstimate {
   TaiTime t;
   SpinEstimator estimator;
   Eigen::Vector3d axis_icrf;
-  Eigen::Matrix2d covariance_rad2;  ///< Tangent plane at the axis: east, north.
+  Eigen::Matrix2d covariance_rad2;  ///< Total, tangent plane at the axis: east, north.
   double spin_rate_rad_s;
   double spin_rate_sigma_rad_s;
   Assessment assessment;
+  /// Part of the covariance that errors of the mission file make.
+  Eigen::Matrix2d alignment_rad2 = Eigen::Matrix2d::Zero();
 };
+
+/// Returns what the sigma of a fix or an estimate would be if the mission file were exact.
+template <class Axis>
+double noise_sigma_rad(const Axis& axis) {
+  return std::sqrt(std::max((axis.covariance_rad2 - axis.alignment_rad2).trace(), 0.0));
+}
 
 using SpinProduct = std::variant<PulseUse, RevolutionProduct, SpinMeasurement, SpinFix,
                                  SpinEstimate, SampleContradiction, AxisChoice>;

@@ -36,6 +36,14 @@ constexpr std::array<BiasPrior, kSensorBiases> kPriors{
 
 const BiasPrior& prior_of(SensorBias bias) { return kPriors.at(static_cast<std::size_t>(bias)); }
 
+SensorBiases suspected_sigmas() {
+  SensorBiases sigmas;
+  for (int i = 0; i < kSensorBiases; ++i) {
+    sigmas[i] = prior_of(static_cast<SensorBias>(i)).sigma;
+  }
+  return sigmas;
+}
+
 BiasSet unknowns_of(SensorBias bias) {
   const bool is_coning = bias == ConingX || bias == ConingY;
   return is_coning ? BiasSet{}.set(ConingX).set(ConingY)

@@ -35,9 +35,12 @@ BiasSet unknowns_of(SensorBias bias);
 struct BiasPrior {
   std::string_view name;  ///< Name in mission file and archive.
   bool is_angle;          ///< Whether the unit is rad, else km.
-  double sigma;           ///< One standard deviation about zero.
+  double sigma;           ///< One standard deviation of a suspected bias about zero.
   double bound;           ///< Bound that no real sensor exceeds.
 };
 const BiasPrior& prior_of(SensorBias bias);
+
+/// Returns the sigmas of suspected biases.
+SensorBiases suspected_sigmas();
 
 }  // namespace spindrift

@@ -28,7 +28,6 @@ BatchSolution a_solution() {
           .drift_rad_s2 = 1e-6,
           .drift_sigma_rad_s2 = 1e-8,
           .bound_rad = 1e-4,
-          .consider_sigma_rad = 1e-3,
           .biases = {BiasEstimate{NorthChordBias, 0.01, 0.001, true, true}},
           .undetermined = {},
           .singular_values = {},

@@ -77,27 +77,31 @@ TEST(Observability, AMotionThatIsLeftOpenHasALargeSigma) {
   EXPECT_THAT(observed.undetermined(), IsEmpty());
 }
 
-TEST(Observability, TheErrorOfAnAxisIsWhereItWouldMoveAndWhatIsOpenThen) {
-  // A chord bias is mixed with the first tilt; the second tilt is known.
+TEST(Observability, AConsideredParameterMovesTheUnknownsByTheirGain) {
+  // A chord bias is mixed with the first tilt; an azimuth pulls the tilt.
   PassInformation pass;
   pass.information.diagonal().head<kMotionUnknowns>().setConstant(1e8);
   const double prior = prior_of(NorthChordBias).sigma;
   const int c = kMotionUnknowns + NorthChordBias;
   pass.information(c, c) = 1e8;
   pass.information(0, c) = pass.information(c, 0) = 0.9e8;
-  pass.score[c] = 2e4;
+  constexpr int kAzimuth = kChannelOffsets + NorthAzimuthError;
+  pass.considered.shared(0, kAzimuth) = 2e8;
   const double tilt = 1e8 + 1.0;
   const double chord = 1e8 + 1.0 / (prior * prior);
   const double determinant = tilt * chord - 0.81e16;
-  const double moves_rad = 0.9e8 * 2e4 / determinant;
-  const double open_rad2 = chord / determinant + 1.0 / tilt;
+  ConsideredPrior known = ConsideredPrior::Zero();
+  known(kAzimuth, kAzimuth) = 1e-6;
   const Observability observed{pass, BiasSet{}.set(NorthChordBias)};
-  EXPECT_NEAR(observed.rms_error_rad(pass, SensorBiases::Zero()) /
-                  std::sqrt(moves_rad * moves_rad + open_rad2),
-              1.0, 1e-9);
-  // A bias that is known to be zero does not move the axis.
-  EXPECT_NEAR(Observability(pass, {}).rms_error_rad(pass, SensorBiases::Zero()),
-              std::sqrt(2.0 / tilt), 1e-12);
+  const Observability::Matrix added = observed.considered(pass, known);
+  EXPECT_NEAR(std::sqrt(added(0, 0)), 1e-3 * 2e8 * chord / determinant, 1e-12);
+  EXPECT_NEAR(std::sqrt(added(c, c)), 1e-3 * 2e8 * 0.9e8 / determinant, 1e-12);
+  EXPECT_EQ(added(1, 1), 0.0);
+  // A bias that is known does not move, and takes up nothing.
+  const Observability alone{pass, {}};
+  const Observability::Matrix of_axis = alone.considered(pass, known);
+  EXPECT_NEAR(std::sqrt(of_axis(0, 0)), 1e-3 * 2e8 / tilt, 1e-12);
+  EXPECT_EQ(of_axis(c, c), 0.0);
 }
 
 }  // namespace spindrift::observability_test

@@ -1,6 +1,7 @@
 #include "pipelines/spin/fix/axis_candidates.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <set>
 #include <utility>
@@ -8,8 +9,10 @@
 #include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
 #include "pipelines/spin/sensor_model/geometry.h"
+#include "pipelines/spin/sensor_model/horizon.h"
 #include "tests/support/axis_scene.h"
 #include "tests/support/matchers.h"
+#include "tests/support/misaligned.h"
 
 namespace spindrift::testing::axis_candidates_test {
 
@@ -135,6 +138,55 @@ TEST_F(AxisCandidatesTest, ChordsOfAnotherDiscContradictTheOrbit) {
     EXPECT_FALSE(fix.accepted) << range_factor;
     // Two chords need no disc: the axis is right, but the fix must not be trusted.
     EXPECT_LT(scene.off_rad(fix.axis_icrf), kExact_rad);
+  }
+}
+
+/// Returns the candidate nearest the true axis.
+AxisCandidate true_candidate(const AxisScene& scene, const SpinConfig& config,
+                             const std::set<SpinQuantity>& left_out,
+                             const SunEarthDirections& sun_earth) {
+  const auto found =
+      axis_candidates(config, measured_without(config, scene.seen(), left_out), sun_earth).value();
+  return *std::ranges::min_element(found.candidates, {}, [&](const AxisCandidate& candidate) {
+    return scene.off_rad(candidate.axis_icrf);
+  });
+}
+
+TEST_F(AxisCandidatesTest, AnErrorOfTheMissionFileMovesTheAxisByItsShift) {
+  SpinAlignmentVector sigmas = SpinAlignmentVector::Constant(1e-5);
+  sigmas[Co2AltitudeError] = 0.1;
+  sigmas[TimeTagError] = 0.05;
+  scene.config.alignment = sigmas.cwiseAbs2().asDiagonal();
+  SunEarthDirections said = scene.sun_earth();
+  said.t_earth = scene.start;
+  said.earth_motion_icrf_s = Eigen::Vector3d{3e-4, -5e-5, 2e-4};
+  for (const std::set<SpinQuantity>& left_out : std::vector<std::set<SpinQuantity>>{
+           {}, {SouthChord, SouthDihedral}, {NorthDihedral, SouthDihedral}, {SunAngle}}) {
+    const AxisCandidate candidate = true_candidate(scene, scene.config, left_out, said);
+    for (int error = 0; error < kSpinAlignmentErrors; ++error) {
+      SCOPED_TRACE(kSpinAlignmentKeys.at(static_cast<std::size_t>(error)));
+      const SpinConfig corrected =
+          true_config(scene.config, sigmas[error] * SpinAlignmentVector::Unit(error));
+      SunEarthDirections sun_earth = said;
+      if (error == Co2AltitudeError) {
+        sun_earth.disc_rad =
+            std::asin(std::sin(said.disc_rad) * horizon_axes(corrected.horizon).equatorial_km /
+                      horizon_axes(scene.config.horizon).equatorial_km);
+      } else if (error == TimeTagError) {
+        sun_earth.earth_icrf =
+            (said.earth_icrf - sigmas[error] * said.earth_motion_icrf_s).normalized();
+        sun_earth.disc_rad +=
+            std::tan(said.disc_rad) * sigmas[error] * said.earth_motion_icrf_s.dot(said.earth_icrf);
+      }
+      const Eigen::Vector3d moved =
+          true_candidate(scene, corrected, left_out, sun_earth).axis_icrf - candidate.axis_icrf;
+      const Eigen::Vector3d expected = candidate.alignment_shift_icrf.col(error);
+      // A beam mounted otherwise sees another place of the moving Earth, which the shift leaves
+      // out.
+      EXPECT_LT((moved - expected).norm(), 0.06 * expected.norm() + 1e-7);
+    }
+    EXPECT_NEAR(candidate.alignment_rad2.trace(), candidate.alignment_shift_icrf.squaredNorm(),
+                1e-9 * candidate.alignment_rad2.trace());
   }
 }
 

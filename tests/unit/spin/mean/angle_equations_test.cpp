@@ -4,8 +4,10 @@
 #include <random>
 
 #include "pipelines/frames/celestial.h"
+#include "pipelines/spin/sensor_model/horizon.h"
 #include "tests/support/axis_scene.h"
 #include "tests/support/matchers.h"
+#include "tests/support/misaligned.h"
 #include "tests/support/normalised_square.h"
 
 namespace spindrift::testing::angle_equations_test {
@@ -119,6 +121,43 @@ TEST_F(AngleEquationsTest, SlopesToTheSunAngleAreThoseOfAWrongSeparation) {
   }
 }
 
+/// Expects the right-hand side that a step of an error makes by its slope.
+void expect_slope(const AngleEquations& equations, SpinAlignmentError error, double step) {
+  const Eigen::VectorXd slopes = equations.considered().shared.col(kChannelOffsets + error);
+  // Of no slope, rounding to nanoseconds is left.
+  EXPECT_LE((equations.right() - slopes * step).norm(),
+            2e-3 * equations.right().norm() + 1e-4 * kStep_rad * equations.normal().norm());
+}
+
+TEST_F(AngleEquationsTest, SlopesToTheAlignmentAreThoseOfAWrongMissionFile) {
+  for (const SpinQuantity quantity : kMeasuredAngles) {
+    SCOPED_TRACE(name_of(quantity));
+    for (int error = 0; error < Co2AltitudeError; ++error) {
+      SCOPED_TRACE(kSpinAlignmentKeys.at(static_cast<std::size_t>(error)));
+      const SpinConfig said =
+          true_config(scene.config, -kStep_rad * SpinAlignmentVector::Unit(error));
+      expect_slope(equations_of(said, only(quantity, said, scene.seen()), scene.sun_earth(),
+                                scene.axis_icrf),
+                   static_cast<SpinAlignmentError>(error), kStep_rad);
+    }
+    const RevolutionMeasurements measured = only(quantity, scene.config, scene.seen());
+    constexpr double kStep_km = 0.2;
+    SunEarthDirections smaller = scene.sun_earth();
+    smaller.disc_rad -=
+        std::tan(smaller.disc_rad) * kStep_km / horizon_axes(scene.config.horizon).equatorial_km;
+    expect_slope(equations_of(scene.config, measured, smaller, scene.axis_icrf), Co2AltitudeError,
+                 kStep_km);
+    constexpr double kLate_s = 0.02;
+    SunEarthDirections late = scene.sun_earth();
+    late.earth_motion_icrf_s = Eigen::Vector3d{3e-4, -5e-4, 2e-4};
+    late.disc_rad -=
+        std::tan(late.disc_rad) * late.earth_motion_icrf_s.dot(late.earth_icrf) * kLate_s;
+    late.earth_icrf = (late.earth_icrf + kLate_s * late.earth_motion_icrf_s).normalized();
+    expect_slope(equations_of(scene.config, measured, late, scene.axis_icrf), TimeTagError,
+                 kLate_s);
+  }
+}
+
 TEST_F(AngleEquationsTest, AChannelThatIsLateMovesTheAxisByItsOffset) {
   const auto axis_of = [&](const Revolution& revolution) {
     return equations_of(scene.config, measure(scene.config, revolution), scene.sun_earth(),
@@ -133,7 +172,7 @@ TEST_F(AngleEquationsTest, AChannelThatIsLateMovesTheAxisByItsOffset) {
     const Eigen::Vector2d moved_rad = tangent_basis(scene.axis_icrf).transpose() *
                                       (axis_of(late).axis_icrf() - in_time.axis_icrf());
     const Eigen::Vector2d expected_rad =
-        in_time.offset_shift().col(static_cast<Eigen::Index>(channel)) * late_s;
+        in_time.considered_shift().col(static_cast<Eigen::Index>(channel)) * late_s;
     // The period adds noise of its own to the dihedrals, a few percent of that of the edges.
     EXPECT_LT((moved_rad - expected_rad).norm(), 0.05 * expected_rad.norm() + 1e-3 * kStep_rad);
   }

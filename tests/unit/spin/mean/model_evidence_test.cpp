@@ -23,7 +23,7 @@ ModelEvidence of_errors(double sigmas) {
 }
 
 ModelTest test(const ModelEvidence& evidence, double excess_noise = 1.0) {
-  return evidence.test(excess_noise, OffsetPrior::Zero());
+  return evidence.test(excess_noise, ConsideredPrior::Zero());
 }
 
 TEST(ModelEvidence, OfNothingSaysNothing) {

@@ -12,6 +12,7 @@
 #include "pipelines/frames/wgs84.h"
 #include "pipelines/spin/measurement/measurement.h"
 #include "tests/support/matchers.h"
+#include "tests/support/misaligned.h"
 #include "tests/support/observed_spin.h"
 #include "tests/support/spinning_body.h"
 
@@ -66,6 +67,30 @@ TEST(EdgePrediction, ASunAngleMeasuredTooLargeMovesTheSecondSlitAlone) {
   const double before_rad = sun_angle(sensor, delay_rad, 1.0, 0.0)->value_rad;
   const double after_rad = sun_angle(sensor, delay_rad + later_rad, 1.0, 0.0)->value_rad;
   EXPECT_NEAR((after_rad - before_rad) / kError_rad, 1.0, 1e-3);
+}
+
+TEST(EdgePrediction, SlopesByTheAlignmentAreDifferencesOfPredictions) {
+  const Scene scene;
+  for (const PulseChannel channel : {Sun1, Sun2, NorthIn, NorthOut, SouthIn, SouthOut}) {
+    SCOPED_TRACE(name_of(channel));
+    const PredictedEdge edge = scene.predicted(channel, scene.body.config);
+    for (int error = 0; error < TimeTagError; ++error) {
+      SCOPED_TRACE(kSpinAlignmentKeys.at(static_cast<std::size_t>(error)));
+      const double step = error == Co2AltitudeError ? 0.1 : 1e-5;
+      const SpinAlignmentVector errors = step * SpinAlignmentVector::Unit(error);
+      const double moved_rad =
+          scene.predicted(channel, true_config(scene.body.config, errors)).phase_rad -
+          edge.phase_rad;
+      EXPECT_NEAR(moved_rad / step, edge.phase_per_alignment[error],
+                  1e-3 * std::abs(edge.phase_per_alignment[error]) + 1e-9);
+    }
+    constexpr double kLate_s = 0.1;
+    const auto on_time = predict_edge(scene.body.config, scene.sky, scene.R_spin_icrf,
+                                      {.t = shifted(scene.sky.t, -kLate_s), .channel = channel});
+    EXPECT_NEAR((on_time.value().phase_rad - edge.phase_rad) / kLate_s,
+                edge.phase_per_alignment[TimeTagError],
+                1e-3 * std::abs(edge.phase_per_alignment[TimeTagError]) + 1e-12);
+  }
 }
 
 TEST(EdgePrediction, TheSunHasAnAzimuthUpToHalfADegreeFromTheAxis) {

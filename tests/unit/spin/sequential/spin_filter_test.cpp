@@ -92,13 +92,14 @@ TEST_F(SpinFilterTest, AChannelThatIsLateMovesTheAxisByWhatItsOffsetAddsToTheCov
         edge = shifted(*edge, kLate_s);
       }
     }
-    OffsetPrior offsets_s2 = OffsetPrior::Zero();
+    ConsideredPrior offsets_s2 = ConsideredPrior::Zero();
     offsets_s2(static_cast<Eigen::Index>(channel), static_cast<Eigen::Index>(channel)) =
         kLate_s * kLate_s;
     const double moved_rad = angle_between_rad(filtered(late).axis_icrf(), in_time.axis_icrf());
     // The shift is a fifth of an edge's noise: another edge may be gated, and slopes change
     // slightly.
-    EXPECT_NEAR(moved_rad, std::sqrt(in_time.offsets_rad2(offsets_s2).trace()), 0.03 * moved_rad);
+    EXPECT_NEAR(moved_rad, std::sqrt(in_time.considered_rad2(offsets_s2).trace()),
+                0.03 * moved_rad);
   }
 }
 
