@@ -39,6 +39,7 @@ Limits limits_beyond(double chance) {
 }
 const Limits kLeast = limits_beyond(kCovered);
 const Limits kSignificant = limits_beyond(kFalseAlarm);
+const Limits kContradictory = limits_beyond(kContradictionChance);
 
 /// Holds some of the errors in the eigenvectors of their information, with the axis eliminated and
 /// the other errors zero.
@@ -203,7 +204,8 @@ ModelTest test_model_errors(const ErrorInformation& seen, double excess_noise,
   explain(errors.information, errors.score, verdict);
   const SpinAlignment alignment = of_alignment(prior);
   verdict.beyond_allowance =
-      is_stated(alignment) || spectrum.chi_square(kModelError_rad * kModelError_rad) > significant;
+      is_stated(alignment) ? spectrum.chi_square(0.0) > kContradictory.at(spectrum.freedom())
+                           : spectrum.chi_square(kModelError_rad * kModelError_rad) > significant;
   if (const auto worst = worst_excess(
           beside_offsets(seen.considered.own, seen.considered.score, prior), alignment)) {
     verdict.culprit = worst->error;

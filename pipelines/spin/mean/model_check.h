@@ -9,7 +9,7 @@
 /// not tested.
 ///
 /// Where the mission file states how far it may be off, such errors are considered first: the test
-/// is of what they leave over, and all of that is beyond the allowance.
+/// is of what they leave over, and what of that no noise explains is beyond the allowance.
 
 #pragma once
 
