@@ -451,6 +451,7 @@ CREATE TABLE axis_shift (
   of_batch  INTEGER NOT NULL CHECK (of_batch IN (0, 1)),
   estimator TEXT NOT NULL CHECK (estimator IN ('mean', 'sequential', 'batch')),
   position  INTEGER NOT NULL CHECK (position BETWEEN 1 AND 8),
+  t_tai_ns  INTEGER NOT NULL,  -- when the answers were given
   x_deg     REAL NOT NULL,
   y_deg     REAL NOT NULL,
   z_deg     REAL NOT NULL,

@@ -9,12 +9,10 @@
 namespace spindrift {
 namespace {
 
-constexpr double kLeastSquare = kFarOffPriorSigmas * kFarOffPriorSigmas;
-
-/// Returns whether this many numbers have a chi-square as rare as that of one beyond 4 sigma.
-bool is_far_off(double square, double freedom) {
-  static const double chance = chi_square_tail(kLeastSquare, 1.0);
-  return square > kLeastSquare && square > chi_square_beyond(chance, std::max(freedom, 1.0));
+/// Returns the chi-square that this many numbers exceed as rarely as one exceeds 4 sigma.
+double far_off(double freedom) {
+  static const double chance = chi_square_tail(kFarOffPriorSigmas * kFarOffPriorSigmas, 1.0);
+  return chi_square_beyond(chance, std::max(freedom, 1.0));
 }
 
 }  // namespace
@@ -26,15 +24,17 @@ std::optional<ErrorBeyond> error_beyond(const FilterErrors& estimate, const Filt
   std::optional<ErrorBeyond> most;
   const auto see = [&]<int kCount>(std::string_view key, int first) {
     using Covariance = Eigen::Matrix<double, kCount, kCount>;
+    const Eigen::Matrix<double, kCount, 1> off = estimate.segment<kCount>(first);
+    if (off.isZero(0.0)) {
+      return;
+    }
     const Covariance stated = prior.block<kCount, kCount>(first, first);
     const Covariance shown = stated - left.block<kCount, kCount>(first, first);
     const Covariance little = 1e-3 * stated.trace() / kCount * Covariance::Identity();
-    if (stated.trace() == 0.0) {
-      return;
-    }
     const Eigen::LDLT<Covariance> solver{shown + little};
-    const Eigen::Matrix<double, kCount, 1> off = estimate.segment<kCount>(first);
-    if (!is_far_off(off.dot(solver.solve(off)), solver.solve(shown).trace())) {
+    const double square = off.dot(solver.solve(off));
+    if (square <= kFarOffPriorSigmas * kFarOffPriorSigmas ||
+        square <= far_off(solver.solve(shown).trace())) {
       return;
     }
     const double sigmas = std::sqrt(off.dot((stated + little).ldlt().solve(off)));

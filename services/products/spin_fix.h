@@ -163,6 +163,7 @@ struct AxisShiftTable {
     std::int64_t of_batch;
     SpinEstimator estimator;
     std::int64_t position;
+    TaiTime t;
     Eigen::Vector3d shift_icrf;
   };
   static std::int64_t group(const AxisChoice& choice) {
@@ -176,6 +177,7 @@ struct AxisShiftTable {
         rows.push_back({.of_batch = group(choice),
                         .estimator = of.estimator,
                         .position = i + 1,
+                        .t = choice.t,
                         .shift_icrf = of.shift_icrf.col(i)});
       }
     }
@@ -188,8 +190,10 @@ struct AxisShiftTable {
   static constexpr auto kColumns =
       columns(ProductColumn{"of_batch", &Row::of_batch},
               ProductColumn{"estimator", [](const Row& row) { return name_of(row.estimator); }},
-              ProductColumn{"position", &Row::position}, ProductColumn{"x_deg", &shift_deg<0>},
-              ProductColumn{"y_deg", &shift_deg<1>}, ProductColumn{"z_deg", &shift_deg<2>});
+              ProductColumn{"position", &Row::position},
+              ProductColumn{"t_tai_ns", [](const Row& row) { return tai_ns(row.t); }},
+              ProductColumn{"x_deg", &shift_deg<0>}, ProductColumn{"y_deg", &shift_deg<1>},
+              ProductColumn{"z_deg", &shift_deg<2>});
 };
 
 template <>

@@ -168,4 +168,51 @@ TEST(CarriedDirections, ContradictEachOtherWhereTheirAngleIsOffByMoreThanNoise) 
   }
 }
 
+/// The turn about the Sun comes from the field, that about the field from the Sun, the third from
+/// both alike.
+TEST(CarriedDirections, EachErrorTurnsTheAttitudeAsMuchAsItsDirectionCounts) {
+  const TurnPerError per_error = both(0.0).attitude().value().per_error;
+  TurnPerError expected = TurnPerError::Zero();
+  expected.middleCols<3>(SunSensorError) = Vector3d{0.0, 1.0, 0.5}.asDiagonal();
+  expected.middleCols<3>(MagnetometerError) = Vector3d{1.0, 0.0, 0.5}.asDiagonal();
+  // Here the field is one nT strong.
+  expected.middleCols<3>(MagnetometerBiasError) =
+      expected.middleCols<3>(MagnetometerError) * cross_matrix(kField);
+  EXPECT_LT((per_error - expected).norm(), 1e-12);
+}
+
+TEST(CarriedDirections, LateStampsAndGyroErrorsTurnWhatIsCarried) {
+  const Vector3d rate_rad_s{0.0, 0.0, 0.1};
+  CarriedDirections carried;
+  add(carried, SampleKind::Sun, at_s(0.0), seen(Quaterniond::Identity(), kSun), rate_rad_s);
+  carried.turn(at_s(2.0), 2.0 * rate_rad_s, {});
+  const Quaterniond turned = quaternion_by(2.0 * rate_rad_s);
+  add(carried, SampleKind::Magnetometer, at_s(2.0), seen(turned, kField), rate_rad_s);
+  const TurnPerError per_error = carried.attitude().value().per_error;
+  // Half of what the Sun says of the turn about z.
+  EXPECT_LT((per_error.col(SunSensorTimeError) - 0.5 * rate_rad_s).norm(), 1e-12);
+  EXPECT_LT((per_error.col(MagnetometerTimeError) - 0.5 * rate_rad_s).norm(), 1e-12);
+  EXPECT_LT((per_error.col(GyroScaleError + 2) + 0.5 * 2.0 * rate_rad_s).norm(), 1e-12);
+}
+
+TEST(CarriedDirections, ADifferenceThatTheAlignmentExplainsIsNoContradiction) {
+  for (const double mounting_rad : {0.0, 3e-3}) {
+    FilterAlignment alignment = FilterAlignment::Zero();
+    alignment.diagonal().segment<3>(SunSensorError).setConstant(mounting_rad * mounting_rad);
+    const double expected_rad =
+        std::sqrt(2.0 * kSigma_rad * kSigma_rad + mounting_rad * mounting_rad);
+    const auto off_by = [&](double sigmas) {
+      CarriedDirections carried{alignment};
+      add(carried, SampleKind::Sun, at_s(0.0), seen(Quaterniond::Identity(), kSun));
+      add(carried, SampleKind::Magnetometer, at_s(0.0),
+          {.body = quaternion_by(sigmas * expected_rad * Vector3d::UnitZ()) * kField,
+           .ref = kField,
+           .sigma_rad = kSigma_rad});
+      return carried;
+    };
+    EXPECT_TRUE(off_by(4.95).attitude()) << mounting_rad;
+    EXPECT_TRUE(is_unobservable(off_by(5.05))) << mounting_rad;
+  }
+}
+
 }  // namespace spindrift::testing::carried_directions_test

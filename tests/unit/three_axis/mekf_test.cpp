@@ -86,6 +86,44 @@ TEST(Mekf, AFixIsWeighedAgainstWhatWasKnown) {
   EXPECT_EQ(filter.bias_rad_s(), Vector3d::Zero());
 }
 
+/// A filter that began at a star fix has the error of the tracker's mounting.
+TEST(Mekf, AnInnovationIsExpectedWithTheAlignmentOfBothSensors) {
+  constexpr double kStar_rad = 0.002;
+  constexpr double kSun_rad = 0.003;
+  constexpr double kField_rad = 0.004;
+  constexpr double kBias_nt = 50.0;
+  constexpr double kNoise_rad = 0.001;
+  FilterAlignment alignment = FilterAlignment::Zero();
+  alignment.diagonal().segment<3>(StarTrackerError).setConstant(kStar_rad * kStar_rad);
+  alignment.diagonal().segment<3>(SunSensorError).setConstant(kSun_rad * kSun_rad);
+  alignment.diagonal().segment<3>(MagnetometerError).setConstant(kField_rad * kField_rad);
+  alignment.diagonal().segment<3>(MagnetometerBiasError).setConstant(kBias_nt * kBias_nt);
+  SensitiveAttitude begin = known_to(Eigen::Quaterniond::Identity(), 0.0005);
+  begin.per_error = -star_per_error(Vector3d::Zero());
+  const Mekf filter{begin, 0.001, alignment};
+  const double known_rad2 = 0.0005 * 0.0005 + kStar_rad * kStar_rad + kNoise_rad * kNoise_rad;
+
+  const Residual sun =
+      filter.innovation(seen(SampleKind::Sun, Vector3d::UnitX(), Vector3d::UnitX(), kNoise_rad))
+          .residual;
+  EXPECT_NEAR(sun.sigma[0], std::sqrt(known_rad2 + kSun_rad * kSun_rad), 1e-12);
+  EXPECT_NEAR(sun.sigma[1], sun.sigma[0], 1e-12);
+
+  const Vector3d field_nt{0.0, 0.0, 20'000.0};
+  SeenDirection strong = seen(SampleKind::Magnetometer, field_nt, field_nt, kNoise_rad);
+  strong.stronger = 2.0;
+  const Residual field = filter.innovation(strong).residual;
+  const double bias_rad2 = std::pow(kBias_nt / 20'000.0, 2);
+  EXPECT_NEAR(field.sigma[0], std::sqrt(known_rad2 + kField_rad * kField_rad + bias_rad2), 1e-12);
+  EXPECT_NEAR(field.sigma[2], std::sqrt(kNoise_rad * kNoise_rad + bias_rad2), 1e-12);
+  EXPECT_NEAR(field.value[2], 2.0 * kNoise_rad, 1e-12);
+
+  // A fix of the same tracker has the same error.
+  const Residual star =
+      filter.innovation(ObservedAttitude{Eigen::Quaterniond::Identity(), kNoise_rad}).residual;
+  EXPECT_NEAR(star.sigma[0], std::hypot(0.0005, kNoise_rad), 1e-12);
+}
+
 TEST(Mekf, EitherSignOfTheQuaternionIsTheSameFix) {
   std::mt19937_64 rng{62};
   for (int trial = 0; trial < 100; ++trial) {
