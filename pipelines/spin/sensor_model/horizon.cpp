@@ -122,14 +122,13 @@ std::optional<LimbCrossing> limb_crossing(const HorizonAxes& axes, const EarthVi
       // A chord that changes by more than this factor times the axis motion is about to vanish.
       const bool crosses = form.points_down(beam) && enters == (crossing == Crossing::In) &&
                            per_rotation.norm() < 30.0;
-      return crosses ? std::optional{LimbCrossing{.azimuth_rad = wrapped_rad(azimuth_rad),
-                                                  .azimuth_per_rotation = per_rotation,
-                                                  .azimuth_per_limb = per_limb(earth, beam),
-                                                  .azimuth_per_mount = per_mount,
-                                                  .azimuth_per_height_km = per_height_km,
-                                                  .azimuth_per_position_km =
-                                                      -form.half_per_position_km(beam) /
-                                                      slope.z()}}
+      return crosses ? std::optional{LimbCrossing{
+                           .azimuth_rad = wrapped_rad(azimuth_rad),
+                           .azimuth_per_rotation = per_rotation,
+                           .azimuth_per_limb = per_limb(earth, beam),
+                           .azimuth_per_mount = per_mount,
+                           .azimuth_per_height_km = per_height_km,
+                           .azimuth_per_position_km = -form.half_per_position_km(beam) / slope.z()}}
                      : std::nullopt;
     }
   }

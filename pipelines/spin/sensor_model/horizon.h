@@ -35,9 +35,9 @@ struct LimbCrossing {
   double azimuth_rad;  ///< Azimuth of the beam, (-pi, pi].
   /// Change per small rotation of the frame about its own axes; the third is -1.
   Eigen::Vector3d azimuth_per_rotation;
-  double azimuth_per_limb;       ///< Change per radian of limb, outwards.
-  double azimuth_per_mount;      ///< Change per mounting angle.
-  double azimuth_per_height_km;  ///< Change per km of horizon height.
+  double azimuth_per_limb;                  ///< Change per radian of limb, outwards.
+  double azimuth_per_mount;                 ///< Change per mounting angle.
+  double azimuth_per_height_km;             ///< Change per km of horizon height.
   Eigen::Vector3d azimuth_per_position_km;  ///< Change per motion of the spacecraft.
 };
 

@@ -4,6 +4,7 @@
 
 #pragma once
 
+#include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <array>
 #include <string_view>
@@ -35,6 +36,17 @@ using SpinAlignmentVector = Eigen::Matrix<double, kSpinAlignmentErrors, 1>;
 
 /// Prior covariance of the errors, in their units; zero where the file counts as exact.
 using SpinAlignment = Eigen::Matrix<double, kSpinAlignmentErrors, kSpinAlignmentErrors>;
+
+/// Returns a root of the covariance: errors are its product with independent ones of unit variance;
+/// diagonal where the errors are independent.
+inline SpinAlignment root_of(const SpinAlignment& alignment) {
+  const Eigen::LDLT<SpinAlignment> parts{alignment};
+  const SpinAlignmentVector sigmas = parts.vectorD().cwiseMax(0.0).cwiseSqrt();
+  const SpinAlignment lower = parts.matrixL();
+  const SpinAlignment sorted =
+      parts.transpositionsP().transpose() * SpinAlignment{lower * sigmas.asDiagonal()};
+  return sorted * parts.transpositionsP();
+}
 
 /// Returns whether the mission file states that it may be off.
 inline bool is_stated(const SpinAlignment& alignment) { return (alignment.array() != 0.0).any(); }
