@@ -139,11 +139,11 @@ TEST_F(ArchiveFile, TablesOfEveryEdgeTakeNoOtherNamesThanThoseOfTheContract) {
   EXPECT_FALSE(
       takes("spin_fix VALUES ('r', 2, 1, 1, 1, 1, 1, 1, 0, 1, NULL, NULL, 'NONE', 1, 1, 0, NULL)"));
   EXPECT_TRUE(takes(
-      "spin_estimate VALUES ('r', 1, 'batch', 1, 1, 1, 1, 0, 1, 1, 1, 'OK', '[]', 'OK', NULL)"));
+      "spin_estimate VALUES ('r', 1, 'batch', 1, 1, 1, 1, 1, 0, 1, 1, 1, 'OK', '[]', 'OK', NULL)"));
   EXPECT_FALSE(takes(
-      "spin_estimate VALUES ('r', 2, 'batch', 1, 1, 1, 1, 0, 1, 1, 1, 'GOOD', '[]', '', NULL)"));
+      "spin_estimate VALUES ('r', 2, 'batch', 1, 1, 1, 1, 1, 0, 1, 1, 1, 'GOOD', '[]', '', NULL)"));
   EXPECT_FALSE(takes(
-      "spin_estimate VALUES ('r', 1, 'mode', 1, 1, 1, 1, 0, 1, 1, 1, 'OK', '[]', 'OK', NULL)"));
+      "spin_estimate VALUES ('r', 1, 'mode', 1, 1, 1, 1, 1, 0, 1, 1, 1, 'OK', '[]', 'OK', NULL)"));
 }
 
 TEST_F(ArchiveFile, NameThatSqliteTakesForSomethingElseIsRefused) {

@@ -67,7 +67,8 @@ TEST(PassPlan, ExpectsAWorseAxisWhereTheMissionFileMayBeOff) {
   pass.config.alignment(Co2AltitudeError, Co2AltitudeError) = 9.0;
   const PassStep stated = plan(pass, 100.0, 50.0).value().steps.back();
   EXPECT_EQ(stated.noise_sigma_rad, exact.noise_sigma_rad);
-  EXPECT_GT(stated.alignment_sigma_rad[NorthMountAngleError], mounted_rad);
+  EXPECT_GT(stated.alignment_sigma_rad[NorthMountAngleError], 0.1 * mounted_rad);
+  EXPECT_GT(stated.alignment_sigma_rad[Co2AltitudeError], 0.0);
   EXPECT_NEAR(stated.sigma_rad.value(),
               std::hypot(stated.noise_sigma_rad.value(), stated.alignment_sigma_rad.norm()), 1e-12);
   // An error that always comes with another may take its effect back.
