@@ -68,11 +68,13 @@ struct AlignmentSums {
   std::array<int, 3> answers{};  ///< Last rows that are OK, by SpinEstimator.
   std::array<double, 3>
       squares{};        ///< Their normalised squared errors: two degrees of freedom each.
+  int rows = 0;         ///< All rows that have seen enough to be OK.
   int ok = 0;           ///< All OK rows.
   int beyond_four = 0;  ///< Of these, how many are off by more than four sigmas.
   double worst = 0.0;   ///< Sigmas of the worst OK row.
 
   void add(const SpinEstimate& estimate, const Eigen::Vector3d& axis_icrf) {
+    rows += estimate.assessment.quality == Quality::Converging ? 0 : 1;
     if (estimate.assessment.quality == Quality::Ok) {
       const double sigmas = error_sigmas(estimate, axis_icrf);
       ++ok;
@@ -112,6 +114,7 @@ struct AlignmentSums {
       property(std::string{name_of(estimator)} + " OK", answers.at(i));
       property(std::string{name_of(estimator)} + " squares", squares.at(i) / answers.at(i));
     }
+    property("rows", rows);
     property("OK", ok);
     property("beyond four", beyond_four);
     property("worst", worst);

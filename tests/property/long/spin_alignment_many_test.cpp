@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/LU>
 #include <string>
 
 #include "pipelines/statistics/distributions.h"
@@ -40,12 +41,14 @@ TEST(SpinAlignmentMany, SigmasAreTotal) {
 
   const AlignmentSums exact = sums_of(SpinAlignment::Zero(), SpinAlignment::Zero());
   exact.record("exact");
-  EXPECT_GE(stated.ok, exact.ok);
+  // The passes are not the same, so that shares of their rows count.
+  EXPECT_GE(stated.ok / static_cast<double>(stated.rows),
+            exact.ok / static_cast<double>(exact.rows));
 }
 
 /// Returns the solution by `batch` of a body whose mission file is off by an error, in rad or km.
-BatchSolution solution_of(MisalignedPasses& passes, SpinAlignmentError error, double off) {
-  SpinningBody body = passes.body();
+BatchSolution solution_of(MisalignedPasses& passes, SpinningBody body, SpinAlignmentError error,
+                          double off) {
   body.config.alignment = usual_alignment();
   const MisalignedPass pass = passes.of(body, off * SpinAlignmentVector::Unit(error));
   const SpinOutput output = run(SpinPass{pass.said, passes.orbit()}, pass.pulses);
@@ -57,7 +60,8 @@ TEST(SpinAlignmentMany, ABeamOffByADegreeIsDoubtedAndNamed) {
   int named = 0;
   for (int i = 0; i < 20; ++i) {
     const double off_rad = (i % 2 == 0 ? 1.0 : -1.0) * kRadPerDeg;
-    const Assessment said = solution_of(passes, NorthAzimuthError, off_rad).estimate.assessment;
+    const Assessment said =
+        solution_of(passes, passes.body(), NorthAzimuthError, off_rad).estimate.assessment;
     EXPECT_EQ(said.quality, Quality::Doubtful) << sentence_of(said);
     named += sentence_of(said).find("spin.ir.north.azimuth_deg") != std::string::npos ? 1 : 0;
   }
@@ -65,14 +69,28 @@ TEST(SpinAlignmentMany, ABeamOffByADegreeIsDoubtedAndNamed) {
   EXPECT_GE(named, 18);
 }
 
+/// Returns the chi-square of an error in deg that is left when the errors that the mission file
+/// states have explained what they can.
+double left_of(const NormalEquations& equations, Eigen::Index error, double off_deg) {
+  Eigen::VectorXd sigmas = Eigen::VectorXd::Constant(8, 0.05);
+  sigmas[6] = 3.0;
+  sigmas[7] = 0.0;
+  const Eigen::MatrixXd stated = sigmas.cwiseAbs2().asDiagonal();
+  const Eigen::MatrixXd left =
+      (Eigen::MatrixXd::Identity(8, 8) + equations.n * stated).lu().solve(equations.n);
+  return left(error, error) * off_deg * off_deg;
+}
+
 TEST(SpinAlignmentMany, ASunSensorOffByTwoDegreesIsDoubtedWhereTheGeometryShowsIt) {
   MisalignedPasses passes{464, kPass_s};
   constexpr Eigen::Index kSeparation = 1;
   int shown = 0;
   for (int i = 0; i < 20; ++i) {
-    const BatchSolution solution = solution_of(passes, SlitSeparationError, 2.0 * kRadPerDeg);
+    const SpinningBody body = passes.body();
+    const BatchSolution exact = solution_of(passes, body, SlitSeparationError, 0.0);
+    const BatchSolution solution = solution_of(passes, body, SlitSeparationError, 2.0 * kRadPerDeg);
     // With Sun and Earth both across the axis it moves the axis alone.
-    if (4.0 * solution.equations.n(kSeparation, kSeparation) > 100.0) {
+    if (left_of(exact.equations, kSeparation, 2.0) > 100.0) {
       ++shown;
       const Assessment& said = solution.estimate.assessment;
       EXPECT_EQ(said.quality, Quality::Doubtful) << sentence_of(said);
@@ -80,7 +98,7 @@ TEST(SpinAlignmentMany, ASunSensorOffByTwoDegreesIsDoubtedWhereTheGeometryShowsI
     }
   }
   RecordProperty("shown", shown);
-  EXPECT_GE(shown, 5);
+  EXPECT_GE(shown, 4);
 }
 
 }  // namespace spindrift::testing::spin_alignment_many_test
