@@ -413,8 +413,9 @@ bool AttitudeEstimator::work_in(TaiTime t, SampleKind kind, const Observed& obse
     }
     return false;
   }
-  // An error of the mission file is one draw a pass. What it explains is no noise.
-  said.nis = filter_->update(observed);
+  // What errors of the mission file have explained before is no noise. A sample that no more than
+  // could be explained by them may be spurious, so that its size is arbitrary.
+  said.nis = std::min(filter_->update(observed), said.limit);
   ledger_.add({&said, 1});
   since_given_.squared += said.nis;
   since_given_.freedom += said.residual.freedom;

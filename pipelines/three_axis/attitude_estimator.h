@@ -25,8 +25,10 @@
 ///     OK         enough samples have checked the attitude and nothing contradicts it
 ///     DOUBTFUL   samples of one sensor are rejected while those of another agree, and nobody knows
 ///                which is wrong; or samples scatter beyond their noise and raise the covariance;
-///                or the gyro is out, or was out and nothing has yet checked how the body turned
-///                meanwhile; or the standard deviation exceeds 10 deg
+///                or sensors contradict each other by more than errors of the mission file as
+///                stated explain (alignment_evidence.h); or the gyro is out, or was out and nothing
+///                has yet checked how the body turned meanwhile; or the standard deviation exceeds
+///                10 deg
 ///     LOST       the attitude may be any, as the covariance states; reported once per loss
 
 #pragma once

@@ -23,10 +23,11 @@ void CarriedDirections::add(const SeenDirection& seen, const Eigen::Vector3d& ra
   std::erase_if(directions_, [&](const Carried& carried) { return carried.kind == seen.kind; });
   const auto place = std::find_if(directions_.begin(), directions_.end(),
                                   [&](const Carried& carried) { return carried.kind > seen.kind; });
+  const Eigen::Vector3d body = seen.direction.ref.norm() * seen.direction.body.normalized();
   directions_.insert(place, {.kind = seen.kind,
                              .t = seen.t,
                              .direction = seen.direction,
-                             .per_error = -direction_per_error(seen, rate_body_rad_s),
+                             .per_error = -direction_per_error(seen.kind, body, rate_body_rad_s),
                              .error = {}});
 }
 

@@ -31,7 +31,8 @@ template <int kSize>
 Mekf::Seen<kSize> Mekf::seen_from(const Eigen::Quaterniond& q_icrf_body,
                                   const SeenDirection& seen) const {
   const ObservedDirection& direction = seen.direction;
-  const Vector3d expected = (q_icrf_body.conjugate() * direction.ref).normalized();
+  const Vector3d true_body = q_icrf_body.conjugate() * direction.ref;
+  const Vector3d expected = true_body.normalized();
   const Eigen::Quaterniond to_expected = shortest_turn(direction.body, expected);
   const Vector3d first = expected.unitOrthogonal();
   Eigen::Matrix<double, 2, 3> across;
@@ -39,7 +40,7 @@ Mekf::Seen<kSize> Mekf::seen_from(const Eigen::Quaterniond& q_icrf_body,
   across.row(1) = expected.cross(first);
   const Eigen::Matrix<double, 2, 1> turn_rad = across * rotation_vector_of(to_expected);
   const Eigen::Matrix<double, 2, kFilterErrors> per_error =
-      across * direction_per_error(seen, rate_rad_s_);
+      across * direction_per_error(seen.kind, true_body, rate_rad_s_);
   if constexpr (kSize == 2) {
     return {turn_rad, across, per_error, direction.sigma_rad};
   } else {

@@ -24,13 +24,14 @@ TurnPerError star_per_error(const Vector3d& rate_body_rad_s) {
   return mounted(StarTrackerError, StarTrackerTimeError, rate_body_rad_s);
 }
 
-TurnPerError direction_per_error(const SeenDirection& seen, const Vector3d& rate_body_rad_s) {
-  if (seen.kind != SampleKind::Magnetometer) {
+TurnPerError direction_per_error(SampleKind kind, const Vector3d& true_body,
+                                 const Vector3d& rate_body_rad_s) {
+  if (kind != SampleKind::Magnetometer) {
     return mounted(SunSensorError, SunSensorTimeError, rate_body_rad_s);
   }
   TurnPerError per_error = mounted(MagnetometerError, MagnetometerTimeError, rate_body_rad_s);
-  const Vector3d& field_nt = seen.direction.body;
-  per_error.middleCols<3>(MagnetometerBiasError) = -cross_matrix(field_nt) / field_nt.squaredNorm();
+  per_error.middleCols<3>(MagnetometerBiasError) =
+      -cross_matrix(true_body) / true_body.squaredNorm();
   return per_error;
 }
 

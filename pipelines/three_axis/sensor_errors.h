@@ -31,7 +31,7 @@ struct SensitiveAttitude : UncertainAttitude {
 struct SeenDirection {
   TaiTime t;
   SampleKind kind;
-  ObservedDirection direction;  ///< In nT if it is the magnetometer's.
+  ObservedDirection direction;  ///< The magnetometer's reference is in nT.
   /// How far the measured field strength exceeds the model, in standard deviations; tested together
   /// with the direction. Empty for sensors other than the magnetometer.
   std::optional<double> stronger = std::nullopt;
@@ -42,7 +42,10 @@ struct SeenDirection {
 /// direction only the turns across it count.
 /// @{
 TurnPerError star_per_error(const Eigen::Vector3d& rate_body_rad_s);
-TurnPerError direction_per_error(const SeenDirection& seen, const Eigen::Vector3d& rate_body_rad_s);
+/// @param true_body The direction, of a field in nT. A measured one has the noise of the turn that
+///        it gives, and innovations would seem to show errors along the direction.
+TurnPerError direction_per_error(SampleKind kind, const Eigen::Vector3d& true_body,
+                                 const Eigen::Vector3d& rate_body_rad_s);
 /// @}
 
 /// Propagates the derivative of the turn from an attitude to the true one over a turn of the body,

@@ -161,6 +161,20 @@ TEST(Mekf, ADirectionSaysNothingOfTheTurnAboutIt) {
   }
 }
 
+/// The noise of a direction must not seem to measure a bias of the field along itself.
+TEST(Mekf, TheDirectionOfAFieldSaysNothingOfABiasAlongIt) {
+  std::mt19937_64 rng{64};
+  Mekf filter{known_to(Eigen::Quaterniond::Identity(), 1e-5), 1e-9};
+  const Vector3d field_nt{0.0, 0.0, 20'000.0};
+  for (int i = 0; i < 200; ++i) {
+    const Vector3d measured_nt = field_nt + normal_vector(rng, 200.0);
+    filter.update(seen(SampleKind::Magnetometer, measured_nt, field_nt, 0.01));
+  }
+  const auto of_bias = filter.evidence().information().diagonal().segment<3>(MagnetometerBiasError);
+  EXPECT_NEAR(of_bias[0], 200.0 / (200.0 * 200.0), 0.01 * of_bias[0]);
+  EXPECT_LT(of_bias[2], 1e-6 * of_bias[0]);
+}
+
 TEST(Mekf, CovarianceStaysPositiveThroughSharpFixes) {
   Mekf filter{known_to(Eigen::Quaterniond::Identity(), 0.5), 0.01};
   const Vector3d rate_rad_s{0.0, 0.01, 0.0};
