@@ -119,40 +119,59 @@ std::vector<OpenBiasDirection> open_directions(const Observations& all, const Ch
 }
 
 /// @param gyro_noise_rad_s Noise that the turns of the chain were built with.
-NodeEstimates nodes_of(const SolvedChain& solved, ChainInformation known,
+NodeEstimates nodes_of(const SolvedChain& solved, const ChainInformation& known,
                        const SharedErrors& errors, double gyro_noise_rad_s) {
   return {.times_s = solved.chain.times_s,
           .q_icrf_body = solved.state.q_icrf_body,
-          .own_rad2 = std::move(known.own_rad2),
-          .per_shared = std::move(known.per_shared),
+          .own_rad2 = known.own_rad2,
+          .per_shared = known.per_shared,
           .bias_rad_s = solved.state.bias_rad_s,
           .shared = errors,
           .gyro_noise_rad_s = gyro_noise_rad_s};
 }
 
-/// Returns the history with the stated noise, whatever noise the samples show, and with the least
-/// errors that any estimate leaves.
-History bound_of(const ReconstructionRequest& request, const Observations& all,
-                 const ChainSolution& fine) {
-  SolvedChain stated = fine.solved;
+/// Returns the nodes of the events with the stated noise, whatever noise the samples show, and with
+/// the least errors that any estimate leaves.
+NodeEstimates bounds_of(const ReconstructionRequest& request, const Observations& all,
+                        const Judged& judged) {
+  const ChainSolution& fine = judged.fine;
+  const ChainState& state = fine.solved.state;
   const double stated_rad_s = request.sensors.gyro->noise_rad_s;
-  stated.chain.noise.sun_rad /= fine.louder_sun;
-  stated.chain.noise.star_rad /= fine.louder_star;
-  for (Turn& turn : stated.chain.turns) {
-    turn.covariance_rad2 *= std::pow(stated_rad_s / all.gyro_noise_rad_s, 2);
+  ChainInformation known = judged.known;
+  ChainNoise noise = fine.solved.chain.noise;
+  if (fine.louder_sun > 1.0 || fine.louder_star > 1.0 || all.gyro_noise_rad_s > stated_rad_s) {
+    Chain stated = fine.solved.chain;
+    stated.noise.sun_rad /= fine.louder_sun;
+    stated.noise.star_rad /= fine.louder_star;
+    for (Turn& turn : stated.turns) {
+      turn.covariance_rad2 *= std::pow(stated_rad_s / all.gyro_noise_rad_s, 2);
+    }
+    known = information_of(stated, state);
+    noise = stated.noise;
   }
-  ChainInformation known = information_of(stated.chain, stated.state);
-  const SharedCovariance least = least_errors_of(known, stated.chain.noise);
-  return history_of(
-      request, all,
-      nodes_of(stated, std::move(known), {.total = least, .noise = least}, stated_rad_s));
+  NodeEstimates bounds{
+      .times_s = {},
+      .q_icrf_body = {},
+      .own_rad2 = {},
+      .per_shared = {},
+      .bias_rad_s = state.bias_rad_s,
+      .shared = {.total = least_errors_of(known, noise), .noise = judged.errors.noise},
+      .gyro_noise_rad_s = stated_rad_s};
+  for (auto event = all.events.begin() + 1; event != all.events.end(); ++event) {
+    const std::size_t node = node_at(fine.solved.chain, all.seconds_of(event->t));
+    bounds.times_s.push_back(fine.solved.chain.times_s[node]);
+    bounds.q_icrf_body.push_back(state.q_icrf_body[node]);
+    bounds.own_rad2.push_back(known.own_rad2[node]);
+    bounds.per_shared.push_back(known.per_shared[node]);
+  }
+  return bounds;
 }
 
 std::vector<ReconstructedEvent> bounded_events(const ReconstructionRequest& request,
-                                               const Observations& all, const ChainSolution& fine,
+                                               const Observations& all, const Judged& judged,
                                                const History& history) {
   std::vector<ReconstructedEvent> events = events_of(all, history);
-  const History bound = bound_of(request, all, fine);
+  const History bound = history_of(request, all, bounds_of(request, all, judged));
   for (std::size_t i = 0; i < events.size(); ++i) {
     events[i].bound_rad = bound.attitudes[bound.events[i]].sigma_rad();
   }
@@ -171,13 +190,14 @@ Expected<Reconstruction> reconstruct_batch(const ReconstructionRequest& request,
   const Judged at = judged(*fine);
   History history =
       history_of(request, all, nodes_of(solved, at.known, at.errors, all.gyro_noise_rad_s));
-  const Matrix3d bias_covariance_rad2_s2 = at.errors.total.topLeftCorner<3, 3>();
+  const Matrix3d bias_covariance_rad2_s2 =
+      at.errors.total.block<3, 3>(SharedGyroBias, SharedGyroBias);
   std::vector<Observation> said;
   const SensorResiduals sun = sun_residuals(all, at, said);
   const SensorResiduals star = star_residuals(at, said);
   add_gyro_left_out(all, said);
   Reconstruction result{.method = ReconstructionMethod::Batch,
-                        .events = bounded_events(request, all, *fine, history),
+                        .events = bounded_events(request, all, at, history),
                         .history = std::move(history.attitudes),
                         .bias = GyroBias{solved.state.bias_rad_s, bias_covariance_rad2_s2},
                         .misalignment = std::nullopt,
@@ -188,7 +208,7 @@ Expected<Reconstruction> reconstruct_batch(const ReconstructionRequest& request,
                         .said = std::move(said),
                         .assessment = {},
                         .iterations = solved.iterations};
-  if (solved.chain.noise.on_misalignment() && !all.sun.empty()) {
+  if (solved.chain.noise.estimates_misalignment() && !all.sun.empty()) {
     result.misalignment =
         SunMisalignment{solved.state.misalignment_rad,
                         at.errors.total.block<3, 3>(SharedSunSensor, SharedSunSensor)};

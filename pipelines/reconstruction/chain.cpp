@@ -18,11 +18,12 @@ constexpr double kLeastMisalignment_rad = 1e-9;
 
 }  // namespace
 
-std::optional<Eigen::Matrix3d> ChainNoise::on_misalignment() const {
+bool ChainNoise::estimates_misalignment() const {
+  return !alignment.block<3, 3>(SunSensorError, SunSensorError).isZero(0.0);
+}
+
+Eigen::Matrix3d ChainNoise::on_misalignment() const {
   Eigen::Matrix3d known_rad2 = alignment.block<3, 3>(SunSensorError, SunSensorError);
-  if (known_rad2.isZero(0.0)) {
-    return std::nullopt;
-  }
   known_rad2.diagonal().array() += kLeastMisalignment_rad * kLeastMisalignment_rad;
   return known_rad2.inverse();
 }

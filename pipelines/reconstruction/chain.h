@@ -48,9 +48,9 @@ struct ChainNoise {
   AttitudeAlignment alignment = AttitudeAlignment::Zero();
 
   SharedCovariance prior() const { return prior_of(bias_rad_s, alignment); }
-  /// Returns the prior information on the sun sensor's misalignment; empty if it counts as zero and
-  /// is not estimated.
-  std::optional<Eigen::Matrix3d> on_misalignment() const;
+  bool estimates_misalignment() const;
+  /// Returns the prior information on the sun sensor's misalignment.
+  Eigen::Matrix3d on_misalignment() const;
 };
 
 struct Chain {

@@ -2,6 +2,8 @@
 
 #include <Eigen/Dense>
 #include <cmath>
+#include <iterator>
+#include <utility>
 
 #include "pipelines/frames/rotation_vector.h"
 #include "pipelines/reconstruction/chain_fit.h"
@@ -10,67 +12,93 @@ namespace spindrift {
 namespace {
 
 using Eigen::Matrix3d;
-using Eigen::MatrixXd;
 using Eigen::Vector3d;
 
-/// The bias and the misalignment of the sun sensor, which the fit estimates.
-constexpr Eigen::Index kEstimated = SharedStarTracker;
-
-/// Holds the normal equations of one node and the shared errors.
-struct Equations {
+/// Holds the information on a node, and what it shares with the shared errors.
+struct Information {
   Matrix3d node = Matrix3d::Zero();
   PerShared mixed = PerShared::Zero();
-  SharedCovariance shared = SharedCovariance::Zero();
-  Vector3d node_score = Vector3d::Zero();
-  SharedVector score = SharedVector::Zero();
 
   void add(const ChainResidual& residual, double weight) {
     const Matrix3d weighted = weight * residual.by_node.transpose();
-    const Eigen::Matrix<double, kSharedErrors, 3> weighted_shared =
-        weight * residual.by_shared.transpose();
     node += weighted * residual.by_node;
     mixed += weighted * residual.by_shared;
-    shared += weighted_shared * residual.by_shared;
-    node_score -= weighted * residual.off;
-    score -= weighted_shared * residual.off;
   }
 };
 
-/// Holds the coefficients of error_node = next error_(node + 1) + shared shared_errors + noise.
-struct Smoothing {
-  Matrix3d next;
-  PerShared shared;
+/// Holds error_node = turned error_(node + 1) - turned slopes (errors of the gyro) + noise, and the
+/// information on the node without that noise.
+struct Link {
+  Matrix3d turned;
   Matrix3d noise;
+  PerTurnError slopes;
+  Matrix3d left;  ///< Share of the node's information that the noise leaves.
+  Information passed_on;
 };
 
-/// Propagates the equations to the next node. The turn's noise is marginalised without inverting
+/// Propagates the information to the next node. The turn's noise is marginalised without inverting
 /// it, so that it may be arbitrarily small.
-/// @param off_rad How far the solution's turn is off `turn`, in body axes at the next node.
-Smoothing pass_on(const Turn& turn, const Matrix3d& turned, const Vector3d& off_rad,
-                  Equations& at) {
+Link pass_on(const Turn& turn, const Matrix3d& turned, Information& at) {
   const Matrix3d noise = turned * turn.covariance_rad2 * turned.transpose();
   const Matrix3d left = (Matrix3d::Identity() + at.node * noise).inverse();
-  const Matrix3d gain = noise * left;
-  const PerShared earlier_per_shared = -turned * turn.per_shared();
-  const Matrix3d kept = Matrix3d::Identity() - gain * at.node;
-  Smoothing smoothing{.next = kept * turned,
-                      .shared = kept * earlier_per_shared - gain * at.mixed,
-                      .noise = 0.5 * (gain + gain.transpose())};
-  const Matrix3d node = left * at.node;
-  const PerShared mixed = left * at.mixed;
-  const Vector3d earlier_off_rad = turned * off_rad;
-  const Vector3d node_score = left * at.node_score - node * earlier_off_rad;
-  at.score -= at.mixed.transpose() * (gain * at.node_score) + mixed.transpose() * earlier_off_rad;
-  at.score += earlier_per_shared.transpose() * node_score;
-  at.shared -= at.mixed.transpose() * (gain * at.mixed);
-  at.shared += earlier_per_shared.transpose() * (node * earlier_per_shared + mixed) +
-               mixed.transpose() * earlier_per_shared;
-  at.mixed = turned.transpose() * (node * earlier_per_shared + mixed);
-  at.node_score = turned.transpose() * node_score;
-  const Matrix3d next = turned.transpose() * node * turned;
+  const Link link{.turned = turned,
+                  .noise = noise,
+                  .slopes = turned * turn.per_error(),
+                  .left = left,
+                  .passed_on = {.node = left * at.node, .mixed = left * at.mixed}};
+  at.mixed = link.passed_on.mixed;
+  at.mixed.middleCols<kTurnErrors>(SharedGyroBias) -= link.passed_on.node * link.slopes;
+  at.mixed = turned.transpose() * at.mixed;
+  const Matrix3d next = turned.transpose() * link.passed_on.node * turned;
   at.node = 0.5 * (next + next.transpose());
-  return smoothing;
+  return link;
 }
+
+/// Smooths back from the last node and sums up what the samples say of the shared errors.
+class Smoother {
+ public:
+  Smoother(const Information& last, std::size_t nodes)
+      : own_{last.node.inverse()},
+        per_shared_{-own_ * last.mixed},
+        known_{.own_rad2 = std::vector<Matrix3d>(nodes),
+               .per_shared = std::vector<PerShared>(nodes),
+               .shared = SharedCovariance::Zero(),
+               .score = SharedVector::Zero()} {}
+
+  void see(std::size_t node) {
+    known_.own_rad2[node] = own_;
+    known_.per_shared[node] = per_shared_;
+  }
+
+  void add(const ChainResidual& residual, double weight) {
+    const PerShared slopes = residual.by_node * per_shared_ + residual.by_shared;
+    known_.shared += weight * residual.by_shared.transpose() * slopes;
+    known_.score -= weight * slopes.transpose() * residual.off;
+  }
+
+  /// @param off_rad How far the solution's turn is off the measured one.
+  void step_back(const Link& link, const Vector3d& off_rad) {
+    per_shared_ = link.turned * per_shared_;
+    per_shared_.middleCols<kTurnErrors>(SharedGyroBias) -= link.slopes;
+    const PerShared pull = link.passed_on.node * per_shared_ + link.passed_on.mixed;
+    known_.shared.middleRows<kTurnErrors>(SharedGyroBias) -= link.slopes.transpose() * pull;
+    known_.score -= pull.transpose() * (link.turned * off_rad);
+    per_shared_ -= link.noise * pull;
+    const Matrix3d kept = (Matrix3d::Identity() - link.noise * link.passed_on.node) * link.turned;
+    const Matrix3d gain = link.noise * link.left;
+    own_ = kept * own_ * kept.transpose() + 0.5 * (gain + gain.transpose());
+  }
+
+  ChainInformation known() && {
+    known_.shared = 0.5 * (known_.shared + known_.shared.transpose()).eval();
+    return std::move(known_);
+  }
+
+ private:
+  Matrix3d own_;
+  PerShared per_shared_;
+  ChainInformation known_;
+};
 
 /// Returns the covariance of the shared errors after the samples; the prior may be singular.
 SharedCovariance left_by(const ChainInformation& known, const SharedCovariance& prior) {
@@ -82,11 +110,10 @@ SharedCovariance left_by(const ChainInformation& known, const SharedCovariance& 
 /// Tests the errors that explain the samples best against what their priors let them be.
 std::optional<ErrorBeyond> beyond_prior(const SharedVector& best, const SharedCovariance& left,
                                         const AttitudeAlignment& alignment) {
-  constexpr int kCount = kSharedErrors - SharedSunSensor;
   FilterErrors estimate = FilterErrors::Zero();
-  estimate(kSharedAlignment) = best.tail<kCount>();
+  estimate(kOfAlignment) = best(kOfFile);
   FilterAlignment covariance = alignment.topLeftCorner<kFilterErrors, kFilterErrors>();
-  covariance(kSharedAlignment, kSharedAlignment) = left.bottomRightCorner<kCount, kCount>();
+  covariance(kOfAlignment, kOfAlignment) = left(kOfFile, kOfFile);
   return error_beyond(estimate, alignment.topLeftCorner<kFilterErrors, kFilterErrors>(),
                       covariance);
 }
@@ -95,63 +122,65 @@ std::optional<ErrorBeyond> beyond_prior(const SharedVector& best, const SharedCo
 
 ChainInformation information_of(const Chain& chain, const ChainState& state) {
   const std::size_t nodes = chain.times_s.size();
-  std::vector<Smoothing> smoothings;
-  smoothings.reserve(nodes);
-  Equations at;
+  const auto sun_weight = [&](const ChainSun& sun) {
+    return weight_of(sun, chain, state) / (chain.noise.sun_rad * chain.noise.sun_rad);
+  };
+  const double star_weight = 1.0 / (chain.noise.star_rad * chain.noise.star_rad);
+  std::vector<Link> links;
+  links.reserve(nodes);
+  Information at;
   auto sun = chain.sun.begin();
   auto star = chain.stars.begin();
   for (std::size_t i = 0; i < nodes; ++i) {
     for (; sun != chain.sun.end() && sun->node == i; ++sun) {
-      at.add(residual_of(*sun, state),
-             weight_of(*sun, chain, state) / (chain.noise.sun_rad * chain.noise.sun_rad));
+      at.add(residual_of(*sun, state), sun_weight(*sun));
     }
     for (; star != chain.stars.end() && star->node == i; ++star) {
-      at.add(residual_of(*star, state), std::pow(chain.noise.star_rad, -2));
+      at.add(residual_of(*star, state), star_weight);
     }
     if (i + 1 < nodes) {
       const Eigen::Quaterniond turned = state.q_icrf_body[i].conjugate() * state.q_icrf_body[i + 1];
-      smoothings.push_back(
-          pass_on(chain.turns[i], turned.toRotationMatrix(), gyro_residual(chain, i, state), at));
+      links.push_back(pass_on(chain.turns[i], turned.toRotationMatrix(), at));
     }
   }
-  Matrix3d own = at.node.inverse();
-  PerShared per_shared = -own * at.mixed;
-  ChainInformation known{.own_rad2 = std::vector<Matrix3d>(nodes),
-                         .per_shared = std::vector<PerShared>(nodes),
-                         .shared = at.shared + at.mixed.transpose() * per_shared,
-                         .score = at.score + per_shared.transpose() * at.node_score};
+  Smoother smoother{at, nodes};
   for (std::size_t i = nodes; i-- > 0;) {
     if (i + 1 < nodes) {
-      const Smoothing& by = smoothings[i];
-      own = by.next * own * by.next.transpose() + by.noise;
-      per_shared = by.next * per_shared + by.shared;
+      smoother.step_back(links[i], gyro_residual(chain, i, state));
     }
-    known.own_rad2[i] = own;
-    known.per_shared[i] = per_shared;
+    smoother.see(i);
+    for (; sun != chain.sun.begin() && std::prev(sun)->node == i; --sun) {
+      smoother.add(residual_of(*std::prev(sun), state), sun_weight(*std::prev(sun)));
+    }
+    for (; star != chain.stars.begin() && std::prev(star)->node == i; --star) {
+      smoother.add(residual_of(*std::prev(star), state), star_weight);
+    }
   }
-  return known;
+  return std::move(smoother).known();
 }
 
 SharedErrors errors_of(const ChainInformation& known, const ChainNoise& noise) {
-  const auto on_misalignment = noise.on_misalignment();
-  const Eigen::Index estimated = on_misalignment ? kEstimated : SharedSunSensor;
-  MatrixXd on_prior = MatrixXd::Zero(estimated, estimated);
-  on_prior.topLeftCorner<3, 3>() = std::pow(noise.bias_rad_s, -2) * Matrix3d::Identity();
-  if (on_misalignment) {
-    on_prior.bottomRightCorner<3, 3>() = *on_misalignment;
-  }
-  const MatrixXd samples = known.shared.topLeftCorner(estimated, estimated);
-  const MatrixXd gain = (samples + on_prior).inverse();
+  using Estimated = Eigen::Matrix<double, kEstimatedErrors, kEstimatedErrors>;
+  constexpr int kConsidered = kSharedErrors - kEstimatedErrors;
+  Estimated on_prior = Estimated::Zero();
+  on_prior.block<3, 3>(SharedSunSensor, SharedSunSensor) = noise.on_misalignment();
+  on_prior.diagonal().segment<3>(SharedGyroBias).setConstant(std::pow(noise.bias_rad_s, -2));
+  const Estimated samples = known.shared.topLeftCorner<kEstimatedErrors, kEstimatedErrors>();
+  const Estimated gain = (samples + on_prior).inverse();
   // The errors of what is estimated follow those of its priors and those that are considered.
   SharedCovariance follow = SharedCovariance::Identity();
-  follow.topLeftCorner(estimated, estimated) = gain * on_prior;
-  follow.topRightCorner(estimated, kSharedErrors - estimated) =
-      -gain * known.shared.topRightCorner(estimated, kSharedErrors - estimated);
-  SharedCovariance by_samples = SharedCovariance::Zero();
-  by_samples.topLeftCorner(estimated, estimated) = gain * samples * gain.transpose();
-  const SharedCovariance exact = prior_of(noise.bias_rad_s, AttitudeAlignment::Zero());
-  return {.total = by_samples + follow * noise.prior() * follow.transpose(),
-          .noise = by_samples + follow * exact * follow.transpose()};
+  follow.topLeftCorner<kEstimatedErrors, kEstimatedErrors>() = gain * on_prior;
+  follow.topRightCorner<kEstimatedErrors, kConsidered>() =
+      -gain * known.shared.topRightCorner<kEstimatedErrors, kConsidered>();
+  const auto followed = [&](const AttitudeAlignment& alignment) -> SharedCovariance {
+    SharedCovariance errors = follow * prior_of(noise.bias_rad_s, alignment) * follow.transpose();
+    errors.topLeftCorner<kEstimatedErrors, kEstimatedErrors>() += gain * samples * gain.transpose();
+    return errors;
+  };
+  return {
+      .total = followed(noise.alignment),
+      .noise =
+          followed(AttitudeAlignment::Zero()).topLeftCorner<kEstimatedErrors, kEstimatedErrors>()};
 }
 
 SharedCovariance least_errors_of(const ChainInformation& known, const ChainNoise& noise) {
@@ -166,7 +195,8 @@ FittedFile fitted_file(const ChainInformation& known, const ChainNoise& noise,
   const SharedVector score = known.score + known.shared * at;
   const SharedCovariance prior = noise.prior();
   SharedCovariance of_fit = SharedCovariance::Zero();
-  of_fit.topLeftCorner<kEstimated, kEstimated>() = prior.topLeftCorner<kEstimated, kEstimated>();
+  of_fit.topLeftCorner<kEstimatedErrors, kEstimatedErrors>() =
+      prior.topLeftCorner<kEstimatedErrors, kEstimatedErrors>();
   const SharedCovariance left = left_by(known, prior);
   const SharedVector best = left * score;
   return {.change = best - left_by(known, of_fit) * score,
@@ -176,7 +206,9 @@ FittedFile fitted_file(const ChainInformation& known, const ChainNoise& noise,
 Matrix3d allowed_by_file(const ChainResidual& residual, const PerShared& node_per_shared,
                          const SharedErrors& errors) {
   const PerShared slopes = residual.by_node * node_per_shared + residual.by_shared;
-  return slopes * (errors.total - errors.noise) * slopes.transpose();
+  SharedCovariance by_file = errors.total;
+  by_file.topLeftCorner<kEstimatedErrors, kEstimatedErrors>() -= errors.noise;
+  return slopes * by_file * slopes.transpose();
 }
 
 Vector3d left_of(const ChainResidual& residual, const PerShared& node_per_shared,

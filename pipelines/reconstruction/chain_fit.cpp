@@ -157,7 +157,7 @@ class ChainProblem {
   ChainProblem(const Chain& chain, ChainState& state, SunLoss loss)
       : problem_{keeping()},
         bias_prior_{std::pow(chain.noise.bias_rad_s, -2) * Matrix3d::Identity()},
-        misalignment_prior_{chain.noise.on_misalignment().value_or(Matrix3d::Identity())} {
+        misalignment_prior_{chain.noise.on_misalignment()} {
     const auto loss_of = [&](const ChainSun& sun) -> ceres::LossFunction* {
       return loss == SunLoss::Far
                  ? &far_
@@ -183,7 +183,7 @@ class ChainProblem {
     }
     problem_.AddResidualBlock(&bias_prior_, nullptr, bias);
     problem_.AddResidualBlock(&misalignment_prior_, nullptr, misalignment);
-    if (!chain.noise.on_misalignment()) {
+    if (!chain.noise.estimates_misalignment()) {
       problem_.SetParameterBlockConstant(misalignment);
     }
   }

@@ -13,28 +13,31 @@ using Eigen::Matrix3d;
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
 
 /// Returns the derivative of the rate's error, which is the measured rate minus the bias.
-PerShared rate_per_shared(const Eigen::Vector3d& rate_body_rad_s) {
-  PerShared slopes = PerShared::Zero();
-  slopes.middleCols<3>(SharedGyroBias) = -Matrix3d::Identity();
-  slopes.middleCols<9>(SharedGyro) = -measured_per_gyro_error(rate_body_rad_s);
+PerTurnError rate_per_error(const Eigen::Vector3d& rate_body_rad_s) {
+  PerTurnError slopes;
+  slopes << -Matrix3d::Identity(), -measured_per_gyro_error(rate_body_rad_s);
   return slopes;
 }
 
 std::vector<ReconstructedAttitude> attitudes_of(const Observations& all,
                                                 const NodeEstimates& nodes) {
   std::vector<ReconstructedAttitude> attitudes;
+  const SharedErrors& shared = nodes.shared;
+  const Eigen::Matrix<double, kTurnErrors, kTurnErrors> of_gyro =
+      shared.total.block<kTurnErrors, kTurnErrors>(SharedGyroBias, SharedGyroBias);
   for (std::size_t i = 0; i < nodes.times_s.size(); ++i) {
     const Eigen::Vector3d rate_body_rad_s = all.rates.rate_at(nodes.times_s[i]) - nodes.bias_rad_s;
     const PerShared& slopes = nodes.per_shared[i];
-    const PerShared rate_slopes = rate_per_shared(rate_body_rad_s);
+    const auto estimated = slopes.leftCols<kEstimatedErrors>();
+    const PerTurnError rate_slopes = rate_per_error(rate_body_rad_s);
     attitudes.push_back(
         {.t = shifted(all.origin, nodes.times_s[i]),
          .q_icrf_body = nodes.q_icrf_body[i],
          .rate_body_rad_s = rate_body_rad_s,
-         .covariance_rad2 = nodes.own_rad2[i] + slopes * nodes.shared.total * slopes.transpose(),
+         .covariance_rad2 = nodes.own_rad2[i] + slopes * shared.total * slopes.transpose(),
          .noise_covariance_rad2 =
-             nodes.own_rad2[i] + slopes * nodes.shared.noise * slopes.transpose(),
-         .rate_covariance_rad2_s2 = rate_slopes * nodes.shared.total * rate_slopes.transpose()});
+             nodes.own_rad2[i] + estimated * shared.noise * estimated.transpose(),
+         .rate_covariance_rad2_s2 = rate_slopes * of_gyro * rate_slopes.transpose()});
     attitudes.back().rate_covariance_rad2_s2.diagonal().array() +=
         std::pow(nodes.gyro_noise_rad_s, 2);
   }
@@ -46,8 +49,10 @@ std::vector<ReconstructedAttitude> attitudes_of(const Observations& all,
 /// Returns the joint covariance of rotation and rate at T2.
 Matrix6d start_covariance(const Observations& all, const NodeEstimates& nodes,
                           const SharedCovariance& shared) {
-  Eigen::Matrix<double, 6, kSharedErrors> slopes;
-  slopes << nodes.per_shared.front(), rate_per_shared(all.rates.rate_at(0.0) - nodes.bias_rad_s);
+  Eigen::Matrix<double, 6, kSharedErrors> slopes = Eigen::Matrix<double, 6, kSharedErrors>::Zero();
+  slopes.topRows<3>() = nodes.per_shared.front();
+  slopes.bottomRows<3>().middleCols<kTurnErrors>(SharedGyroBias) =
+      rate_per_error(all.rates.rate_at(0.0) - nodes.bias_rad_s);
   Matrix6d covariance = slopes * shared * slopes.transpose();
   covariance.topLeftCorner<3, 3>() += nodes.own_rad2.front();
   covariance.diagonal().tail<3>().array() +=
@@ -73,7 +78,9 @@ std::vector<ReconstructedAttitude> arc_to_separation(const ReconstructionRequest
   const ArcCovariance total{.start = start_covariance(all, nodes, nodes.shared.total),
                             .inertia_fraction = inertia ? inertia->sigma_fraction : 0.0,
                             .acceleration_rad_s2 = acceleration_rad_s2};
-  const ArcCovariance noise{.start = start_covariance(all, nodes, nodes.shared.noise),
+  SharedCovariance of_noise = SharedCovariance::Zero();
+  of_noise.topLeftCorner<kEstimatedErrors, kEstimatedErrors>() = nodes.shared.noise;
+  const ArcCovariance noise{.start = start_covariance(all, nodes, of_noise),
                             .inertia_fraction = 0.0,
                             .acceleration_rad_s2 = acceleration_rad_s2};
   ArcState at = start_of_arc(control_on);

@@ -109,10 +109,9 @@ Vector3d RateTrack::rate_at(double t_s) const {
   return steps_.empty() ? samples_.front().rate_body_rad_s : rate_in(step_at(t_s), t_s);
 }
 
-PerShared Turn::per_shared() const {
-  PerShared slopes = PerShared::Zero();
-  slopes.middleCols<3>(SharedGyroBias) = per_bias_s;
-  slopes.middleCols<9>(SharedGyro) = per_gyro_error;
+PerTurnError Turn::per_error() const {
+  PerTurnError slopes;
+  slopes << per_bias_s, per_gyro_error;
   return slopes;
 }
 

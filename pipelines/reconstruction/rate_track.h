@@ -41,8 +41,8 @@ struct Turn {
   /// Covariance of small rotations about body axes at the later instant, rad^2.
   Eigen::Matrix3d covariance_rad2 = Eigen::Matrix3d::Zero();
 
-  /// Returns the derivative with respect to all shared errors.
-  PerShared per_shared() const;
+  /// Returns both derivatives.
+  PerTurnError per_error() const;
 };
 
 class RateTrack {

@@ -73,8 +73,9 @@ void add_bias(const GyroSensor& gyro, const Reconstruction& result, const Fitted
     }
     doubts.add({open.off_sun_rad ? GyroBiasOpenBySun : GyroBiasOpen, std::move(values)}, false);
   }
-  if (result.bias && (result.bias->rad_s + file.change.head<3>()).cwiseAbs().maxCoeff() >
-                         kFarOffPriorSigmas * gyro.bias_sigma_rad_s) {
+  if (result.bias &&
+      (result.bias->rad_s + file.change.segment<3>(SharedGyroBias)).cwiseAbs().maxCoeff() >
+          kFarOffPriorSigmas * gyro.bias_sigma_rad_s) {
     doubts.add({GyroBiasFarOff, {{"prior_sigmas", kFarOffPriorSigmas}}}, true);
   }
 }

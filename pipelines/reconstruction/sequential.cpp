@@ -129,7 +129,8 @@ class Backwards {
     const bool solved = dogleg_.solve(cost, q_);
     const Matrix3d turned = turn.turn.toRotationMatrix();
     own_rad2_ = turned * (own_rad2_ + turn.covariance_rad2) * turned.transpose();
-    per_shared_ = turned * (per_shared_ - turn.per_shared());
+    per_shared_.middleCols<kTurnErrors>(SharedGyroBias) -= turn.per_error();
+    per_shared_ = turned * per_shared_;
     return solved;
   }
 
@@ -138,7 +139,8 @@ class Backwards {
     q_ = (q_ * turn.turn).normalized();
     const Matrix3d back = turn.turn.toRotationMatrix().transpose();
     own_rad2_ = back * own_rad2_ * back.transpose() + turn.covariance_rad2;
-    per_shared_ = back * per_shared_ + turn.per_shared();
+    per_shared_ = back * per_shared_;
+    per_shared_.middleCols<kTurnErrors>(SharedGyroBias) += turn.per_error();
   }
 
   /// Gates a sun vector against the current total covariance and returns its observation.
@@ -246,17 +248,19 @@ Expected<Pass> backwards(const ReconstructionRequest& request, const Observation
   Backwards at{star, all.rates.rate_at(star.t_s), request.sensors};
   turn_to(at, all.rates, star.t_s, last_s);
   const double bias_sigma_rad_s = request.sensors.gyro->bias_sigma_rad_s;
-  Pass pass{.nodes = {.times_s = times_s,
-                      .q_icrf_body = {at.q()},
-                      .own_rad2 = {at.own_rad2()},
-                      .per_shared = {at.per_shared()},
-                      .bias_rad_s = Vector3d::Zero(),
-                      .shared = {.total = prior_of(bias_sigma_rad_s, request.sensors.alignment),
-                                 .noise = prior_of(bias_sigma_rad_s, AttitudeAlignment::Zero())},
-                      .gyro_noise_rad_s = all.gyro_noise_rad_s},
-            .sun = {},
-            .said = {},
-            .iterations = 0};
+  const SharedCovariance exact = prior_of(bias_sigma_rad_s, AttitudeAlignment::Zero());
+  Pass pass{
+      .nodes = {.times_s = times_s,
+                .q_icrf_body = {at.q()},
+                .own_rad2 = {at.own_rad2()},
+                .per_shared = {at.per_shared()},
+                .bias_rad_s = Vector3d::Zero(),
+                .shared = {.total = prior_of(bias_sigma_rad_s, request.sensors.alignment),
+                           .noise = exact.topLeftCorner<kEstimatedErrors, kEstimatedErrors>()},
+                .gyro_noise_rad_s = all.gyro_noise_rad_s},
+      .sun = {},
+      .said = {},
+      .iterations = 0};
   auto sun = std::find_if(all.sun.rbegin(), all.sun.rend(),
                           [=](const SunObservation& one) { return one.t_s < last_s; });
   for (std::size_t i = turns.size(); i-- > 0;) {

@@ -4,9 +4,8 @@ namespace spindrift {
 
 SharedCovariance prior_of(double bias_sigma_rad_s, const AttitudeAlignment& alignment) {
   SharedCovariance prior = SharedCovariance::Zero();
-  prior.diagonal().head<3>().setConstant(bias_sigma_rad_s * bias_sigma_rad_s);
-  prior.bottomRightCorner<kSharedErrors - 3, kSharedErrors - 3>() =
-      alignment(kSharedAlignment, kSharedAlignment);
+  prior.diagonal().segment<3>(SharedGyroBias).setConstant(bias_sigma_rad_s * bias_sigma_rad_s);
+  prior(kOfFile, kOfFile) = alignment(kOfAlignment, kOfAlignment);
   return prior;
 }
 

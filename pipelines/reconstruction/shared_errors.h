@@ -12,12 +12,13 @@
 
 namespace spindrift {
 
-/// First index of each group. The groups that an estimator may estimate come first.
+/// First index of each group: those that `batch` estimates come first, those of the gyro are
+/// adjacent.
 enum SharedError {
-  SharedGyroBias = 0,   ///< rad/s, body axes.
-  SharedSunSensor = 3,  ///< As SunSensorError; so are those below.
-  SharedStarTracker = 6,
-  SharedGyro = 9,  ///< Scale, then axes.
+  SharedSunSensor = 0,  ///< As SunSensorError; so are those below but the bias.
+  SharedGyroBias = 3,   ///< rad/s, body axes.
+  SharedGyro = 6,       ///< Scale, then axes.
+  SharedStarTracker = 15,
   SharedStarTime = 18,
   SharedSunTime = 19,
 };
@@ -29,19 +30,30 @@ using SharedCovariance = Eigen::Matrix<double, kSharedErrors, kSharedErrors>;
 using PerShared = Eigen::Matrix<double, 3, kSharedErrors>;
 using PerGyroError = Eigen::Matrix<double, 3, 9>;
 
-/// The index in AttitudeAlignment of each shared error behind the bias.
-inline constexpr std::array<int, kSharedErrors - 3> kSharedAlignment{
-    SunSensorError,       SunSensorError + 1,   SunSensorError + 2,  //
-    StarTrackerError,     StarTrackerError + 1, StarTrackerError + 2,
-    GyroScaleError,       GyroScaleError + 1,   GyroScaleError + 2,  //
-    GyroAxisError,        GyroAxisError + 1,    GyroAxisError + 2,
-    GyroAxisError + 3,    GyroAxisError + 4,    GyroAxisError + 5,  //
+/// Number of shared errors that `batch` estimates: misalignment and bias.
+inline constexpr int kEstimatedErrors = SharedGyro;
+/// Number of those of the gyro, from the bias on.
+inline constexpr int kTurnErrors = SharedStarTracker - SharedGyroBias;
+/// Derivative of a turn by the errors of the gyro.
+using PerTurnError = Eigen::Matrix<double, 3, kTurnErrors>;
+
+/// The shared errors of the mission file, and their indices in AttitudeAlignment.
+inline constexpr int kFileErrors = kSharedErrors - 3;
+inline constexpr std::array<int, kFileErrors> kOfFile{0,  1,  2,  6,  7,  8,  9,  10, 11,
+                                                      12, 13, 14, 15, 16, 17, 18, 19};
+inline constexpr std::array<int, kFileErrors> kOfAlignment{
+    SunSensorError,       SunSensorError + 1,   SunSensorError + 2,    //
+    GyroScaleError,       GyroScaleError + 1,   GyroScaleError + 2,    //
+    GyroAxisError,        GyroAxisError + 1,    GyroAxisError + 2,     //
+    GyroAxisError + 3,    GyroAxisError + 4,    GyroAxisError + 5,     //
+    StarTrackerError,     StarTrackerError + 1, StarTrackerError + 2,  //
     StarTrackerTimeError, SunSensorTimeError};
 
 /// Holds the covariance of the errors that remain in the shared quantities.
 struct SharedErrors {
   SharedCovariance total;
-  SharedCovariance noise;  ///< What would be left if the mission file were exact.
+  /// What would be left of those that are estimated, or could be, if the mission file were exact.
+  Eigen::Matrix<double, kEstimatedErrors, kEstimatedErrors> noise;
 };
 
 /// Returns the covariance of the shared errors before any sample.

@@ -101,7 +101,8 @@ std::vector<Observation> observations_among(std::span<const StarObservation> sta
 PerShared difference_per_shared(const RateTrack& rates, const StarObservation& earlier,
                                 const StarObservation& later, const Turn& turn) {
   const Matrix3d back = turn.turn.toRotationMatrix().transpose();
-  PerShared slopes = turn.per_shared();
+  PerShared slopes = PerShared::Zero();
+  slopes.middleCols<kTurnErrors>(SharedGyroBias) = turn.per_error();
   slopes.middleCols<3>(SharedStarTracker) = back - Matrix3d::Identity();
   slopes.col(SharedStarTime) = back * rates.rate_at(earlier.t_s) - rates.rate_at(later.t_s);
   return slopes;

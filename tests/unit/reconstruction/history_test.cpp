@@ -54,15 +54,16 @@ struct Flight {
     return request;
   }
   NodeEstimates nodes() const {
-    NodeEstimates nodes{.times_s = {0.0, 2.0, 4.0, 5.0, 6.0, 8.0, 20.0},
-                        .q_icrf_body = {},
-                        .own_rad2 = {},
-                        .per_shared = std::vector<PerShared>(7, PerShared::Zero()),
-                        .bias_rad_s = kBias_rad_s,
-                        .shared = {.total = file_errors, .noise = SharedCovariance::Zero()},
-                        .gyro_noise_rad_s = kNoise_rad_s};
-    nodes.shared.total.topLeftCorner<3, 3>() = bias_covariance_rad2_s2;
-    nodes.shared.noise.topLeftCorner<3, 3>() = bias_covariance_rad2_s2;
+    NodeEstimates nodes{
+        .times_s = {0.0, 2.0, 4.0, 5.0, 6.0, 8.0, 20.0},
+        .q_icrf_body = {},
+        .own_rad2 = {},
+        .per_shared = std::vector<PerShared>(7, PerShared::Zero()),
+        .bias_rad_s = kBias_rad_s,
+        .shared = {.total = file_errors, .noise = decltype(SharedErrors::noise)::Zero()},
+        .gyro_noise_rad_s = kNoise_rad_s};
+    nodes.shared.total.block<3, 3>(SharedGyroBias, SharedGyroBias) = bias_covariance_rad2_s2;
+    nodes.shared.noise.block<3, 3>(SharedGyroBias, SharedGyroBias) = bias_covariance_rad2_s2;
     nodes.per_shared.front() = start_per_shared;
     for (const double t_s : nodes.times_s) {
       nodes.q_icrf_body.push_back(kFirst * quaternion_by(t_s * rate_rad_s));
@@ -197,7 +198,7 @@ TEST(History, ErrorsGrowBackToT1AsTheyDoForABodyAtRest) {
                                -20.0, 50.0, 0.0,               //
                                0.0, 0.0, -40.0)
                                   .finished();
-  flight.start_per_shared.leftCols<3>() = per_bias_s;
+  flight.start_per_shared.middleCols<3>(SharedGyroBias) = per_bias_s;
   const Matrix3d with_bias = per_bias_s * flight.bias_covariance_rad2_s2;
   const Matrix3d first_covariance_rad2 =
       flight.first_covariance_rad2 + with_bias * per_bias_s.transpose();
