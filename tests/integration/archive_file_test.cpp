@@ -134,10 +134,11 @@ TEST_F(ArchiveFile, TablesOfEveryEdgeTakeNoOtherNamesThanThoseOfTheContract) {
   EXPECT_TRUE(
       takes("spin_measurement VALUES ('r', 1, 'mixed_azimuth', 1, 'deg', 1, 1, NULL, 1, 1)"));
   EXPECT_FALSE(takes("spin_measurement VALUES ('r', 1, 'azimuth', 1, 'deg', 1, 1, NULL, 1, 1)"));
-  EXPECT_TRUE(takes(
-      "spin_fix VALUES ('r', 1, 1, 1, 1, 1, 1, 1, 0, 1, NULL, NULL, 'AMBIGUOUS', 1, 1, 0, NULL)"));
-  EXPECT_FALSE(
-      takes("spin_fix VALUES ('r', 2, 1, 1, 1, 1, 1, 1, 0, 1, NULL, NULL, 'NONE', 1, 1, 0, NULL)"));
+  EXPECT_TRUE(
+      takes("spin_fix VALUES ('r', 1, 1, 1, 1, 1, 1, 1, 1, 0, 1, NULL, NULL, 'AMBIGUOUS', 1, 1, 0, "
+            "NULL)"));
+  EXPECT_FALSE(takes(
+      "spin_fix VALUES ('r', 2, 1, 1, 1, 1, 1, 1, 1, 0, 1, NULL, NULL, 'NONE', 1, 1, 0, NULL)"));
   EXPECT_TRUE(takes(
       "spin_estimate VALUES ('r', 1, 'batch', 1, 1, 1, 1, 1, 0, 1, 1, 1, 'OK', '[]', 'OK', NULL)"));
   EXPECT_FALSE(takes(

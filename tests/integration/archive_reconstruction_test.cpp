@@ -109,7 +109,7 @@ TEST_F(ArchiveReconstruction, TheVerdictOfARunThatOnlyReconstructsIsItsT1) {
   store_run({product(Sequential, 10, {{Separation, 1}}, {1}), early_solution()});
   EXPECT_EQ(text("SELECT format('%s %s %g %.3f %s', estimator, quality, qw, sigma_deg, why) FROM "
                  "pass_verdict"),
-            "batch OK 0.5 2.000 OK");
+            "batch OK 0.5 2.000 OK; 1.7 of 2 deg is alignment");
   EXPECT_THAT(texts("SELECT source FROM attitude_answer"), IsEmpty());
 }
 

@@ -44,6 +44,8 @@ struct PassCopy {
     mission_text.replace(mission_text.find(text), text.size(), by);
     std::ofstream{mission()} << mission_text;
   }
+  /// Adds lines at the end of the mission file.
+  void append(std::string_view lines) const { std::ofstream{mission(), std::ios::app} << lines; }
   std::vector<std::string> arguments_here() const {
     return arguments(mission(), folder.path(), db);
   }

@@ -121,7 +121,7 @@ TEST(MissingChannel, LeavesTheCaseThatTheOthersAllow) {
         << outcome.run["fixes_by_case"];
     for (const char* const estimator : {"mean", "sequential"}) {
       ASSERT_FALSE(outcome.run[estimator].is_null());
-      const double sigma_deg = outcome.run[estimator]["sigma_deg"].get<double>();
+      const double sigma_deg = outcome.run[estimator]["noise_sigma_deg"].get<double>();
       EXPECT_LT(error_deg(outcome.run[estimator], kTruth), std::min(0.2, 3.0 * sigma_deg))
           << estimator;
       // Without a sun angle, the cones intersect well in the second half of the pass only.

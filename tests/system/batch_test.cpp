@@ -9,6 +9,7 @@
 
 #include "tests/support/archive_rows.h"
 #include "tests/support/axis_error.h"
+#include "tests/support/exact_mission.h"
 #include "tests/support/matchers.h"
 #include "tests/support/processed.h"
 #include "tests/support/ran.h"
@@ -35,7 +36,9 @@ TEST(Batch, StandsBesideTheOtherEstimatorsWithBoundAndBiases) {
   EXPECT_EQ(batch["quality"], "OK");
   const double sigma_deg = batch["sigma_deg"].get<double>();
   EXPECT_LT(error_deg(batch, truth_of("nominal")), std::min(0.05, 3.0 * sigma_deg));
-  EXPECT_NEAR(sigma_deg / batch["bound_deg"].get<double>(), 1.0, 0.01);
+  const double noise_sigma_deg = batch["noise_sigma_deg"].get<double>();
+  EXPECT_NEAR(noise_sigma_deg / batch["bound_deg"].get<double>(), 1.0, 0.01);
+  EXPECT_LT(noise_sigma_deg, sigma_deg);
   const double consider_deg = batch["consider_sigma_deg"].get<double>();
   EXPECT_EQ(consider_deg, sigma_deg);
   EXPECT_EQ(consider_deg, real_of(db, "SELECT consider_sigma_deg FROM spin_batch"));
@@ -58,6 +61,7 @@ TEST(Batch, EstimatorsThatAModelErrorSetsApartAreNamedAsTheViewFlagsThem) {
   const PassCopy pass{"nominal"};
   // `batch` estimates this bias; for the other estimators it is an error.
   pass.replace("mount_angle_deg = 85", "mount_angle_deg = 86");
+  pass.append(kExactSpin);
   const auto told = answer(pass.arguments_here())["runs"][0]["disagreements"];
   ASSERT_EQ(told.size(), 1U);
   EXPECT_EQ(told[0]["one"], "sequential");

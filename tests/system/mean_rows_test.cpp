@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "tests/support/axis_error.h"
+#include "tests/support/exact_mission.h"
 #include "tests/support/matchers.h"
 #include "tests/support/processed.h"
 #include "tests/support/simulated.h"
@@ -87,7 +88,8 @@ TEST(MeanRows, ShortChordsThatBecomeLongLeadToTheLeastSquares) {
                 {{"duration_s = 600.0", "duration_s = 900.0\nseed = 171"},
                  {"mount_angle_deg = 95.0", "mount_angle_deg = 105.0"},
                  {"co2_altitude_km = 40.0",
-                  "co2_altitude_km = 40.0\n[faults]\nlost = 0.03\nspoilt = 0.02"}})};
+                  "co2_altitude_km = 40.0\n[faults]\nlost = 0.03\nspoilt = 0.02"}}),
+      std::string{kExactSpin}};
   const Processed outcome{simulated.pass};
   const auto means =
       means_of(outcome.db, {{"ra_deg", 210.78820351767155}, {"dec_deg", 9.292454335835854}});

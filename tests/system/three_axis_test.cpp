@@ -9,6 +9,7 @@
 #include "services/publisher/product_messages.h"
 #include "tests/support/archive_rows.h"
 #include "tests/support/bus_fixture.h"
+#include "tests/support/exact_mission.h"
 #include "tests/support/lines.h"
 #include "tests/support/matchers.h"
 #include "tests/support/on_bus.h"
@@ -49,12 +50,15 @@ TEST(ThreeAxis, ProcessStoresEverySampleAsItWasReceivedAndTheAttitudeOfItsStarFi
   const nlohmann::json& attitude = outcome.run["attitude"];
   EXPECT_EQ(attitude["quality"], "CONVERGING");
   EXPECT_EQ(attitude["utc"], "2026-03-01T04:05:00.000Z");
-  EXPECT_NEAR(attitude["sigma_deg"], std::sqrt(3.0) * 20.0 / 3600.0, 1e-9);
+  EXPECT_NEAR(attitude["noise_sigma_deg"], std::sqrt(3.0) * 20.0 / 3600.0, 1e-9);
+  // The alignment of the star tracker adds 0.01 deg about each axis.
+  EXPECT_NEAR(attitude["sigma_deg"], std::sqrt(3.0) * std::hypot(20.0 / 3600.0, 0.01), 1e-9);
   EXPECT_EQ(outcome.run["sensors"]["sun"]["accepted"], 223);
   EXPECT_EQ(outcome.run["sensors"]["sun"]["rejected"], nlohmann::json::object());
   EXPECT_THAT(
       rows_of(outcome.db, "SELECT estimator, quality, ra_deg IS NULL, qw, why FROM pass_verdict"),
-      ElementsAre(fmt::format("mekf|CONVERGING|1|{:a}|CONVERGING|", attitude["qw"].get<double>())));
+      ElementsAre(fmt::format("mekf|CONVERGING|1|{:a}|CONVERGING; 0.017 of 0.02 deg is alignment|",
+                              attitude["qw"].get<double>())));
 
   // The samples of a second run are stored once.
   process_files(kSeparation, outcome.db);
@@ -63,7 +67,10 @@ TEST(ThreeAxis, ProcessStoresEverySampleAsItWasReceivedAndTheAttitudeOfItsStarFi
 }
 
 TEST(ThreeAxis, SunAndMagnetometerGiveTheAttitudeBeforeTheFirstStarFix) {
-  const Simulated simulated{"separation.toml", {}, "[three_axis.magnetometer]\nnoise_nt = 100\n"};
+  const Simulated simulated{
+      "separation.toml",
+      {},
+      "[three_axis.magnetometer]\nnoise_nt = 100\n" + std::string{kExactThreeAxis}};
   const Processed outcome{simulated.pass};
   const auto truth = nlohmann::json::parse(text_of(simulated.pass / "truth.json"));
   const auto acquisition = truth["T3"]["t_tai_ns"].get<std::int64_t>();

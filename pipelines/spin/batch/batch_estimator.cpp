@@ -113,19 +113,27 @@ ConingEstimate coning_of(const EvaluatedFit& found, double excess_noise) {
   return coning;
 }
 
-std::vector<BatchEdge> said_to(const Solved& solved) {
-  const PassAtState at = solved.model.at(solved.of.best.fit.state);
+/// Returns what each edge says to the solution. The sigma of a residual holds the part of the
+/// mission file's errors that the solution has not taken up.
+std::vector<BatchEdge> said_to(const Solved& solved, const Observability& observed) {
+  const EvaluatedFit& best = solved.of.best;
+  const PassAtState at = solved.model.at(best.fit.state);
+  const SpinAlignment beside = alignment_beside(solved.model.config(), best.estimated);
+  const Eigen::Matrix<double, kBatchUnknowns, kSpinAlignmentErrors> taken_up =
+      observed.moved(best.information).rightCols<kSpinAlignmentErrors>();
   std::vector<BatchEdge> said;
   said.reserve(solved.edges.size());
   for (const PassEdge& edge : solved.edges) {
     const SpinConfig& config = solved.model.config();
     const double noise_s = edge_sigma_s(config.noise, edge.pulse.channel);
-    const auto residual = at.residual(edge.pulse);
-    const double sigmas = residual ? residual->sigma(config.alignment) : 1.0;
-    said.push_back({.pulse = edge.pulse,
-                    .residual_s = residual ? std::optional{residual->off * noise_s} : std::nullopt,
-                    .sigma_s = noise_s * sigmas,
-                    .used = residual && std::abs(residual->off) < kOutlierSigmas * sigmas});
+    BatchEdge& one = said.emplace_back(
+        BatchEdge{.pulse = edge.pulse, .residual_s = {}, .sigma_s = noise_s, .used = false});
+    if (auto residual = at.residual(edge.pulse)) {
+      one.residual_s = residual->off * noise_s;
+      one.used = std::abs(residual->off) < kOutlierSigmas * residual->sigma(config.alignment);
+      residual->per_alignment -= residual->slopes * taken_up;
+      one.sigma_s = noise_s * residual->sigma(beside);
+    }
   }
   return said;
 }
@@ -228,7 +236,7 @@ BatchSolution solution_of(const Solved& solved, const Eigen::Matrix2d& open_rad2
       .nutation = best.nutation,
       .nutation_t = solved.edges.back().pulse.t,
       .coning = coning_of(best, excess_noise),
-      .said = said_to(solved),
+      .said = said_to(solved, observed),
       .choice = {},
       .equations = normal_equations(config, best)};
   solution.equations.t = solution.estimate.t;

@@ -59,14 +59,14 @@ BiasSet without_key(const SpinConfig& config, BiasSet estimated) {
 
 }  // namespace
 
-AlignmentEvidence alignment_evidence(const SpinConfig& config, const EvaluatedFit& found) {
+SpinAlignmentEvidence alignment_evidence(const SpinConfig& config, const EvaluatedFit& found) {
   const PassInformation& pass = found.information;
   const Observability others{pass, without_key(config, found.estimated)};
   // Other biases are held, with a zero in the step.
   const ConsideredVector score =
       pass.considered.score +
       pass.considered.shared.transpose() * others.step(pass, found.fit.state.biases);
-  AlignmentEvidence evidence =
+  SpinAlignmentEvidence evidence =
       beside_offsets(pass.considered.own - others.taken(pass), score, found.considered);
   const double noise = found.excess_noise();
   evidence.information /= noise;
@@ -76,7 +76,7 @@ AlignmentEvidence alignment_evidence(const SpinConfig& config, const EvaluatedFi
 }
 
 NormalEquations normal_equations(const SpinConfig& config, const EvaluatedFit& found) {
-  const AlignmentEvidence evidence = alignment_evidence(config, found);
+  const SpinAlignmentEvidence evidence = alignment_evidence(config, found);
   const std::vector<FileValue> values = values_of(config);
   const auto count = static_cast<Eigen::Index>(values.size());
   NormalEquations equations{.names = {},

@@ -6,13 +6,13 @@
 
 #include "pipelines/observation/normal_equations.h"
 #include "pipelines/spin/batch/evaluated_fit.h"
-#include "pipelines/spin/types/alignment_evidence.h"
+#include "pipelines/spin/types/spin_alignment_evidence.h"
 
 namespace spindrift {
 
 /// Returns the evidence about the mission file's values, with motion, the offsets of the channels,
 /// and the estimated biases that no key of the file holds, eliminated.
-AlignmentEvidence alignment_evidence(const SpinConfig& config, const EvaluatedFit& found);
+SpinAlignmentEvidence alignment_evidence(const SpinConfig& config, const EvaluatedFit& found);
 
 /// Returns the same for a calibration, in the units of the keys, of the sensors that exist.
 NormalEquations normal_equations(const SpinConfig& config, const EvaluatedFit& found);

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "pipelines/frames/angle.h"
-#include "pipelines/spin/types/alignment_evidence.h"
+#include "pipelines/spin/types/spin_alignment_evidence.h"
 #include "pipelines/statistics/distributions.h"
 #include "pipelines/statistics/significance.h"
 #include "pipelines/statistics/symmetric_eigen.h"

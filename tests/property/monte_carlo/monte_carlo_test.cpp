@@ -7,6 +7,7 @@
 
 #include "pipelines/statistics/distributions.h"
 #include "services/simulation/statistics.h"
+#include "tests/support/exact_mission.h"
 #include "tests/support/temporary_folder.h"
 #include "tests/support/test_paths.h"
 #include "tests/support/text_of.h"
@@ -18,7 +19,8 @@ constexpr std::int64_t kRuns = 100;
 /// Runs a delivered scenario with random attitude and rate.
 MonteCarloResult runs_of(const char* name) {
   const TemporaryFolder folder;
-  const auto scenario = folder.write("scenario.toml", text_of(scenarios() / name) + R"(
+  const auto scenario =
+      folder.write("scenario.toml", text_of(scenarios() / name) + std::string{kExactThreeAxis} + R"(
 [[dispersions]]
 key = "attitude.euler312_icrf_deg"
 range = 180

@@ -4,6 +4,8 @@
 
 namespace spindrift::testing::attitude_alignment_test {
 
-TEST(AttitudeAlignmentStatistics, SigmaHoldsWhereTheMissionFileIsOffAsStated) { expect_sigma_that_holds(30); }
+TEST(AttitudeAlignmentStatistics, SigmaHoldsWhereTheMissionFileIsOffAsStated) {
+  expect_sigma_that_holds(30);
+}
 
 }  // namespace spindrift::testing::attitude_alignment_test

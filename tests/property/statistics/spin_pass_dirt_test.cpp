@@ -49,7 +49,7 @@ void expect_numbers(const SpinOutput& output) {
     ASSERT_TRUE(estimate.covariance_rad2.allFinite());
     ASSERT_TRUE(std::isfinite(estimate.spin_rate_rad_s));
     ASSERT_TRUE(std::isfinite(estimate.spin_rate_sigma_rad_s));
-    ASSERT_LE(sentence_of(estimate.assessment).size(), 63U) << sentence_of(estimate.assessment);
+    ASSERT_LE(sentence_of(estimate.assessment).size(), 95U) << sentence_of(estimate.assessment);
   }
 }
 

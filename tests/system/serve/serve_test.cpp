@@ -11,6 +11,7 @@
 #include "tests/support/archive_rows.h"
 #include "tests/support/bus_child.h"
 #include "tests/support/bus_fixture.h"
+#include "tests/support/exact_mission.h"
 #include "tests/support/matchers.h"
 #include "tests/support/on_bus.h"
 #include "tests/support/processed.h"
@@ -169,6 +170,7 @@ TEST(Serve, LeavesTheSpacecraftOfOthersAlone) {
 TEST(Serve, SaysThatTheHostsClockDiffersAndAtTheEndWhichEstimatorsDisagree) {
   const PassCopy pass{"nominal"};
   pass.replace("mount_angle_deg = 85", "mount_angle_deg = 86");
+  pass.append(kExactSpin);
   ReadyService service{pass.folder.path().string()};
   ASSERT_TRUE(service.serves_its_pass()) << service.log();
   const std::string log = service.log();

@@ -126,7 +126,7 @@ TEST(ReconstructBatch, FindsJunoAndDawn) {
     const RecordedSeparation pass = recorded_separation(name);
     const Reconstruction found = batch(pass.request());
     expect_separation(pass, found, limit_deg);
-    EXPECT_LT(degrees(sigma_rad(at(found, Separation))), 1.0);
+    EXPECT_LT(degrees(at(found, Separation).attitude.noise_sigma_rad()), 1.0);
     EXPECT_NE(found.assessment.quality, Quality::Doubtful);
   }
 }

@@ -46,7 +46,8 @@ class ThreeAxisPassTest : public ::testing::Test {
     }
     return out;
   }
-  std::size_t estimates() const { return products_.size() - rejected().size(); }
+  std::size_t estimates() const { return of_kind<AttitudeEstimate>(products_).size(); }
+  AttitudeEstimate last() const { return of_kind<AttitudeEstimate>(products_).back(); }
 
   std::mt19937_64 rng_{91};
   ThreeAxisConfig config_ = usual_three_axis();
@@ -73,9 +74,8 @@ TEST_F(ThreeAxisPassTest, StarSunAndGyroMakeAnAttitude) {
     gyro(second, second + 1.0);
   }
   add(pass_.finish());
-  const auto& last = std::get<AttitudeEstimate>(products_.back());
-  EXPECT_EQ(last.assessment.quality, Quality::Ok);
-  EXPECT_LT(degrees(error_rad(last.q_icrf_body, body_.q_icrf_body(39.75)).norm()), 0.01);
+  EXPECT_EQ(last().assessment.quality, Quality::Ok);
+  EXPECT_LT(degrees(error_rad(last().q_icrf_body, body_.q_icrf_body(39.75)).norm()), 0.01);
   EXPECT_THAT(rejected(), IsEmpty());
   EXPECT_THAT(notices_, IsEmpty());
   EXPECT_EQ(pass_.sensors().at(index_of(SampleKind::Sun)).accepted, 40);
@@ -210,7 +210,7 @@ TEST_F(ThreeAxisPassTest, ASilentStreamIsComputedToItsEnd) {
   const std::size_t before = estimates();
   add(pass_.fall_silent());
   EXPECT_EQ(estimates(), before + 4);
-  EXPECT_EQ(std::get<AttitudeEstimate>(products_.back()).t, at_s(4.75));
+  EXPECT_EQ(last().t, at_s(4.75));
   add(pass_.push(sensors_.gyro(4.5)));
   EXPECT_THAT(rejected(), IsEmpty());  // The sample is already known.
   add(pass_.push(sensors_.star(4.6)));
@@ -253,7 +253,6 @@ class MagnetometerPassTest : public ThreeAxisPassTest {
     }
     add(pass_.finish());
   }
-  AttitudeEstimate last() const { return std::get<AttitudeEstimate>(products_.back()); }
 
   Orbit orbit_{KeplerOrbit::through(at_s(-10.0), state_towards(sun_icrf_, 1.0).state).value()};
   MainFieldModel model_ = igrf().value();

@@ -11,15 +11,15 @@
 namespace spindrift {
 
 /// Holds the normal equations of the errors, with all other unknowns eliminated.
-struct AlignmentEvidence {
+struct SpinAlignmentEvidence {
   SpinAlignment information = SpinAlignment::Zero();
   SpinAlignmentVector score = SpinAlignmentVector::Zero();
 };
 
 /// Returns the evidence about the errors, with the offsets of the channels eliminated.
 /// @param information, score Of all considered parameters, with all other unknowns eliminated.
-AlignmentEvidence beside_offsets(const ConsideredPrior& information, const ConsideredVector& score,
-                                 const ConsideredPrior& prior);
+SpinAlignmentEvidence beside_offsets(const ConsideredPrior& information,
+                                     const ConsideredVector& score, const ConsideredPrior& prior);
 
 /// Holds how far an error goes beyond what the mission file states, in its unit.
 struct AlignmentExcess {
@@ -30,7 +30,7 @@ struct AlignmentExcess {
 
 /// Returns the single error that explains most of what errors within their prior leave over; empty
 /// where the measurements depend on none.
-std::optional<AlignmentExcess> worst_excess(const AlignmentEvidence& evidence,
+std::optional<AlignmentExcess> worst_excess(const SpinAlignmentEvidence& evidence,
                                             const SpinAlignment& prior);
 
 }  // namespace spindrift

@@ -1,13 +1,13 @@
-#include "pipelines/spin/types/alignment_evidence.h"
+#include "pipelines/spin/types/spin_alignment_evidence.h"
 
 #include <Eigen/LU>
 
 namespace spindrift {
 
-AlignmentEvidence beside_offsets(const ConsideredPrior& information, const ConsideredVector& score,
-                                 const ConsideredPrior& prior) {
-  AlignmentEvidence evidence{.information = of_alignment(information),
-                             .score = score.tail<kSpinAlignmentErrors>()};
+SpinAlignmentEvidence beside_offsets(const ConsideredPrior& information,
+                                     const ConsideredVector& score, const ConsideredPrior& prior) {
+  SpinAlignmentEvidence evidence{.information = of_alignment(information),
+                                 .score = score.tail<kSpinAlignmentErrors>()};
   Considered<kSpinAlignmentErrors, kChannelOffsets> offsets;
   offsets.shared = information.bottomLeftCorner<kSpinAlignmentErrors, kChannelOffsets>();
   offsets.own = information.topLeftCorner<kChannelOffsets, kChannelOffsets>();
@@ -17,7 +17,7 @@ AlignmentEvidence beside_offsets(const ConsideredPrior& information, const Consi
   return evidence;
 }
 
-std::optional<AlignmentExcess> worst_excess(const AlignmentEvidence& evidence,
+std::optional<AlignmentExcess> worst_excess(const SpinAlignmentEvidence& evidence,
                                             const SpinAlignment& prior) {
   const auto& [information, score] = evidence;
   const SpinAlignment known =
