@@ -241,7 +241,7 @@ FixGeometry PassScene::fix(const Sky& sky, const PassGeometry& geometry) const {
   const auto truest = std::min_element(
       found->candidates.begin(), found->candidates.end(),
       [&](const auto& a, const auto& b) { return from_truth_rad(a) < from_truth_rad(b); });
-  fix.sigma_rad = std::sqrt(truest->covariance_rad2.trace());
+  fix.sigma_rad = std::sqrt(truest->total_covariance_rad2().trace());
   return fix;
 }
 

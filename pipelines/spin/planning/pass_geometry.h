@@ -69,7 +69,7 @@ struct FixGeometry {
   int geometry_case;  ///< Case in pipelines/spin/fix/README.md; 0: nothing of an axis.
   std::size_t axes;   ///< How many candidates one turn leaves; 0: there is no fix.
   bool told_apart;    ///< Whether the geometry alone shows which is true.
-  /// One standard deviation from the noise of the edges, both axes together. Empty: no fix.
+  /// One standard deviation by noise and alignment, both directions together. Empty: no fix.
   std::optional<double> sigma_rad;
 };
 
