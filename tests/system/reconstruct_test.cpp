@@ -144,7 +144,7 @@ TEST(Reconstruct, SaysWhatTheLauncherIsOffByAndWhichEventsWereFound) {
   const Ran program = succeeded({"reconstruct", "--mission", mission, "--telemetry", pass, "--db",
                                  folder.path() / "out.db", "--plot", plot});
   EXPECT_THAT(program.out, HasSubstr("T4 first star fix       2026-03-01T04:05:00.000Z  found"));
-  EXPECT_THAT(program.out, HasSubstr("batch: 0.0"));
+  EXPECT_THAT(program.out, HasSubstr("batch: 0.153 deg apart at T1"));
   EXPECT_THAT(program.out, HasSubstr("of 3 degrees of freedom: inside 99 %"));
   EXPECT_THAT(text_of(plot), HasSubstr(">T4</text>"));
   EXPECT_EQ(number_of(folder.path() / "out.db",
