@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "tests/support/exact_mission.h"
 #include "tests/support/lines.h"
 #include "tests/support/matchers.h"
 #include "tests/support/processed.h"
@@ -93,9 +94,11 @@ TEST(Geometry, GivesOneObject) {
 }
 
 TEST(Geometry, NoiseInAngleGoesWithTheRate) {
-  const auto fix_sigma_deg = [](const char* rpm) {
-    return planned(arguments_with(
-        {{"--rpm", rpm}, {"--step", "600"}, {"--json", ""}}))["steps"][0]["fix_sigma_deg"]
+  const PassCopy exact{"nominal"};
+  exact.append(kExactSpin);
+  const auto fix_sigma_deg = [&](const char* rpm) {
+    return planned(arguments_with({{"--rpm", rpm}, {"--step", "600"}, {"--json", ""}},
+                                  exact.mission().string()))["steps"][0]["fix_sigma_deg"]
         .get<double>();
   };
   // The Earth direction moves slightly less in a shorter turn, so the ratio is not exactly 2.
