@@ -29,7 +29,7 @@ std::optional<ErrorBeyond> AlignmentEvidence::beyond() const {
     }
     const Covariance stated = prior_.block<kCount, kCount>(first, first);
     const Covariance shown = stated - covariance_.block<kCount, kCount>(first, first);
-    const Covariance little = 1e-3 * stated.trace() / kCount * Covariance::Identity();
+    const Covariance little = 1e-2 * stated.trace() / kCount * Covariance::Identity();
     const Eigen::LDLT<Covariance> solver{shown + little};
     const double square = off.dot(solver.solve(off));
     if (square <= kFarOffPriorSigmas * kFarOffPriorSigmas ||
