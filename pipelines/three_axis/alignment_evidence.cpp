@@ -30,7 +30,7 @@ std::optional<ErrorBeyond> error_beyond(const FilterErrors& estimate, const Filt
     }
     const Covariance stated = prior.block<kCount, kCount>(first, first);
     const Covariance shown = stated - left.block<kCount, kCount>(first, first);
-    const Covariance little = 1e-3 * stated.trace() / kCount * Covariance::Identity();
+    const Covariance little = 1e-2 * stated.trace() / kCount * Covariance::Identity();
     const Eigen::LDLT<Covariance> solver{shown + little};
     const double square = off.dot(solver.solve(off));
     if (square <= kFarOffPriorSigmas * kFarOffPriorSigmas ||

@@ -103,6 +103,20 @@ void Mekf::propagate(const RateSpan& span, const SpanErrors& errors) {
   const TurnPerError by_bias = per_bias * per_error_.bottomRows<3>();
   per_error_.topRows<3>() = turned(per_error_.topRows<3>(), vector_rad, back, jacobian) + by_bias;
   rate_rad_s_ = span.to_rad_s - bias_rad_s_;
+
+  const Matrix3d by_turn = back * turn_noise_.leftCols<3>() * back.transpose();
+  turn_noise_.rightCols<3>() = back * turn_noise_.rightCols<3>();
+  turn_noise_.leftCols<3>() = by_turn + turn_noise_.rightCols<3>() * per_bias.transpose() +
+                              errors.turn_rad2 * Matrix3d::Identity();
+}
+
+/// Errors of scale and axes act on the true turn. The noise of the measured turn also moves the
+/// attitude, so that the innovations would seem to measure these errors. What the innovation says
+/// of that noise is taken out.
+/// @param weighted Innovation by its covariance, in the components of the error.
+void Mekf::correct_turn(const Eigen::Matrix<double, 6, 1>& weighted) {
+  per_error_.topRows<3>() = turned(per_error_.topRows<3>(), turn_noise_ * weighted,
+                                   Matrix3d::Identity(), Matrix3d::Identity());
 }
 
 template <int kSize>
@@ -135,6 +149,9 @@ double Mekf::work_in(const Observed& observed) {
     const auto seen = seen_from<kSize>(q_icrf_body_ * quaternion_by(here_rad), observed);
     slope.template leftCols<3>() = seen.axes * right_jacobian(here_rad);
     update.emplace(covariance_, slope, seen.sigma_rad * seen.sigma_rad * Update::Noise::Identity());
+    if (pass == 0) {
+      correct_turn(slope.transpose() * update->expected.llt().solve(seen.turn_rad));
+    }
     per_error = slope * per_error_ + seen.per_error;
     if (pass == 0) {
       left = evidence_.add<kSize>(seen.turn_rad, per_error, update->expected);
@@ -153,6 +170,8 @@ double Mekf::work_in(const Observed& observed) {
   bias_rad_s_ += error.tail<3>();
   rate_rad_s_ -= error.tail<3>();
   per_error_ -= update->gain * per_error;
+  const Covariance left_of_error = Covariance::Identity() - update->gain * slope;
+  turn_noise_ = left_of_error.topLeftCorner<3, 3>() * turn_noise_ * left_of_error.transpose();
   per_error_.topRows<3>() = moved * per_error_.topRows<3>();
   return left;
 }

@@ -31,6 +31,7 @@ class MisalignedSensors {
   StarFix star(double t_s);
   Eigen::Vector3d sun(double t_s, const Eigen::Vector3d& ref_icrf);
   Eigen::Vector3d field_nt(double t_s, const Eigen::Vector3d& ref_icrf_nt);
+  const Eigen::Vector3d& bias_rad_s() const { return sensors_.bias_rad_s(); }
 
  private:
   Eigen::Quaterniond turned_by(double t_s, int mounting, int time_tag) const;

@@ -8,6 +8,7 @@
 #include "pipelines/three_axis/three_axis_pass.h"
 #include "tests/support/matchers.h"
 #include "tests/support/misaligned_pass.h"
+#include "tests/support/of_kind.h"
 
 namespace spindrift::testing::attitude_alignment_test {
 
@@ -151,6 +152,33 @@ TEST(AttitudeAlignment, AMisplacedStarTrackerAloneIsInTheSigma) {
   for (const JudgedAttitude& row : flown(kStar, error, default_alignment()).rows) {
     EXPECT_NEAR(row.sigmas(), 0.05 / (std::sqrt(3.0) * 0.01), 1.2) << row.t_s;
   }
+}
+
+/// The noise of the gyro is in the measured turn and moves the attitude as a scale error would.
+TEST(AttitudeAlignment, TheNoiseOfAGyroOnASteadyBodyIsNoErrorOfItsScale) {
+  std::mt19937_64 rng{4623};
+  ThreeAxisConfig config = usual_three_axis();
+  config.gyro->noise_rad_s = 0.01 * kRadPerDeg;
+  config.alignment = default_alignment().cwiseAbs2().asDiagonal();
+  const TurningBody body{any_attitude(rng), 1001.0, [](double) {
+                           return Vector3d{0.001, -0.0005, 0.0};
+                         }};
+  Sensors sensors{body, config, rng};
+  AttitudeEstimator estimator{config};
+  AttitudeEstimator::Products products;
+  for (int i = 0; i <= 4000; ++i) {
+    estimator.push(sensors.gyro(0.25 * i), products);
+    if (i % 4 == 0) {
+      estimator.push(sensors.star(0.25 * i), products);
+    }
+  }
+  for (const AttitudeEstimate& row : of_kind<AttitudeEstimate>(products)) {
+    ASSERT_FALSE(has(row.assessment, ReasonCode::AlignmentOff)) << key_of(row);
+  }
+  const AlignmentEvidence& evidence = estimator.filter()->evidence();
+  const Vector3d scale = evidence.score().segment<3>(GyroScaleError);
+  const Matrix3d information = evidence.information().block<3, 3>(GyroScaleError, GyroScaleError);
+  EXPECT_LT(scale.dot(information.ldlt().solve(scale)), 25.0);
 }
 
 TEST(AttitudeAlignment, APassSaysWhatItKnowsOfTheErrorsByName) {
