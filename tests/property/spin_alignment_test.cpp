@@ -4,7 +4,7 @@
 
 #include "pipelines/statistics/distributions.h"
 #include "services/base/assessment_words.h"
-#include "tests/support/misaligned_passes.h"
+#include "tests/support/misaligned_spin_passes.h"
 
 namespace spindrift::testing::spin_alignment_test {
 

@@ -8,7 +8,7 @@
 
 #include "pipelines/statistics/distributions.h"
 #include "services/base/assessment_words.h"
-#include "tests/support/misaligned_passes.h"
+#include "tests/support/misaligned_spin_passes.h"
 
 namespace spindrift::testing::spin_alignment_many_test {
 
@@ -50,7 +50,7 @@ TEST(SpinAlignmentMany, SigmasAreTotal) {
 BatchSolution solution_of(MisalignedPasses& passes, SpinningBody body, SpinAlignmentError error,
                           double off) {
   body.config.alignment = usual_alignment();
-  const MisalignedPass pass = passes.of(body, off * SpinAlignmentVector::Unit(error));
+  const MisalignedSpinPass pass = passes.of(body, off * SpinAlignmentVector::Unit(error));
   const SpinOutput output = run(SpinPass{pass.said, passes.orbit()}, pass.pulses);
   return solved(pass.said, passes.orbit(), output).value();
 }

@@ -22,7 +22,7 @@
 
 namespace spindrift::testing {
 
-struct MisalignedPass {
+struct MisalignedSpinPass {
   SpinConfig said;  ///< What the mission file says.
   Eigen::Vector3d axis_icrf;
   std::vector<Pulse> pulses;
@@ -34,7 +34,7 @@ class MisalignedPasses {
   MisalignedPasses(std::uint64_t seed, double duration_s) : duration_s_{duration_s}, rng_{seed} {}
 
   /// @param states Covariance that the mission file states. @param errors Covariance of its errors.
-  MisalignedPass drawn(const SpinAlignment& states, const SpinAlignment& errors) {
+  MisalignedSpinPass drawn(const SpinAlignment& states, const SpinAlignment& errors) {
     std::normal_distribution<double> normal;
     SpinningBody body = random_body(from_.around, 6.0 * kRadPerDeg, rng_);
     body.config.alignment = states;
@@ -44,7 +44,7 @@ class MisalignedPasses {
   }
 
   /// Returns the pass of this body with errors that the mission file does not have.
-  MisalignedPass of(const SpinningBody& body, const SpinAlignmentVector& errors) {
+  MisalignedSpinPass of(const SpinningBody& body, const SpinAlignmentVector& errors) {
     SpinningBody flown = body;
     flown.config = true_config(body.config, errors);
     const SunEarthEphemeris around =
@@ -89,7 +89,7 @@ struct AlignmentSums {
       squares.at(i) += squared_error(estimate, axis_icrf);
     }
   }
-  void add(const MisalignedPass& pass, const Orbit& orbit) {
+  void add(const MisalignedSpinPass& pass, const Orbit& orbit) {
     const SpinOutput output = run(SpinPass{pass.said, orbit}, pass.pulses);
     for (const SpinEstimate& estimate : all_of<SpinEstimate>(output)) {
       add(estimate, pass.axis_icrf);
