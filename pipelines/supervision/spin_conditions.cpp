@@ -149,7 +149,7 @@ void SpinConditions::evaluate_disagreement(ConditionChanges& changes) {
       std::abs(seconds_between(mean_->t, sequential_->t)) > kApartAtMost_s) {
     return;
   }
-  const double sigma_deg = std::max(sigma_deg_of(*mean_), sigma_deg_of(*sequential_));
+  const double sigma_deg = difference_sigma_rad(*mean_, *sequential_) * kDegPerRad;
   add(disagree_.update(
           std::max(mean_->t, sequential_->t),
           {.value = degrees_between(mean_->axis_icrf, sequential_->axis_icrf) / sigma_deg,

@@ -52,7 +52,7 @@ constexpr std::array<Words, kAlertCodes> kWords{{
     {SpinDoubtful, "the answer in force is DOUBTFUL",
      "check mounting angles, noise, horizon and orbit of the mission file"},
     {SpinSigma, "sigma of the answer in force", "wait, or look which channels give nothing"},
-    {SpinDisagree, "mean and sequential apart, times the larger sigma",
+    {SpinDisagree, "mean and sequential apart, times the sigma of their difference",
      "use neither before one of them says why"},
     {SpinOffTarget, "spin axis away from its target", "check [spin.target] and the manoeuvre"},
     {SpinNutation, "half-angle of the nutation", "let it decay before the next manoeuvre"},

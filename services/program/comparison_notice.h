@@ -18,7 +18,7 @@
 namespace spindrift {
 
 /// Returns for example "mean and batch disagree: their axes are 0.310 deg apart, 4.2 times the
-/// larger sigma".
+/// sigma of their difference".
 std::string sentence_of(const Disagreement& disagreement);
 
 /// Warns of every pair of estimators in the stored run that disagree, and returns the notices.

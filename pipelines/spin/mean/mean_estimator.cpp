@@ -176,9 +176,13 @@ Eigen::Matrix2d MeanEstimator::alignment_rad2() const {
                                : average_.alignment_rad2();
 }
 
-Eigen::Matrix<double, 3, kSpinAlignmentErrors> MeanEstimator::axis_of_alignment_icrf() const {
+std::optional<AxisShift> MeanEstimator::shift_icrf() const {
+  if (!mean_ || !agrees_with_average()) {
+    return std::nullopt;
+  }
   return -tangent_basis(mean_->equations.axis_icrf()) *
-         mean_->equations.considered_shift().rightCols<kSpinAlignmentErrors>();
+         mean_->equations.considered_shift().rightCols<kSpinAlignmentErrors>() *
+         root_of(config_.alignment);
 }
 
 /// Returns the excess noise of the residuals, or of the fixes where these differ and no model error
@@ -234,7 +238,8 @@ SpinEstimate MeanEstimator::estimate(const Revolution& revolution) const {
           .spin_rate_sigma_rad_s =
               rate_rad_s / revolution.period.period_s * period_sigma_s(revolution.period, noise_),
           .assessment = assess(),
-          .alignment_rad2 = mean_ ? alignment_rad2() : Eigen::Matrix2d{Eigen::Matrix2d::Zero()}};
+          .alignment_rad2 = mean_ ? alignment_rad2() : Eigen::Matrix2d{Eigen::Matrix2d::Zero()},
+          .shift_icrf = shift_icrf()};
 }
 
 /// Returns empty if nothing but the residuals may speak against the mean.

@@ -68,10 +68,8 @@ class MeanEstimator {
   Eigen::Matrix2d covariance_rad2() const;  ///< Total, tangent plane: east, north.
   /// Part of the covariance that errors of the mission file make.
   Eigen::Matrix2d alignment_rad2() const;
-  /// Returns whether the mean is that of the least squares, not the plain average.
-  bool agrees_with_average() const;
-  /// True axis minus this one per error of the mission file, ICRF; of the least squares.
-  Eigen::Matrix<double, 3, kSpinAlignmentErrors> axis_of_alignment_icrf() const;
+  /// Returns how errors of the mission file move the axis; empty of the plain average.
+  std::optional<AxisShift> shift_icrf() const;
   /// Covariance by noise for testing whether the axis has moved. Scatter beyond the stated noise,
   /// which a move causes, does not enlarge it.
   Eigen::Matrix2d covariance_if_moved_rad2() const;
@@ -101,6 +99,8 @@ class MeanEstimator {
   double fix_rad2() const;
   bool less_informative_than_one_fix() const;
   double distance_from_average_rad() const;
+  /// Returns whether the mean is that of the least squares, not the plain average.
+  bool agrees_with_average() const;
   std::optional<Reason> doubt() const;
   Assessment assess() const;
 

@@ -555,15 +555,12 @@ std::optional<AxisChoice> SpinPass::axis_choice() const {
 
 /// Returns the shifts of the last answers; `mean` has none as a plain average.
 std::vector<EstimatorShift> SpinPass::shifts() const {
-  const SpinAlignment root = root_of(config_.alignment);
   std::vector<EstimatorShift> all;
-  if (mean_.count() > 0 && mean_.agrees_with_average()) {
-    all.push_back(
-        {.estimator = SpinEstimator::Mean, .shift_icrf = mean_.axis_of_alignment_icrf() * root});
+  if (const auto of_mean = mean_.shift_icrf()) {
+    all.push_back({.estimator = SpinEstimator::Mean, .shift_icrf = *of_mean});
   }
   if (sequential_.has_begun()) {
-    all.push_back({.estimator = SpinEstimator::Sequential,
-                   .shift_icrf = sequential_.axis_of_alignment_icrf() * root});
+    all.push_back({.estimator = SpinEstimator::Sequential, .shift_icrf = sequential_.shift_icrf()});
   }
   return all;
 }
@@ -672,12 +669,13 @@ void SpinPass::start_again_where_moved(const SpinEstimate& sequential) {
   }
   const double apart_rad = angle_between_rad(mean_.axis_icrf(), sequential.axis_icrf);
   // Errors of the mission file move both axes, and alike as far as both rest on the same angles.
-  const double alignment_rad2 =
-      ((mean_.axis_of_alignment_icrf() - sequential_.axis_of_alignment_icrf()) *
-       root_of(config_.alignment))
-          .squaredNorm();
-  const double sigma_rad = std::sqrt(mean_.covariance_if_moved_rad2().trace() +
-                                     std::pow(noise_sigma_rad(sequential), 2) + alignment_rad2);
+  const auto of_mean = mean_.shift_icrf();
+  const double alignment_rad = of_mean ? (*of_mean - sequential_.shift_icrf()).norm()
+                                       : std::sqrt(mean_.alignment_rad2().trace()) +
+                                             std::sqrt(sequential.alignment_rad2.trace());
+  const double sigma_rad =
+      std::sqrt(mean_.covariance_if_moved_rad2().trace() +
+                std::pow(noise_sigma_rad(sequential), 2) + alignment_rad * alignment_rad);
   if (apart_rad <= std::hypot(kContradictionSigmas * sigma_rad, kModelLimit_rad)) {
     return;
   }

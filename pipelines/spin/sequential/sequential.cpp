@@ -64,7 +64,8 @@ std::optional<SpinEstimate> SequentialEstimator::update(const Revolution& revolu
                           rate_sigma_rad_s(best, config_.noise) * std::sqrt(verdict_.excess_noise),
                           std::sqrt(best.rate_alignment_rad2_s2())),
                       .assessment = assess(),
-                      .alignment_rad2 = alignment_rad2()};
+                      .alignment_rad2 = alignment_rad2(),
+                      .shift_icrf = shift_icrf()};
 }
 
 /// @return True when filters began here.

@@ -84,9 +84,9 @@ class SequentialEstimator {
 
   /// Axis of the published candidate, which must exist.
   Eigen::Vector3d axis_icrf() const { return hypotheses_.published().filter.axis_icrf(); }
-  /// True axis minus that of the published candidate per error of the mission file, ICRF.
-  Eigen::Matrix<double, 3, kSpinAlignmentErrors> axis_of_alignment_icrf() const {
-    return hypotheses_.published().filter.axis_of_alignment_icrf();
+  /// Returns how errors of the mission file move the axis of the published candidate.
+  AxisShift shift_icrf() const {
+    return hypotheses_.published().filter.axis_of_alignment_icrf() * root_of(config_.alignment);
   }
   bool has_begun() const { return !hypotheses_.empty(); }
   std::optional<Hypotheses::Rival> rival() const { return hypotheses_.rival(); }

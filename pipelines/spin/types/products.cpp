@@ -1,6 +1,8 @@
 #include "pipelines/spin/types/products.h"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 
 namespace spindrift {
 
@@ -44,6 +46,15 @@ SettledBy settled_by(Resolution resolution) {
 std::string_view name_of(SpinEstimator estimator) {
   static constexpr std::array<std::string_view, 3> kNames = {"mean", "sequential", "batch"};
   return kNames.at(static_cast<std::size_t>(estimator));
+}
+
+double difference_sigma_rad(const SpinEstimate& one, const SpinEstimate& other) {
+  const double noise_rad = std::max(noise_sigma_rad(one), noise_sigma_rad(other));
+  const double most_rad =
+      std::sqrt(one.alignment_rad2.trace()) + std::sqrt(other.alignment_rad2.trace());
+  const double alignment_rad =
+      one.shift_icrf && other.shift_icrf ? (*one.shift_icrf - *other.shift_icrf).norm() : most_rad;
+  return std::hypot(noise_rad, alignment_rad);
 }
 
 }  // namespace spindrift

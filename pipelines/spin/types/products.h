@@ -156,7 +156,13 @@ struct SpinEstimate {
   Assessment assessment;
   /// Part of the covariance that errors of the mission file make.
   Eigen::Matrix2d alignment_rad2 = Eigen::Matrix2d::Zero();
+  std::optional<AxisShift> shift_icrf = {};  ///< Empty where `alignment_rad2` alone is known.
 };
+
+/// Returns one standard deviation of the angle between the axes of two estimates of one pass. Of
+/// noise that is the larger of the two, since estimators of the same edges differ by no more than
+/// the worse of them errs; errors of the mission file are the same for both.
+double difference_sigma_rad(const SpinEstimate& one, const SpinEstimate& other);
 
 /// Returns what the sigma of a fix or an estimate would be if the mission file were exact.
 template <class Axis>

@@ -1,6 +1,7 @@
 #include "pipelines/spin/types/products.h"
 
 #include <array>
+#include <cmath>
 #include <utility>
 
 #include "tests/support/matchers.h"
@@ -75,6 +76,29 @@ TEST(SpinProducts, AChannelIsFoundByItsExactNameOnly) {
   for (const auto* const wrong : {"", "sun", "sun3", "SUN1", " sun1", "sun1\r", "north"}) {
     EXPECT_FALSE(pulse_channel_from(wrong)) << wrong;
   }
+}
+
+SpinEstimate estimate_of(double noise_rad, const AxisShift& shift_icrf) {
+  SpinEstimate estimate{};
+  estimate.shift_icrf = shift_icrf;
+  estimate.alignment_rad2(0, 0) = shift_icrf.squaredNorm();
+  estimate.covariance_rad2 = estimate.alignment_rad2;
+  estimate.covariance_rad2(1, 1) = noise_rad * noise_rad;
+  return estimate;
+}
+
+TEST(SpinProducts, WhatErrorsOfTheMissionFileMoveAlikeDoesNotTellTwoEstimatesApart) {
+  AxisShift shift_icrf = AxisShift::Zero();
+  shift_icrf(0, NorthMountAngleError) = 0.3;
+  const SpinEstimate one = estimate_of(0.03, shift_icrf);
+  SpinEstimate other = estimate_of(0.02, shift_icrf);
+  EXPECT_NEAR(difference_sigma_rad(one, other), 0.03, 1e-12);
+  // The other is moved by 0.04 rad less, which is not known without its shift.
+  shift_icrf(0, NorthMountAngleError) = 0.26;
+  other = estimate_of(0.02, shift_icrf);
+  EXPECT_NEAR(difference_sigma_rad(one, other), 0.05, 1e-12);
+  other.shift_icrf.reset();
+  EXPECT_NEAR(difference_sigma_rad(one, other), std::hypot(0.03, 0.3 + 0.26), 1e-12);
 }
 
 }  // namespace spindrift::products_test
