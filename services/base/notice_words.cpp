@@ -135,7 +135,8 @@ constexpr std::array<NoticePattern, kNoticeCodes> kNoticePatterns{{
      "uncertain by more than 3 deg"},
     {LittleLeverage, "little_leverage",
      "poor leverage: errors of {error_deg:.2f} deg in mounting or limb move the axis by "
-     "{moved_deg:.1f} deg; sigma includes no more of them than the edges show"},
+     "{moved_deg:.1f} deg; sigma has those that [spin.alignment] states and the "
+     "edges show"},
     {NotFinite, "not_finite",
      "results are withheld: {column} of {table} is not a finite number. The samples are stored; "
      "look for a value in the mission file that no instrument has"},

@@ -24,7 +24,7 @@ Matrix3d gyro_matrix(const AlignmentErrors& errors) {
   gyro.diagonal() += errors.segment<3>(GyroScaleError);
   int i = GyroAxisError;
   for (const auto& [row, column] : {std::pair{0, 1}, std::pair{0, 2}, std::pair{1, 0},
-                                   std::pair{1, 2}, std::pair{2, 0}, std::pair{2, 1}}) {
+                                    std::pair{1, 2}, std::pair{2, 0}, std::pair{2, 1}}) {
     gyro(row, column) += errors[i++];
   }
   return gyro;
