@@ -38,10 +38,9 @@ struct Judged {
 Judged judged(const ChainSolution& fine) {
   const SolvedChain& solved = fine.solved;
   ChainInformation known = information_of(solved.chain, solved.state);
-  return {.fine = fine,
-          .known = known,
-          .errors = errors_of(known, solved.chain.noise),
-          .file = fitted_file(known, solved.chain.noise, solved.state)};
+  const SharedErrors errors = errors_of(known, solved.chain.noise);
+  const FittedFile file = fitted_file(known, solved.chain.noise, solved.state);
+  return {.fine = fine, .known = std::move(known), .errors = errors, .file = file};
 }
 
 SensorResiduals sun_residuals(const Observations& all, const Judged& judged,
@@ -119,12 +118,12 @@ std::vector<OpenBiasDirection> open_directions(const Observations& all, const Ch
 }
 
 /// @param gyro_noise_rad_s Noise that the turns of the chain were built with.
-NodeEstimates nodes_of(const SolvedChain& solved, const ChainInformation& known,
+NodeEstimates nodes_of(const SolvedChain& solved, ChainInformation known,
                        const SharedErrors& errors, double gyro_noise_rad_s) {
   return {.times_s = solved.chain.times_s,
           .q_icrf_body = solved.state.q_icrf_body,
-          .own_rad2 = known.own_rad2,
-          .per_shared = known.per_shared,
+          .own_rad2 = std::move(known.own_rad2),
+          .per_shared = std::move(known.per_shared),
           .bias_rad_s = solved.state.bias_rad_s,
           .shared = errors,
           .gyro_noise_rad_s = gyro_noise_rad_s};
@@ -137,7 +136,7 @@ NodeEstimates bounds_of(const ReconstructionRequest& request, const Observations
   const ChainSolution& fine = judged.fine;
   const ChainState& state = fine.solved.state;
   const double stated_rad_s = request.sensors.gyro->noise_rad_s;
-  ChainInformation known = judged.known;
+  std::optional<ChainInformation> quieter;
   ChainNoise noise = fine.solved.chain.noise;
   if (fine.louder_sun > 1.0 || fine.louder_star > 1.0 || all.gyro_noise_rad_s > stated_rad_s) {
     Chain stated = fine.solved.chain;
@@ -146,9 +145,10 @@ NodeEstimates bounds_of(const ReconstructionRequest& request, const Observations
     for (Turn& turn : stated.turns) {
       turn.covariance_rad2 *= std::pow(stated_rad_s / all.gyro_noise_rad_s, 2);
     }
-    known = information_of(stated, state);
+    quieter = information_of(stated, state);
     noise = stated.noise;
   }
+  const ChainInformation& known = quieter ? *quieter : judged.known;
   NodeEstimates bounds{
       .times_s = {},
       .q_icrf_body = {},
@@ -168,10 +168,10 @@ NodeEstimates bounds_of(const ReconstructionRequest& request, const Observations
 }
 
 std::vector<ReconstructedEvent> bounded_events(const ReconstructionRequest& request,
-                                               const Observations& all, const Judged& judged,
-                                               const History& history) {
+                                               const Observations& all, const History& history,
+                                               const NodeEstimates& bounds) {
   std::vector<ReconstructedEvent> events = events_of(all, history);
-  const History bound = history_of(request, all, bounds_of(request, all, judged));
+  const History bound = history_of(request, all, bounds);
   for (std::size_t i = 0; i < events.size(); ++i) {
     events[i].bound_rad = bound.attitudes[bound.events[i]].sigma_rad();
   }
@@ -187,17 +187,18 @@ Expected<Reconstruction> reconstruct_batch(const ReconstructionRequest& request,
     return Unexpected{fine.error()};
   }
   const SolvedChain& solved = fine->solved;
-  const Judged at = judged(*fine);
-  History history =
-      history_of(request, all, nodes_of(solved, at.known, at.errors, all.gyro_noise_rad_s));
+  Judged at = judged(*fine);
   const Matrix3d bias_covariance_rad2_s2 =
       at.errors.total.block<3, 3>(SharedGyroBias, SharedGyroBias);
   std::vector<Observation> said;
   const SensorResiduals sun = sun_residuals(all, at, said);
   const SensorResiduals star = star_residuals(at, said);
   add_gyro_left_out(all, said);
+  const NodeEstimates bounds = bounds_of(request, all, at);
+  History history = history_of(
+      request, all, nodes_of(solved, std::move(at.known), at.errors, all.gyro_noise_rad_s));
   Reconstruction result{.method = ReconstructionMethod::Batch,
-                        .events = bounded_events(request, all, at, history),
+                        .events = bounded_events(request, all, history, bounds),
                         .history = std::move(history.attitudes),
                         .bias = GyroBias{solved.state.bias_rad_s, bias_covariance_rad2_s2},
                         .misalignment = std::nullopt,

@@ -26,12 +26,11 @@ struct Information {
   }
 };
 
-/// Holds error_node = turned error_(node + 1) - turned slopes (errors of the gyro) + noise, and the
-/// information on the node without that noise.
+/// Holds error_node = turned (error_(node + 1) - slopes (errors of the gyro)) + noise, with the
+/// slopes of the turn, and the information on the node without that noise.
 struct Link {
   Matrix3d turned;
   Matrix3d noise;
-  PerTurnError slopes;
   Matrix3d left;  ///< Share of the node's information that the noise leaves.
   Information passed_on;
 };
@@ -43,14 +42,12 @@ Link pass_on(const Turn& turn, const Matrix3d& turned, Information& at) {
   const Matrix3d left = (Matrix3d::Identity() + at.node * noise).inverse();
   const Link link{.turned = turned,
                   .noise = noise,
-                  .slopes = turned * turn.per_error(),
                   .left = left,
                   .passed_on = {.node = left * at.node, .mixed = left * at.mixed}};
-  at.mixed = link.passed_on.mixed;
-  at.mixed.middleCols<kTurnErrors>(SharedGyroBias) -= link.passed_on.node * link.slopes;
-  at.mixed = turned.transpose() * at.mixed;
   const Matrix3d next = turned.transpose() * link.passed_on.node * turned;
   at.node = 0.5 * (next + next.transpose());
+  at.mixed = turned.transpose() * link.passed_on.mixed;
+  at.mixed.middleCols<kTurnErrors>(SharedGyroBias) -= next * turn.per_error();
   return link;
 }
 
@@ -77,12 +74,14 @@ class Smoother {
   }
 
   /// @param off_rad How far the solution's turn is off the measured one.
-  void step_back(const Link& link, const Vector3d& off_rad) {
+  void step_back(const Link& link, const Turn& turn, const Vector3d& off_rad) {
+    const PerTurnError slopes = turn.per_error();
+    per_shared_.middleCols<kTurnErrors>(SharedGyroBias) -= slopes;
     per_shared_ = link.turned * per_shared_;
-    per_shared_.middleCols<kTurnErrors>(SharedGyroBias) -= link.slopes;
     const PerShared pull = link.passed_on.node * per_shared_ + link.passed_on.mixed;
-    known_.shared.middleRows<kTurnErrors>(SharedGyroBias) -= link.slopes.transpose() * pull;
-    known_.score -= pull.transpose() * (link.turned * off_rad);
+    const PerShared pull_later = link.turned.transpose() * pull;
+    known_.shared.middleRows<kTurnErrors>(SharedGyroBias) -= slopes.transpose() * pull_later;
+    known_.score -= pull_later.transpose() * off_rad;
     per_shared_ -= link.noise * pull;
     const Matrix3d kept = (Matrix3d::Identity() - link.noise * link.passed_on.node) * link.turned;
     const Matrix3d gain = link.noise * link.left;
@@ -146,7 +145,7 @@ ChainInformation information_of(const Chain& chain, const ChainState& state) {
   Smoother smoother{at, nodes};
   for (std::size_t i = nodes; i-- > 0;) {
     if (i + 1 < nodes) {
-      smoother.step_back(links[i], gyro_residual(chain, i, state));
+      smoother.step_back(links[i], chain.turns[i], gyro_residual(chain, i, state));
     }
     smoother.see(i);
     for (; sun != chain.sun.begin() && std::prev(sun)->node == i; --sun) {

@@ -124,11 +124,7 @@ void RateTrack::append(Turn& turn, std::size_t step, double from_s, double to_s,
   const Vector3d vector_rad = 0.5 * h_s * (first + last) + h_s * h_s / 12.0 * first.cross(last);
   const Matrix3d vector_per_bias_s =
       -h_s * Matrix3d::Identity() + h_s * h_s / 12.0 * cross_matrix(last - first);
-  const PerGyroError first_slopes = measured_per_gyro_error(first);
-  const PerGyroError last_slopes = measured_per_gyro_error(last);
-  const PerGyroError vector_per_gyro_error =
-      -0.5 * h_s * (first_slopes + last_slopes) +
-      h_s * h_s / 12.0 * (cross_matrix(last) * first_slopes - cross_matrix(first) * last_slopes);
+  const PerGyroError vector_per_gyro_error = -h_s * measured_per_gyro_error(0.5 * (first + last));
   const Eigen::Quaterniond q = quaternion_by(vector_rad);
   const Matrix3d back = q.toRotationMatrix().transpose();
   const Matrix3d jacobian = right_jacobian(vector_rad);

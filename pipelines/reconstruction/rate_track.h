@@ -36,7 +36,8 @@ struct Turn {
   Eigen::Quaterniond turn = Eigen::Quaterniond::Identity();
   /// Derivative with respect to the bias: turn(bias + db) = turn quaternion_by(J db) for small db.
   Eigen::Matrix3d per_bias_s = Eigen::Matrix3d::Zero();
-  /// Derivative with respect to the gyro's scale and axis errors, likewise.
+  /// Derivative with respect to the gyro's scale and axis errors, likewise; to second order in the
+  /// steps of the samples.
   PerGyroError per_gyro_error = PerGyroError::Zero();
   /// Covariance of small rotations about body axes at the later instant, rad^2.
   Eigen::Matrix3d covariance_rad2 = Eigen::Matrix3d::Zero();

@@ -33,7 +33,7 @@ constexpr std::string_view name_of(SeparationEvent event) {
 }
 
 /// Holds an attitude; covariances are of small rotations about body axes, q_true = q
-/// quaternion_by(error).
+/// quaternion_by(error), by noise and by what the mission file may be off by.
 struct ReconstructedAttitude {
   TaiTime t;
   Eigen::Quaterniond q_icrf_body;
@@ -51,7 +51,7 @@ struct ReconstructedEvent {
   bool found;  ///< True if the time was inferred from samples.
   ReconstructedAttitude attitude;
   /// Cramer-Rao bound of the total error about all three axes, with the stated noise and the
-  /// priors; `batch` only.
+  /// priors of bias and mission file; `batch` only.
   std::optional<double> bound_rad = std::nullopt;
 };
 
