@@ -25,8 +25,8 @@ void put_off(SeparationFlight& flight, const AlignmentErrors& errors,
              const AlignmentErrors& stated_sigmas);
 
 /// Reconstructs flights with errors drawn from what their mission files state, by both methods, and
-/// expects normalised squared errors of T1 within the band, and no answer that nothing speaks
-/// against beyond 5 sigmas.
+/// expects normalised squared errors of T1 within the band, no answer that nothing speaks against
+/// beyond 5 sigmas, and as few doubtful ones as of the same flights with exact mission files.
 /// @param least, most Band of chi-square with three degrees of freedom for each flight.
 void expect_total_sigma(const FlightPlan& plan, int flights, double least, double most);
 
