@@ -79,7 +79,7 @@ class AlignmentEvidence {
   FilterAlignment information_ = FilterAlignment::Zero();
   Vector score_ = Vector::Zero();
   Vector estimate_ = Vector::Zero();
-  FilterAlignment covariance_;  ///< Of the estimate.
+  FilterAlignment covariance_;  ///< Covariance of `estimate_`.
 };
 
 }  // namespace spindrift

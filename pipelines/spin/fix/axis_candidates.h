@@ -25,7 +25,7 @@ namespace spindrift {
 struct AxisCandidate {
   Eigen::Vector3d axis_icrf;        ///< Unit vector.
   Eigen::Matrix2d covariance_rad2;  ///< From edge noise, tangent plane: east, north.
-  /// From errors of the mission file, likewise.
+  /// Covariance that errors of the mission file add, in the same plane.
   Eigen::Matrix2d alignment_rad2 = Eigen::Matrix2d::Zero();
   double norm;  ///< Length of the axis before normalising.
   /// True when the measurements agree: norm - 1 and, with both chords, the half-angle of the disc

@@ -143,7 +143,7 @@ struct AxisChoice {
   /// PassInformation::misfit(). Empty unless `batch`, which alone compares them.
   std::optional<double> delta_chi_square;
   SettledBy settled_by;
-  std::vector<EstimatorShift> shifts = {};  ///< Of the answers of the pass, or of `batch`.
+  std::vector<EstimatorShift> shifts = {};  ///< Shifts of all answers at `t`.
 };
 
 struct SpinEstimate {
