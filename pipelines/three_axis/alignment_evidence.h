@@ -1,5 +1,5 @@
 /// @file
-/// What the innovations of a filter say of the errors of the mission file.
+/// This file holds what the innovations of a filter say of the errors of the mission file.
 ///
 /// With the sensitivity S of its state to the errors b, a filter that assumes b = 0 has innovations
 ///

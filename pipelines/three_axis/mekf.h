@@ -107,8 +107,8 @@ class Mekf {
 
   Eigen::Quaterniond q_icrf_body_;
   Eigen::Vector3d bias_rad_s_ = Eigen::Vector3d::Zero();
-  Eigen::Vector3d rate_rad_s_ = Eigen::Vector3d::Zero();  ///< Without bias; 0 until propagated.
-  Covariance covariance_ = Covariance::Zero();            ///< Of the noise.
+  Eigen::Vector3d rate_rad_s_ = Eigen::Vector3d::Zero();  ///< Rate without bias, 0 at first.
+  Covariance covariance_ = Covariance::Zero();            ///< Covariance by noise.
   Sensitivity per_error_ = Sensitivity::Zero();           ///< Derivative of turn and bias.
   /// Covariance of the turn less the measured turn, as it is in `per_error_`, with the error.
   Eigen::Matrix<double, 3, 6> turn_noise_ = Eigen::Matrix<double, 3, 6>::Zero();

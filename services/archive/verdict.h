@@ -23,7 +23,7 @@ struct Disagreement {
   std::string one;  ///< Name of an estimator as in spin_estimate.
   std::string other;
   double apart_deg;
-  double apart_sigmas;  ///< In units of the sigma of their difference.
+  double apart_sigmas;  ///< Angle in sigmas of the difference.
 };
 
 /// Returns the verdicts in the order of `run_ids`, all from the same state of the archive.

@@ -26,7 +26,7 @@ std::optional<AlignmentExcess> worst_excess(const SpinAlignmentEvidence& evidenc
   const SpinAlignmentVector left_score = score - information * known * score;
   std::optional<AlignmentExcess> worst;
   for (int i = 0; i < kSpinAlignmentErrors; ++i) {
-    // What rounding leaves of an error that the unknowns take up explains nothing.
+    // An error that the unknowns take up explains nothing, whatever rounding leaves of it.
     if (!(left(i, i) > 1e-9 * information(i, i))) {
       continue;
     }

@@ -1,5 +1,5 @@
 /// @file
-/// What the measurements of a pass say of the errors of the mission file.
+/// This file holds what the measurements of a pass say of the errors of the mission file.
 
 #pragma once
 
