@@ -56,7 +56,9 @@ Eigen::Matrix2d anywhere_covariance_rad2() {
 }
 
 double wrapped_rad(double angle_rad) {
-  const double wrapped = std::remainder(angle_rad, kTurn_rad);
+  // Most angles are in range, and the remainder, which leaves these as they are, takes long.
+  const double wrapped =
+      std::abs(angle_rad) <= std::numbers::pi ? angle_rad : std::remainder(angle_rad, kTurn_rad);
   return wrapped <= -std::numbers::pi ? std::numbers::pi : wrapped;
 }
 

@@ -1,9 +1,9 @@
 #include "pipelines/observation/oscillation.h"
 
-#include <algorithm>
 #include <cmath>
 #include <vector>
 
+#include "pipelines/statistics/median.h"
 #include "pipelines/statistics/significance.h"
 
 namespace spindrift {
@@ -22,10 +22,10 @@ double noise_of(const std::deque<double>& recent) {
   if (recent.size() < kFewest) {
     return 1.0;
   }
-  std::vector<double> sorted{recent.begin(), recent.end()};
-  std::sort(sorted.begin(), sorted.end());
-  const double lower = sorted[sorted.size() / 4];
-  const double upper = sorted[sorted.size() - 1 - sorted.size() / 4];
+  std::vector<double> values{recent.begin(), recent.end()};
+  const std::size_t quarter = values.size() / 4;
+  const double lower = in_order_at(values, quarter);
+  const double upper = in_order_at(values, values.size() - 1 - quarter);
   const double sigma = kSigmaPerMad * 0.5 * (upper - lower);
   if (sigma < 1.0 + kSignificant / std::sqrt(static_cast<double>(recent.size()))) {
     return 1.0;

@@ -11,6 +11,9 @@
 
 #include <Eigen/Core>
 #include <Eigen/LU>
+#include <array>
+#include <cstddef>
+#include <span>
 
 namespace spindrift {
 
@@ -40,30 +43,79 @@ struct Considered {
   /// Marginalises b over its prior, which leaves the information on x alone. A zero prior means
   /// that b is known and changes nothing.
   /// @param information J'J of x; @param right J'r.
-  void eliminate(const Prior& prior, Eigen::Matrix<double, unknowns, unknowns>& information,
-                 Eigen::Matrix<double, unknowns, 1>& right) const {
-    if ((prior.array() == 0.0).all()) {
-      return;
+  /// @return The decrease of the sum of r^2 when b is fitted with its prior.
+  double eliminate(const Prior& prior, Eigen::Matrix<double, unknowns, unknowns>& information,
+                   Eigen::Matrix<double, unknowns, 1>& right) const {
+    const Unknown unknown{prior};
+    if (unknown.count() == 0) {
+      return 0.0;
     }
-    // The prior may be singular if part of b is known.
-    const Prior known = posterior(prior);
-    information -= shared * known * shared.transpose();
-    right -= shared * known * score;
+    const Some<unknowns> of_unknown = shared(Eigen::all, unknown.indices());
+    const Some<Eigen::Dynamic> known = posterior(prior, unknown);
+    const Some<unknowns> moved = of_unknown.lazyProduct(known);
+    const auto of_score = score(unknown.indices());
+    information -= moved.lazyProduct(of_unknown.transpose());
+    right -= moved.lazyProduct(of_score);
+    return of_score.dot(known.lazyProduct(of_score));
   }
 
   /// Returns b fitted with its prior.
   Eigen::Matrix<double, parameters, 1> estimate(const Prior& prior) const {
-    return posterior(prior) * score;
+    Eigen::Matrix<double, parameters, 1> fitted = Eigen::Matrix<double, parameters, 1>::Zero();
+    if (const Unknown unknown{prior}; unknown.count() > 0) {
+      fitted(unknown.indices()) =
+          posterior(prior, unknown).lazyProduct(score(unknown.indices())).eval();
+    }
+    return fitted;
   }
 
   /// Returns the decrease of the sum of r^2 when b is fitted with its prior.
   double explained(const Prior& prior) const { return score.dot(estimate(prior)); }
 
  private:
-  /// Returns the covariance of b with its prior and known x.
-  Prior posterior(const Prior& prior) const {
-    return (Prior::Identity() + prior * own).partialPivLu().solve(prior);
+  /// Matrix with one column for each unknown parameter.
+  template <int rows>
+  using Some = Eigen::Matrix<double, rows, Eigen::Dynamic, 0,
+                             rows == Eigen::Dynamic ? parameters : rows, parameters>;
+
+  /// Indices of the parameters that the prior, which may be singular, leaves unknown.
+  class Unknown {
+   public:
+    explicit Unknown(const Prior& prior) {
+      for (int i = 0; i < parameters; ++i) {
+        if (prior(i, i) > 0.0) {
+          indices_.at(count_++) = i;
+        }
+      }
+    }
+    std::size_t count() const { return count_; }
+    std::span<const int> indices() const { return {indices_.data(), count_}; }
+
+   private:
+    std::array<int, parameters> indices_{};
+    std::size_t count_ = 0;
+  };
+
+  /// Returns the covariance of the unknown parameters with their prior and known x.
+  Some<Eigen::Dynamic> posterior(const Prior& prior, const Unknown& unknown) const {
+    const std::span<const int> indices = unknown.indices();
+    const auto size = static_cast<Eigen::Index>(unknown.count());
+    const Some<Eigen::Dynamic> of_unknown = prior(indices, indices);
+    const Some<Eigen::Dynamic> relative =
+        Some<Eigen::Dynamic>::Identity(size, size) + of_unknown.lazyProduct(own(indices, indices));
+    return relative.partialPivLu().solve(of_unknown);
   }
 };
+
+/// Returns the covariance that b with this prior gives to a solution.
+/// @param moved Shift of the solution per unit of b: S.
+template <int unknowns, int parameters>
+Eigen::Matrix<double, unknowns, unknowns> covariance_of_moved(
+    const Eigen::Matrix<double, unknowns, parameters>& moved,
+    const Eigen::Matrix<double, parameters, parameters>& prior) {
+  // These sizes are too small for the blocks of a general product to pay.
+  const Eigen::Matrix<double, unknowns, parameters> by_prior = moved.lazyProduct(prior);
+  return by_prior.lazyProduct(moved.transpose());
+}
 
 }  // namespace spindrift

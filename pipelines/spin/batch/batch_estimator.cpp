@@ -147,10 +147,10 @@ std::optional<AlignmentExcess> excess_of(const SpinConfig& config, const Evaluat
 }
 
 /// Returns the fit with edges that are so far off that a wrong model explains them, but no stray.
-EvaluatedFit with_far_edges(const Solved& solved) {
+EvaluatedFit with_far_edges(const Solved& solved, const EvaluatedFit& fit) {
   // Limit of an edge in its sigmas.
   constexpr double kFar = 4.0 * kOutlierSigmas;
-  EvaluatedFit far = solved.of.best;
+  EvaluatedFit far = fit;
   far.information = information_of(solved.model, solved.edges, far.fit.state, kFar);
   return far;
 }
@@ -173,11 +173,16 @@ double as_angle_rad(const PassModel& model, const AlignmentExcess& excess) {
 
 /// Returns the reason where the mission file is off by more than it states, or a bias explains what
 /// it does not.
-/// @param beyond Excess before biases were added. @param culprit The same with far edges.
-std::optional<Reason> model_off(const Solved& solved, const std::optional<AlignmentExcess>& beyond,
-                                const std::optional<AlignmentExcess>& culprit) {
-  const bool added = !solved.model.config().batch.biases && solved.of.best.estimated.any();
-  if (!beyond || !culprit || !(added || beyond->gain > significance_gain())) {
+/// @param unbiased Fit before biases were added.
+std::optional<Reason> model_off(const Solved& solved, const EvaluatedFit& unbiased) {
+  const SpinConfig& config = solved.model.config();
+  const bool added = !config.batch.biases && solved.of.best.estimated.any();
+  const auto beyond = excess_of(config, unbiased);
+  if (!beyond || !(added || beyond->gain > significance_gain())) {
+    return std::nullopt;
+  }
+  const auto culprit = excess_of(config, with_far_edges(solved, unbiased));
+  if (!culprit) {
     return std::nullopt;
   }
   return Reason{ReasonCode::ModelOff,
@@ -343,8 +348,7 @@ Expected<Heard> solve_with_noise(const SpinConfig& config, const Orbit& orbit,
   if (!solved) {
     return Unexpected{solved.error()};
   }
-  const auto beyond = excess_of(config, solved->of.best);
-  const auto culprit = beyond ? excess_of(config, with_far_edges(*solved)) : std::nullopt;
+  const EvaluatedFit unbiased = solved->of.best;
   Eigen::Matrix2d open_rad2 = Eigen::Matrix2d::Zero();
   if (!config.batch.biases) {
     auto added = select_biases(solved->model, solved->edges, solved->of.best);
@@ -392,7 +396,7 @@ Expected<Heard> solve_with_noise(const SpinConfig& config, const Orbit& orbit,
        .at_bound = best.fit.at_bound,
        .coning_by_edges = !config.batch.biases.has_value(),
        .wanted = wanted ? std::optional{wanted->bias} : std::nullopt,
-       .model_off = model_off(*solved, beyond, culprit)});
+       .model_off = model_off(*solved, unbiased)});
   if (const auto step = step_within(orbit_steps(orbit), solved->edges.front().pulse.t,
                                     solved->edges.back().pulse.t)) {
     doubt(solution.estimate.assessment, reason_of(*step));

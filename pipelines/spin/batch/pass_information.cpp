@@ -48,8 +48,7 @@ double PassInformation::excess_noise(int unknowns) const {
 
 PassInformation PassInformation::less_considered(const ConsideredPrior& prior) const {
   PassInformation less = *this;
-  considered.eliminate(prior, less.information, less.score);
-  less.squares -= considered.explained(prior);
+  less.squares -= considered.eliminate(prior, less.information, less.score);
   less.considered = {};
   return less;
 }

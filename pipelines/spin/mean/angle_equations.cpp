@@ -185,12 +185,13 @@ void AngleEquations::add(const SpinConfig& config, const RevolutionMeasurements&
                                                noise_rad.topRows(rows).transpose()};
   const auto white_design = covariance.matrixL().solve(design.topRows(rows)).eval();
   const auto white_off = covariance.matrixL().solve(off_rad.head(rows)).eval();
-  normal_ += white_design.transpose() * white_design;
+  // These sizes are too small for the blocks of a general product to pay.
+  normal_ += white_design.transpose().lazyProduct(white_design);
   right_ += white_design.transpose() * white_off;
   squares_ += white_off.squaredNorm();
   const auto white_considered = covariance.matrixL().solve(by_considered.topRows(rows)).eval();
-  considered_.shared += white_design.transpose() * white_considered;
-  considered_.own += white_considered.transpose() * white_considered;
+  considered_.shared += white_design.transpose().lazyProduct(white_considered);
+  considered_.own += white_considered.transpose().lazyProduct(white_considered);
   considered_.score += white_considered.transpose() * white_off;
   angles_ += rows;
 }
@@ -252,7 +253,7 @@ ErrorInformation AngleEquations::less_axis() const {
   left.information = normal_.bottomRightCorner<kModelErrors, kModelErrors>() - taken * coupling;
   left.score = right_.tail<kModelErrors>() - taken * right_.head<2>();
   left.considered = {.shared = considered_.shared.bottomRows<kModelErrors>() - taken * shared,
-                     .own = considered_.own - of_considered * shared,
+                     .own = considered_.own - of_considered.lazyProduct(shared),
                      .score = considered_.score - of_considered * right_.head<2>()};
   return left;
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <optional>
 #include <vector>
 
@@ -82,12 +83,16 @@ void FixesByCase::begin_at(const Eigen::Vector3d& reference_icrf) {
 
 /// Merges the open stretches of each case, since the settled share of a few fixes means little.
 std::vector<FixesByCase::Group> FixesByCase::groups() const {
-  std::vector<Group> all = closed_;
+  std::vector<Group> all;
+  all.reserve(closed_.size() + open_.size());
+  const auto has_fixes = [](const Group& group) { return group.count > 0; };
+  std::copy_if(closed_.begin(), closed_.end(), std::back_inserter(all), has_fixes);
   for (const auto& [geometry_case, open] : open_) {
-    all.push_back(open.before);
-    all.back() += open.last;
+    if (has_fixes(open.before) || has_fixes(open.last)) {
+      all.push_back(open.before);
+      all.back() += open.last;
+    }
   }
-  std::erase_if(all, [](const Group& group) { return group.count == 0; });
   std::stable_sort(all.begin(), all.end(),
                    [](const Group& a, const Group& b) { return a.share() > b.share(); });
   return all;

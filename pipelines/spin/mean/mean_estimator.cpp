@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <utility>
 
 #include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
@@ -31,7 +32,9 @@ double period_sigma_s(const SpinPeriod& period, const PulseNoise& noise) {
 
 void MeanEstimator::keep(std::int64_t revolution, const RevolutionMeasurements& measured,
                          const SunEarthDirections& sun_earth) {
-  noise_ = measured.noise;
+  if (std::exchange(noise_, measured.noise) != measured.noise && mean_) {
+    conclude();
+  }
   kept_.push_back({.revolution = revolution, .measured = measured, .sun_earth = sun_earth});
   if (kept_.size() > static_cast<std::size_t>(config_.screening.window) + 1) {
     kept_.pop_front();
@@ -68,6 +71,7 @@ void MeanEstimator::leave_out(Kept& kept, const SpinFix& fix) {
     fixes_.leave_out(kept.geometry_case, kept.stretch);
     if (mean_) {
       mean_ = fixes_.mean();
+      conclude();
     }
   }
 }
@@ -94,6 +98,17 @@ void MeanEstimator::settle(Kept& kept, const SpinFix& fix) {
   if (mean_->covariance_rad2.trace() < kLinear_rad * kLinear_rad) {
     verdict_ = test_model(mean_->equations, considered_prior(noise_, config_.alignment));
   }
+  conclude();
+}
+
+/// Chooses between least squares and plain average. Any change of fixes, noise or model calls for
+/// it.
+void MeanEstimator::conclude() {
+  const Eigen::Matrix2d least_squares_rad2 = least_squares_covariance_rad2();
+  by_least_squares_ = agrees_with_average(least_squares_rad2);
+  covariance_rad2_ = by_least_squares_ ? least_squares_rad2 : average_covariance_rad2();
+  alignment_rad2_ = by_least_squares_ ? considered_rad2(considered_prior(config_.alignment))
+                                      : average_.alignment_rad2();
 }
 
 void MeanEstimator::linearise(const Kept& kept, const Eigen::Vector3d& axis_icrf) {
@@ -117,7 +132,7 @@ void MeanEstimator::relinearise() {
     if (angle_between_rad(axis, next) < 1e-5) {
       return;
     }
-    if (!agrees_with_average()) {
+    if (!by_least_squares_) {
       break;
     }
     axis = next;
@@ -133,6 +148,7 @@ void MeanEstimator::linearise_about(const Eigen::Vector3d& axis_icrf) {
     }
   }
   mean_ = fixes_.mean();
+  conclude();
 }
 
 void MeanEstimator::begin_anew(TaiTime t) {
@@ -144,15 +160,12 @@ void MeanEstimator::begin_anew(TaiTime t) {
 }
 
 Eigen::Vector3d MeanEstimator::axis_icrf() const {
-  return agrees_with_average() ? mean_->equations.axis_icrf() : average_.axis_icrf();
+  return by_least_squares_ ? mean_->equations.axis_icrf() : average_.axis_icrf();
 }
 
 /// Errors of a plain average do not average out: it is known as well as one fix, and as well as it
 /// agrees with a least-squares axis that is determined.
-Eigen::Matrix2d MeanEstimator::covariance_rad2() const {
-  if (agrees_with_average()) {
-    return least_squares_covariance_rad2();
-  }
+Eigen::Matrix2d MeanEstimator::average_covariance_rad2() const {
   const double off_rad = less_informative_than_one_fix() ? 0.0 : distance_from_average_rad();
   return average_.covariance_rad2() * average_.excess_scatter() *
              static_cast<double>(average_.count()) +
@@ -167,22 +180,15 @@ Eigen::Matrix2d MeanEstimator::least_squares_covariance_rad2() const {
 }
 
 Eigen::Matrix2d MeanEstimator::considered_rad2(const ConsideredPrior& prior) const {
-  const Eigen::Matrix<double, 2, kSpinConsidered> shift = mean_->equations.considered_shift();
-  return shift * prior * shift.transpose();
-}
-
-Eigen::Matrix2d MeanEstimator::alignment_rad2() const {
-  return agrees_with_average() ? considered_rad2(considered_prior(config_.alignment))
-                               : average_.alignment_rad2();
+  return covariance_of_moved(mean_->equations.considered_shift(), prior);
 }
 
 std::optional<AxisShift> MeanEstimator::shift_icrf() const {
-  if (!mean_ || !agrees_with_average()) {
+  if (!by_least_squares_) {
     return std::nullopt;
   }
   return -tangent_basis(mean_->equations.axis_icrf()) *
-         mean_->equations.considered_shift().rightCols<kSpinAlignmentErrors>() *
-         root_of(config_.alignment);
+         mean_->equations.considered_shift().rightCols<kSpinAlignmentErrors>() * alignment_root_;
 }
 
 /// Returns the excess noise of the residuals, or of the fixes where these differ and no model error
@@ -211,21 +217,21 @@ double MeanEstimator::distance_from_average_rad() const {
 
 /// Tests the distance of least squares and plain average. Besides noise that averages out, the
 /// plain average may be off by the error of one fix.
-bool MeanEstimator::agrees_with_average() const {
+bool MeanEstimator::agrees_with_average(const Eigen::Matrix2d& covariance_rad2) const {
   const double noise_rad2 =
-      fix_rad2() / static_cast<double>(average_.count()) + least_squares_covariance_rad2().trace();
+      fix_rad2() / static_cast<double>(average_.count()) + covariance_rad2.trace();
   return !less_informative_than_one_fix() &&
          distance_from_average_rad() <
              std::sqrt(fix_rad2() + kContradictionSigmas * kContradictionSigmas * noise_rad2);
 }
 
 Eigen::Matrix2d MeanEstimator::covariance_if_moved_rad2() const {
-  if (!agrees_with_average()) {
+  if (!by_least_squares_) {
     return average_.covariance_rad2() * static_cast<double>(average_.count());
   }
   const Eigen::Matrix2d noise_rad2 =
       mean_->covariance_rad2 + considered_rad2(considered_prior(noise_));
-  return excess_noise() > 1.0 ? noise_rad2 : Eigen::Matrix2d{covariance_rad2() - alignment_rad2()};
+  return excess_noise() > 1.0 ? noise_rad2 : Eigen::Matrix2d{covariance_rad2_ - alignment_rad2_};
 }
 
 SpinEstimate MeanEstimator::estimate(const Revolution& revolution) const {
@@ -233,12 +239,12 @@ SpinEstimate MeanEstimator::estimate(const Revolution& revolution) const {
   return {.t = revolution.t_start,
           .estimator = SpinEstimator::Mean,
           .axis_icrf = mean_ ? axis_icrf() : *abandoned_axis_icrf_,
-          .covariance_rad2 = mean_ ? covariance_rad2() : anywhere_covariance_rad2(),
+          .covariance_rad2 = mean_ ? covariance_rad2_ : anywhere_covariance_rad2(),
           .spin_rate_rad_s = rate_rad_s,
           .spin_rate_sigma_rad_s =
               rate_rad_s / revolution.period.period_s * period_sigma_s(revolution.period, noise_),
           .assessment = assess(),
-          .alignment_rad2 = mean_ ? alignment_rad2() : Eigen::Matrix2d{Eigen::Matrix2d::Zero()},
+          .alignment_rad2 = alignment_rad2_,
           .shift_icrf = shift_icrf()};
 }
 
@@ -251,7 +257,7 @@ std::optional<Reason> MeanEstimator::doubt() const {
   if (less_informative_than_one_fix()) {
     return Reason{BeamsNearLimb};
   }
-  if (!agrees_with_average()) {
+  if (!by_least_squares_) {
     return Reason{LeastSquaresOff, {{"deg", degrees(distance_from_average_rad())}}};
   }
   if (excess_noise() > verdict_.excess_noise) {

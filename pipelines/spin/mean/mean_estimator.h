@@ -47,7 +47,9 @@ namespace spindrift {
 class MeanEstimator {
  public:
   explicit MeanEstimator(SpinConfig config)
-      : config_{std::move(config)}, fixes_{static_cast<std::size_t>(config_.screening.window)} {}
+      : config_{std::move(config)},
+        alignment_root_{root_of(config_.alignment)},
+        fixes_{static_cast<std::size_t>(config_.screening.window)} {}
 
   /// Keeps the measurements of a revolution, since its fix may be settled as late as the window of
   /// screening allows.
@@ -65,9 +67,10 @@ class MeanEstimator {
   /// Number of fixes in the mean; axis and covariances need one.
   std::size_t count() const { return mean_ ? mean_->count : 0; }
   Eigen::Vector3d axis_icrf() const;
-  Eigen::Matrix2d covariance_rad2() const;  ///< Total, tangent plane: east, north.
+  /// Total, tangent plane: east, north.
+  Eigen::Matrix2d covariance_rad2() const { return covariance_rad2_; }
   /// Part of the covariance that errors of the mission file make.
-  Eigen::Matrix2d alignment_rad2() const;
+  Eigen::Matrix2d alignment_rad2() const { return alignment_rad2_; }
   /// Returns how errors of the mission file move the axis; empty of the plain average.
   std::optional<AxisShift> shift_icrf() const;
   /// Covariance by noise for testing whether the axis has moved. Scatter beyond the stated noise,
@@ -93,18 +96,20 @@ class MeanEstimator {
   void linearise(const Kept& kept, const Eigen::Vector3d& axis_icrf);
   void relinearise();
   void linearise_about(const Eigen::Vector3d& axis_icrf);
+  void conclude();
   Eigen::Matrix2d least_squares_covariance_rad2() const;
+  Eigen::Matrix2d average_covariance_rad2() const;
   Eigen::Matrix2d considered_rad2(const ConsideredPrior& prior) const;
   double excess_noise() const;
   double fix_rad2() const;
   bool less_informative_than_one_fix() const;
   double distance_from_average_rad() const;
-  /// Returns whether the mean is that of the least squares, not the plain average.
-  bool agrees_with_average() const;
+  bool agrees_with_average(const Eigen::Matrix2d& covariance_rad2) const;
   std::optional<Reason> doubt() const;
   Assessment assess() const;
 
   SpinConfig config_;
+  SpinAlignment alignment_root_;
   PulseNoise noise_{config_.noise};  ///< Noise of the last measurements.
   std::deque<Kept> kept_;            ///< Last revolutions.
   FixesByCase fixes_;
@@ -112,6 +117,9 @@ class MeanEstimator {
   std::optional<MeanOfCases> mean_;  ///< Least-squares mean.
   MeanAxis average_;                 ///< Plain average of the same fixes.
   ModelTest verdict_;
+  bool by_least_squares_ = false;  ///< Whether the axis is not that of the plain average.
+  Eigen::Matrix2d covariance_rad2_ = Eigen::Matrix2d::Zero();
+  Eigen::Matrix2d alignment_rad2_ = Eigen::Matrix2d::Zero();
   std::optional<TaiTime> began_;  ///< Empty if begun with the pass.
   std::optional<Eigen::Vector3d> abandoned_axis_icrf_;
 };

@@ -154,8 +154,8 @@ void explain(const ErrorMatrix& information, const Errors& score, ModelTest& ver
 double excess_noise(const AngleEquations& equations, const SpinAlignment& alignment) {
   Normal normal = equations.normal();
   Right right = equations.right();
-  const ConsideredPrior prior = considered_prior(alignment);
-  equations.considered().eliminate(prior, normal, right);
+  const double explained =
+      equations.considered().eliminate(considered_prior(alignment), normal, right);
   // The unit prior keeps undetermined directions in place.
   normal += Normal::Identity();
   const double fitted = right.dot(normal.ldlt().solve(right));
@@ -163,7 +163,6 @@ double excess_noise(const AngleEquations& equations, const SpinAlignment& alignm
   if (!(freedom > 0.0)) {
     return 1.0;
   }
-  const double explained = is_stated(alignment) ? equations.considered().explained(prior) : 0.0;
   const double excess = (equations.squares() - explained - fitted) / freedom;
   // Caps the angles for the noise test, so that noise slightly above the stated is not called
   // wrong.

@@ -36,6 +36,7 @@ double rate_sigma_rad_s(const SpinFilter& filter, const PulseNoise& noise) {
 
 SequentialEstimator::SequentialEstimator(SpinConfig config)
     : config_{std::move(config)},
+      alignment_root_{root_of(config_.alignment)},
       near_tangent_starts_{kFewestNearTangent},
       near_tangent_share_{kRecentFixes},
       ledger_{kEdgeRules} {}

@@ -86,7 +86,7 @@ class SequentialEstimator {
   Eigen::Vector3d axis_icrf() const { return hypotheses_.published().filter.axis_icrf(); }
   /// Returns how errors of the mission file move the axis of the published candidate.
   AxisShift shift_icrf() const {
-    return hypotheses_.published().filter.axis_of_alignment_icrf() * root_of(config_.alignment);
+    return hypotheses_.published().filter.axis_of_alignment_icrf() * alignment_root_;
   }
   bool has_begun() const { return !hypotheses_.empty(); }
   std::optional<Hypotheses::Rival> rival() const { return hypotheses_.rival(); }
@@ -117,6 +117,7 @@ class SequentialEstimator {
   Assessment assess() const;
 
   SpinConfig config_;
+  SpinAlignment alignment_root_;
   Hypotheses hypotheses_;  ///< Empty before the first fix.
 
   StartingPoints settled_starts_;  ///< Candidates of settled fixes.

@@ -235,16 +235,16 @@ bool SpinFilter::work_in(const Measured& measured, double gate, Error& error,
   }
   const Eigen::Matrix<double, 1, kModelErrors> innovation_of_errors =
       measured.slope.transpose() * of_errors_ + measured.per_error;
+  const Eigen::Matrix<double, kModelErrors, 1> by_errors =
+      innovation_of_errors.transpose() / variance;
+  const ConsideredVector by_considered = innovation_of_considered.transpose() / variance;
   of_errors_ -= update.gain * innovation_of_errors;
-  ErrorInformation& errors = said.errors;
-  errors.information += innovation_of_errors.transpose() * innovation_of_errors / variance;
-  errors.score += innovation_of_errors.transpose() * (innovation / variance);
   of_considered_ -= update.gain * innovation_of_considered;
-  errors.considered.shared +=
-      innovation_of_errors.transpose() * innovation_of_considered / variance;
-  errors.considered.own +=
-      innovation_of_considered.transpose() * innovation_of_considered / variance;
-  errors.considered.score += innovation_of_considered.transpose() * (innovation / variance);
+  said.errors += {.information = by_errors * innovation_of_errors,
+                  .score = by_errors * innovation,
+                  .considered = {.shared = by_errors * innovation_of_considered,
+                                 .own = by_considered * innovation_of_considered,
+                                 .score = by_considered * innovation}};
   error += update.gain * innovation;
   covariance_ = update.left_of(covariance_);
   said.log_likelihood += log_normal_density(independent.nis, left_variance);
@@ -291,7 +291,7 @@ Eigen::Matrix<double, 2, kModelErrors> SpinFilter::axis_of_errors() const {
 Eigen::Matrix2d SpinFilter::considered_rad2(const ConsideredPrior& prior) const {
   const Eigen::Matrix<double, 2, kSpinConsidered> moved =
       tangent_from_tilts(q_icrf_spin_) * of_considered_.topRows<2>();
-  return moved * prior * moved.transpose();
+  return covariance_of_moved(moved, prior);
 }
 
 Eigen::Matrix<double, 3, kSpinAlignmentErrors> SpinFilter::axis_of_alignment_icrf() const {

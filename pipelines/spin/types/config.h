@@ -33,6 +33,8 @@ struct PulseNoise {
   double infrared_s;
   /// Width of the grid that all times are cut or rounded to; 0: none.
   double grid_s = 0.0;
+
+  bool operator==(const PulseNoise&) const = default;
 };
 
 /// Returns one sigma of the error that the grid adds to a time, uniform over its width. That
