@@ -17,6 +17,7 @@
 #include "pipelines/reconstruction/reconstruction_assessment.h"
 #include "pipelines/reconstruction/star_consensus.h"
 #include "pipelines/statistics/significance.h"
+#include "pipelines/time/time_span.h"
 
 namespace spindrift {
 namespace {
@@ -195,6 +196,8 @@ Expected<Reconstruction> reconstruct_batch(const ReconstructionRequest& request,
   const SensorResiduals star = star_residuals(at, said);
   add_gyro_left_out(all, said);
   const NodeEstimates bounds = bounds_of(request, all, at);
+  NormalEquations equations = normal_equations(at.known, solved.chain.noise, solved.state,
+                                               later_by_s(all.origin, all.end_s));
   History history = history_of(
       request, all, nodes_of(solved, std::move(at.known), at.errors, all.gyro_noise_rad_s));
   Reconstruction result{.method = ReconstructionMethod::Batch,
@@ -207,6 +210,7 @@ Expected<Reconstruction> reconstruct_batch(const ReconstructionRequest& request,
                         .sun = sun,
                         .star = star,
                         .said = std::move(said),
+                        .equations = std::move(equations),
                         .assessment = {},
                         .iterations = solved.iterations};
   if (solved.chain.noise.estimates_misalignment() && !all.sun.empty()) {

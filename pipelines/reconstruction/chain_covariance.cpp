@@ -7,6 +7,8 @@
 
 #include "pipelines/frames/rotation_vector.h"
 #include "pipelines/reconstruction/chain_fit.h"
+#include "pipelines/statistics/considered.h"
+#include "pipelines/three_axis/named_equations.h"
 
 namespace spindrift {
 namespace {
@@ -99,6 +101,14 @@ class Smoother {
   ChainInformation known_;
 };
 
+/// Returns the score of the shared errors where all are zero.
+SharedVector score_at_zero(const ChainInformation& known, const ChainState& state) {
+  SharedVector at = SharedVector::Zero();
+  at.segment<3>(SharedGyroBias) = state.bias_rad_s;
+  at.segment<3>(SharedSunSensor) = state.misalignment_rad;
+  return known.score + known.shared * at;
+}
+
 /// Returns the covariance of the shared errors after the samples; the prior may be singular.
 SharedCovariance left_by(const ChainInformation& known, const SharedCovariance& prior) {
   const SharedCovariance left =
@@ -158,6 +168,20 @@ ChainInformation information_of(const Chain& chain, const ChainState& state) {
   return std::move(smoother).known();
 }
 
+NormalEquations normal_equations(const ChainInformation& known, const ChainNoise& noise,
+                                 const ChainState& state, TaiTime t) {
+  using OfFile = Eigen::Matrix<double, kFileErrors, 1>;
+  const SharedVector score = score_at_zero(known, state);
+  Considered<kFileErrors, 3> bias;
+  bias.shared = known.shared(kOfFile, Eigen::seqN(SharedGyroBias, Eigen::fix<3>));
+  bias.own = known.shared.block<3, 3>(SharedGyroBias, SharedGyroBias);
+  bias.score = score.segment<3>(SharedGyroBias);
+  Eigen::Matrix<double, kFileErrors, kFileErrors> information = known.shared(kOfFile, kOfFile);
+  OfFile of_file = score(kOfFile);
+  bias.eliminate(noise.prior().block<3, 3>(SharedGyroBias, SharedGyroBias), information, of_file);
+  return named_equations(t, kOfAlignment, information, of_file);
+}
+
 SharedErrors errors_of(const ChainInformation& known, const ChainNoise& noise) {
   using Estimated = Eigen::Matrix<double, kEstimatedErrors, kEstimatedErrors>;
   constexpr int kConsidered = kSharedErrors - kEstimatedErrors;
@@ -188,10 +212,7 @@ SharedCovariance least_errors_of(const ChainInformation& known, const ChainNoise
 
 FittedFile fitted_file(const ChainInformation& known, const ChainNoise& noise,
                        const ChainState& state) {
-  SharedVector at = SharedVector::Zero();
-  at.segment<3>(SharedGyroBias) = state.bias_rad_s;
-  at.segment<3>(SharedSunSensor) = state.misalignment_rad;
-  const SharedVector score = known.score + known.shared * at;
+  const SharedVector score = score_at_zero(known, state);
   const SharedCovariance prior = noise.prior();
   SharedCovariance of_fit = SharedCovariance::Zero();
   of_fit.topLeftCorner<kEstimatedErrors, kEstimatedErrors>() =

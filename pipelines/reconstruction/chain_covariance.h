@@ -12,6 +12,7 @@
 #include <optional>
 #include <vector>
 
+#include "pipelines/observation/normal_equations.h"
 #include "pipelines/reconstruction/chain.h"
 #include "pipelines/reconstruction/shared_errors.h"
 #include "pipelines/three_axis/alignment_evidence.h"
@@ -28,6 +29,12 @@ struct ChainInformation {
 };
 
 ChainInformation information_of(const Chain& chain, const ChainState& state);
+
+/// Returns what the samples say of the errors of the mission file, in the order of kOfAlignment,
+/// with the gyro bias eliminated.
+/// @param t Time of the last sample.
+NormalEquations normal_equations(const ChainInformation& known, const ChainNoise& noise,
+                                 const ChainState& state, TaiTime t);
 
 /// Returns the errors that the fit leaves.
 SharedErrors errors_of(const ChainInformation& known, const ChainNoise& noise);

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "pipelines/core/assessment.h"
+#include "pipelines/observation/normal_equations.h"
 #include "pipelines/observation/observation.h"
 #include "pipelines/three_axis/products.h"
 #include "pipelines/time/tai_time.h"
@@ -89,6 +90,7 @@ struct Reconstruction {
   /// Observations of all sun vectors and star fixes, used or not, in rad, and of the rejected gyro
   /// samples; in time order per sensor.
   std::vector<Observation> said = {};
+  std::optional<NormalEquations> equations = std::nullopt;  ///< `batch` only.
   Assessment assessment;
   int iterations;  ///< Number of Ceres iterations.
 };

@@ -111,6 +111,8 @@ class AttitudeEstimator {
   const SensorHealths& sensors() const { return sensors_; }
   /// Returns the filter; empty before the attitude has begun and after it was lost.
   const std::optional<Mekf>& filter() const { return filter_; }
+  /// Returns the largest ratio of observed to stated variance among the sensors, at least 1.
+  double excess_noise() const;
   bool ever_began() const { return since_.has_value(); }
   /// Returns the epoch of the last attitude given.
   std::optional<TaiTime> given() const { return given_; }
@@ -162,7 +164,6 @@ class AttitudeEstimator {
   void give(Products& out);
   void give_where_due(Products& out);
   const ObservationRecord& record_of(SampleKind kind) const { return ledger_.of(source_of(kind)); }
-  double excess_noise() const;
   void forget_gyro();
   Eigen::Vector3d rate_body_rad_s() const;
   bool gyro_is_out() const;

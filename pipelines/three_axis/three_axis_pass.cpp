@@ -5,6 +5,7 @@
 
 #include "pipelines/ephemeris/kepler_orbit.h"
 #include "pipelines/frames/angle.h"
+#include "pipelines/three_axis/named_equations.h"
 
 namespace spindrift {
 
@@ -216,24 +217,13 @@ NormalEquations ThreeAxisPass::normal_equations() const {
   add(config_.sun_sensor.has_value(), SunSensorTimeError, 1);
   add(config_.magnetometer.has_value(), MagnetometerTimeError, 1);
 
-  const auto size = static_cast<Eigen::Index>(errors.size());
-  Eigen::VectorXd units{size};
-  NormalEquations equations{.t = estimator_.given().value_or(TaiTime{}),
-                            .names = {},
-                            .b0 = Eigen::VectorXd::Zero(size),
-                            .n = Eigen::MatrixXd::Zero(size, size),
-                            .g = Eigen::VectorXd::Zero(size)};
-  for (const int error : errors) {
-    const auto& [name, unit] = kAttitudeAlignmentNames.at(static_cast<std::size_t>(error));
-    units[static_cast<Eigen::Index>(equations.names.size())] = unit;
-    equations.names.emplace_back(name);
-  }
-  if (const auto& filter = estimator_.filter()) {
-    const AlignmentEvidence& evidence = filter->evidence();
-    equations.n = units.asDiagonal() * evidence.information()(errors, errors) * units.asDiagonal();
-    equations.g = units.cwiseProduct(evidence.score()(errors));
-  }
-  return equations;
+  const AlignmentEvidence nothing{FilterAlignment::Zero()};
+  const auto& filter = estimator_.filter();
+  const AlignmentEvidence& evidence = filter ? filter->evidence() : nothing;
+  const double noise = estimator_.excess_noise();
+  return named_equations(estimator_.given().value_or(TaiTime{}), errors,
+                         evidence.information()(errors, errors) / noise,
+                         evidence.score()(errors) / noise);
 }
 
 void ThreeAxisPass::leave_out(const OrderedSample& sample, Rejection rejected_by,

@@ -131,7 +131,9 @@ Check check_alignment(const MissionFacts& mission) {
     found += fmt::format(" of the axis from {} to {}", format_utc(mission.planned->from, 0),
                          format_utc(mission.planned->to, 0));
   } else if (mission.kind == SpacecraftKind::Spin) {
-    found = "defaults in force ([spin.target] and an orbit would tell what each adds to sigma)";
+    found =
+        "defaults in force ([spin.target] or [spin.prior], and an orbit at the time of --from, "
+        "would tell what each adds to sigma)";
   }
   bool all_exact = true;
   for (const DefaultAlignment& one : mission.defaults) {

@@ -125,6 +125,8 @@ DefaultAlignment attitude_default(const DefaultSigma& sigma) {
           "a turn of the body that no other sensor sees");
   } else if (sigma.error < InertiaError) {
     costs(sigma.value, "at 1 deg/s");
+  } else {
+    costs(sigma.value * kTurn_deg, "at most, a turn of the body before the gyro speaks");
   }
   return one;
 }

@@ -26,6 +26,17 @@ Expected<ReconstructionProduct> solved_by(ReconstructionMethod method,
 
 }  // namespace
 
+std::vector<Product> SolvedSeparation::products() const {
+  std::vector<Product> products;
+  for (const ReconstructionProduct& method : methods) {
+    products.emplace_back(method);
+    if (const auto& equations = method->solution.equations) {
+      products.emplace_back(*equations);
+    }
+  }
+  return products;
+}
+
 SolvedSeparation solve_separation(const ReconstructionRequest& request,
                                   const std::optional<LauncherAttitude>& launcher,
                                   std::optional<ReconstructionMethod> method) {

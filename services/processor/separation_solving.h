@@ -16,6 +16,9 @@ namespace spindrift {
 struct SolvedSeparation {
   std::vector<ReconstructionProduct> methods;  ///< The solution of `batch` first.
   std::vector<std::string> failures;           ///< Why methods gave no solution, each reason once.
+
+  /// Returns the solutions and what they say of the mission file.
+  std::vector<Product> products() const;
 };
 
 /// Solves by `method`, or by both methods when it is empty.

@@ -27,7 +27,7 @@ Expected<std::vector<Product>> products_of(const std::string& spacecraft_id,
   if (solved.methods.empty()) {
     return Unexpected{{ErrorCode::Unobservable, why}};
   }
-  std::vector<Product> products{solved.methods.begin(), solved.methods.end()};
+  std::vector<Product> products = solved.products();
   if (!why.empty()) {
     products.emplace_back(
         told("one_reconstruction_only", {{"spacecraft", spacecraft_id}, {"why", why}},

@@ -239,8 +239,7 @@ Expected<Shown> made(const ReconstructOptions& options, const StoreIn& store_in)
   if (!answer) {
     return Unexpected{answer.error()};
   }
-  std::vector<Product>& products = from->to_store.products;
-  products.insert(products.end(), answer->methods.begin(), answer->methods.end());
+  std::ranges::move(answer->products(), std::back_inserter(from->to_store.products));
   const auto run_id = store_in(*mission, std::move(from->to_store));
   if (!run_id) {
     return Unexpected{run_id.error()};

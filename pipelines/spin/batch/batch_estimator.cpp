@@ -203,9 +203,12 @@ BatchSolution solution_of(const Solved& solved, const Eigen::Matrix2d& open_rad2
   const SpinConfig& config = solved.model.config();
   const Observability::Matrix by_offsets =
       observed.considered(information, considered_prior(config.noise));
-  const Observability::Matrix by_alignment =
+  const Observability::Matrix beside_biases =
       observed.considered(information, considered_prior(alignment_beside(config, best.estimated)));
-  const Observability::Matrix total = observed.covariance() * excess_noise + by_alignment;
+  // The priors of estimated biases are in the covariance already, but no noise.
+  const Observability::Matrix by_alignment =
+      observed.considered(information, considered_prior(config.alignment));
+  const Observability::Matrix total = observed.covariance() * excess_noise + beside_biases;
   const Eigen::Matrix2d alignment_rad2 =
       turned * by_alignment.topLeftCorner<2, 2>() * turned.transpose();
   const double half_s = solved.model.half_s();
@@ -214,11 +217,11 @@ BatchSolution solution_of(const Solved& solved, const Eigen::Matrix2d& open_rad2
       .estimate = {.t = solved.edges.back().pulse.t,
                    .estimator = SpinEstimator::Batch,
                    .axis_icrf = best.fit.state.axis_icrf(),
-                   .covariance_rad2 = turned *
-                                          (bound_rad2 * (excess_noise / kEfficiency) + open_rad2 +
-                                           by_offsets.topLeftCorner<2, 2>()) *
-                                          turned.transpose() +
-                                      alignment_rad2,
+                   .covariance_rad2 =
+                       turned *
+                       (bound_rad2 * (excess_noise / kEfficiency) + open_rad2 +
+                        by_offsets.topLeftCorner<2, 2>() + beside_biases.topLeftCorner<2, 2>()) *
+                       turned.transpose(),
                    .spin_rate_rad_s =
                        best.fit.state.rate_rad_s + best.fit.state.drift_rad_s2 * half_s,
                    .spin_rate_sigma_rad_s =

@@ -258,6 +258,18 @@ TEST(Chain, ErrorsOfTheMissionFileAreFittedToWhatTheFitLeaves) {
     row += 3;
   }
   EXPECT_GT((dense.residuals - expected).norm(), 0.2);
+
+  const NormalEquations said = normal_equations(known, chain.noise, state, TaiTime{});
+  ASSERT_EQ(said.names.size(), std::size_t{kFileErrors});
+  EXPECT_EQ(said.names.front(), "sun_sensor_x_deg");
+  VectorXd units{kFileErrors};
+  std::ranges::transform(kOfAlignment, units.begin(), [](int error) {
+    return kAttitudeAlignmentNames.at(static_cast<std::size_t>(error)).unit;
+  });
+  const MatrixXd of_file = units.asDiagonal() * on_prior(kOfFile, kOfFile) * units.asDiagonal();
+  const VectorXd best = units.cwiseProduct((of_file + said.n).ldlt().solve(said.g));
+  const VectorXd errors = (at + moved.tail<kSharedErrors>())(kOfFile);
+  EXPECT_LT((best - errors).norm(), 1e-2 * errors.norm());
 }
 
 TEST(Chain, CovarianceOfAGyroWithoutNoiseIsThatOfTheStarFixes) {
