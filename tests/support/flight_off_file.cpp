@@ -32,7 +32,7 @@ Matrix3d gyro_matrix(const AlignmentErrors& errors) {
 
 struct Normalised {
   double squares = 0.0;
-  double worst_sigmas = 0.0;  ///< Of answers that nothing speaks against.
+  double worst_sigmas = 0.0;  ///< Largest error of an answer that nothing speaks against.
   int doubtful = 0;
 
   void add(const SeparationFlight& flight, ReconstructionMethod method) {

@@ -152,9 +152,9 @@ struct Equipment {
 };
 
 struct Tally {
-  double squares = 0.0;  ///< Of the last OK row of each pass.
+  double squares = 0.0;  ///< Sum over the last OK row of each pass.
   double freedom = 0.0;
-  double squares_of_errors = 0.0;  ///< Of the estimate of the errors by each pass.
+  double squares_of_errors = 0.0;  ///< Sum over the estimates of the errors.
   int ok = 0;
   int beyond_four = 0;
   double worst = 0.0;
