@@ -92,8 +92,11 @@ std::optional<SpinAnswer> answer_in_force(const LastEstimates& last, double cont
 
 void SpinAnswers::take(const SpinEstimate& estimate) {
   last_.insert_or_assign(estimate.estimator, estimate);
-  const auto to_come = manoeuvres_.upper_bound(newest(last_));
-  if (to_come != manoeuvres_.begin()) {
+  if (estimate.assessment.quality == Quality::Lost) {
+    changes_.insert(estimate.t);
+  }
+  const auto to_come = changes_.upper_bound(newest(last_));
+  if (to_come != changes_.begin()) {
     std::erase_if(
         last_, [latest = *std::prev(to_come)](const auto& one) { return one.second.t < latest; });
   }

@@ -43,13 +43,13 @@ std::vector<AxesApart> axes_apart(const LastEstimates& last);
 /// @return Empty when there is no answer.
 std::optional<SpinAnswer> answer_in_force(const LastEstimates& last, double contradiction_sigmas);
 
-/// Keeps the last answer of each estimator of a run. One from before a manoeuvre is of another
-/// axis, and is forgotten once an answer from after it comes.
+/// Keeps the last answer of each estimator of a run. One from before a manoeuvre, or from before an
+/// estimator was LOST, is of another axis. It is forgotten once an answer from after that comes.
 class SpinAnswers {
  public:
   explicit SpinAnswers(double contradiction_sigmas) : limit_{contradiction_sigmas} {}
 
-  void note_manoeuvre(TaiTime t) { manoeuvres_.insert(t); }
+  void note_manoeuvre(TaiTime t) { changes_.insert(t); }
   /// Notes that the computation failed: no answer is better than DOUBTFUL from now on.
   void note_fault();
   void take(const SpinEstimate& estimate);
@@ -63,7 +63,7 @@ class SpinAnswers {
   double limit_;
   bool has_failed_ = false;
   LastEstimates last_;
-  std::set<TaiTime> manoeuvres_;
+  std::set<TaiTime> changes_;  ///< Times at which the axis changed, or may have.
   std::optional<SpinAnswer> in_force_;
 };
 

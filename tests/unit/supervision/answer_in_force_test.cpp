@@ -122,6 +122,16 @@ TEST(AnswerInForce, IsNoneOfBeforeAManoeuvreOnceAnotherCameAfterIt) {
          Converging);
 }
 
+TEST(AnswerInForce, IsNoneOfBeforeAnEstimatorWasLost) {
+  const SpinEstimate mean = estimate(Mean, 599.0, Ok, 0.1);
+  const SpinEstimate lost = estimate(Sequential, 614.0, Lost, 90.0);
+  expect(after({mean, lost}), Sequential, Lost);
+  const SpinEstimate again = estimate(Sequential, 658.0, Doubtful, 2.0, 9.0);
+  expect(after({mean, lost, again}), Sequential, Doubtful);
+  expect(after({mean, lost, again, estimate(Batch, 590.0, Ok, 0.1)}), Sequential, Doubtful);
+  expect(after({mean, lost, again, estimate(Batch, 659.0, Ok, 0.1, 9.0)}), Batch, Ok);
+}
+
 TEST(AnswerInForce, IsAtBestDoubtfulOnceComputingFailed) {
   SpinAnswers answers{kContradictionSigmas};
   answers.take(estimate(Sequential, 600.0, Ok, 0.1));
