@@ -482,6 +482,18 @@ CREATE TABLE spin_estimate (
   PRIMARY KEY (run_id, estimator, t_tai_ns)  -- the last of each is looked for once a second
 ) STRICT, WITHOUT ROWID;
 
+-- Which estimate is in force (pipelines/supervision/answer_in_force.h), one row a run, as of t_tai_ns, the newest
+-- estimate of the run by then: key of its row in spin_estimate; its quality, at best DOUBTFUL where estimates that are OK
+-- contradict each other; which do. Stored by the supervision of the run with the estimates that it rests on.
+CREATE TABLE spin_answer (
+  run_id          TEXT PRIMARY KEY NOT NULL REFERENCES run,
+  t_tai_ns        INTEGER NOT NULL,
+  estimator       TEXT NOT NULL CHECK (estimator IN ('mean', 'sequential', 'batch')),
+  estimate_tai_ns INTEGER NOT NULL,
+  quality         TEXT NOT NULL CHECK (quality IN ('OK', 'CONVERGING', 'AMBIGUOUS', 'DOUBTFUL', 'LOST')),
+  against         TEXT NOT NULL  -- empty: none do
+) STRICT;
+
 -- Of the last solution of the run and estimator: the next one replaces all its rows, so that a channel
 -- that fell silent leaves none.
 CREATE TABLE spin_bias (

@@ -197,11 +197,8 @@ WHERE NOT EXISTS (
 -- larger of the two, since estimators of the same edges differ by no more than the worse of them errs (Hausman
 -- 1978: the variance of the difference from an efficient one is the difference of the variances). Errors of the
 -- mission file are the same for both, and only what they move one further than the other counts (axis_shift; while a run
--- goes on, as much as they may move both). They contradict each other where both claim their
--- axis and disagree, or both are on the same axis and one says that the other root may be it: no more than one can
--- be right. Two that are AMBIGUOUS do not disagree, whichever of the roots each names first. An answer that is
--- CONVERGING, DOUBTFUL or LOST claims nothing. They disagree from 3 sigmas on, the alert spin.disagree begins at 5:
--- DOUBTFUL only says look before use, an alert asks a person to act, and noise must not raise it.
+-- goes on, as much as they may move both). They disagree from 3 sigmas on, which is worth a look. Two that are AMBIGUOUS do
+-- not, whichever of the roots each names first. What contradicts the answer in force is in spin_answer.
 CREATE VIEW spin_comparison AS
 WITH pair AS (
   SELECT a.run_id, a.spacecraft_id, a.finished, a.estimator AS one, b.estimator AS other,
@@ -223,13 +220,9 @@ WITH pair AS (
   WHERE (a.estimator = 'mean' AND b.estimator <> 'mean')
     OR (a.estimator = 'sequential' AND b.estimator = 'batch')
 )
-SELECT *, one_quality IN ('OK', 'AMBIGUOUS') AND other_quality IN ('OK', 'AMBIGUOUS')
-    AND (disagree OR one_quality <> other_quality) AS contradict
-FROM (
-  SELECT *, apart_deg / sigma_deg AS apart_sigmas,
-    apart_deg > 3 * sigma_deg AND NOT (one_quality = 'AMBIGUOUS' AND other_quality = 'AMBIGUOUS') AS disagree
-  FROM pair
-);
+SELECT *, apart_deg / sigma_deg AS apart_sigmas,
+  apart_deg > 3 * sigma_deg AND NOT (one_quality = 'AMBIGUOUS' AND other_quality = 'AMBIGUOUS') AS disagree
+FROM pair;
 
 -- The answer of a pass of a three-axis spacecraft: the last attitude of each run, but for those that were
 -- reconstructed of a separation. Looked for from the end, as above.
@@ -258,33 +251,35 @@ SELECT
   *
 FROM run;
 
--- One row a run: the answer to report, that of `batch`, where there is none of `sequential`, else of `mean`, or
--- the last attitude, or of a run that only reconstructed a separation the attitude at T1; and whether to act on it:
--- one of a run that failed to compute (run_fault) is DOUBTFUL, unless it is LOST. One that claims its axis is no
--- better than the contradictions among the estimators allow: DOUBTFUL where axes disagree, else AMBIGUOUS. NULL from
+-- One row a run: the answer in force (spin_answer), or the last attitude, or of a run that only reconstructed a
+-- separation the attitude at T1; and whether to act on it: one of a run that failed to compute (run_fault) is DOUBTFUL,
+-- unless it is LOST. t_tai_ns, utc: of the answer. NULL from
 -- estimator to sigma_deg: the run has no answer; quality is then that of the run that failed. A spin axis leaves qx
 -- to qw NULL, an attitude ra_deg, dec_deg and the rates. `why` is first what speaks against the answer, then its own status;
 -- `against` what speaks against it alone, with its own status unless that is OK: empty where nothing does.
--- Answers are joined by the key of their table: SQLite would find those of all runs to join one of a view.
 -- sigma_deg is of noise and of what the mission file may be off by, noise_sigma_deg of noise alone, NULL: the estimator
 -- does not say; `why` ends with the part that is alignment, if that is a hundredth or more. consider_sigma_deg: the same as sigma_deg. cov_*: of a spin axis east and north in the tangent plane, of an attitude about the axes of
 -- the body; the others NULL. start_utc, end_utc: of the telemetry. contact_share: as in run.
 CREATE VIEW pass_verdict AS
 SELECT run_id, spacecraft_id, started_utc, finished, estimator, quality, ra_deg, dec_deg, qx, qy, qz, qw, sigma_deg,
   noise_sigma_deg, sigma_deg AS consider_sigma_deg, cov_east_east_deg2, cov_east_north_deg2, cov_north_north_deg2, cov_xx_deg2, cov_xy_deg2,
-  cov_xz_deg2, cov_yy_deg2, cov_yz_deg2, cov_zz_deg2, spin_rate_rpm, sigma_rpm, start_utc, end_utc, contact_share,
+  cov_xz_deg2, cov_yy_deg2, cov_yz_deg2, cov_zz_deg2, spin_rate_rpm, sigma_rpm, start_utc, end_utc, contact_share, t_tai_ns,
+  (SELECT strftime('%Y-%m-%dT%H:%M:', t_tai_ns / 1000000000 - tai_minus_utc_s, 'unixepoch')
+     || format('%02d.%03dZ',
+               (t_tai_ns / 1000000000 - tai_minus_utc_s) % 60 + (start_tai_ns > t_tai_ns),
+               t_tai_ns / 1000000 % 1000)
+   FROM leap_second WHERE start_tai_ns <= t_tai_ns + 1000000000
+   ORDER BY start_tai_ns DESC LIMIT 1) AS utc,
   others || status || iif(noise_sigma_deg < 0.99995 * sigma_deg, format('; %.2g of %.2g deg is alignment',
     sqrt(pow(sigma_deg, 2) - pow(noise_sigma_deg, 2)), sigma_deg), '') AS why,
   CASE own_quality WHEN 'OK' THEN rtrim(others, '; ') ELSE others || status END AS against
 FROM (
   SELECT run.run_id, run.spacecraft_id, run.started_utc, run.finished_utc IS NOT NULL AS finished,
-    coalesce(estimator, source, separation.method) AS estimator,
-    CASE WHEN 'LOST' IN (axis.quality, attitude.quality) THEN 'LOST'
+    coalesce(axis.estimator, source, separation.method) AS estimator,
+    coalesce(axis.t_tai_ns, attitude.t_tai_ns, event.t_tai_ns) AS t_tai_ns,
+    CASE WHEN 'LOST' IN (answer.quality, attitude.quality) THEN 'LOST'
       WHEN fault.what IS NOT NULL THEN 'DOUBTFUL'
-      WHEN axis.quality IN ('OK', 'AMBIGUOUS') THEN ifnull(
-        (SELECT CASE WHEN max(disagree) THEN 'DOUBTFUL' ELSE 'AMBIGUOUS' END FROM spin_comparison
-         WHERE spin_comparison.run_id = run.run_id AND contradict HAVING count(*) > 0), axis.quality)
-      ELSE coalesce(axis.quality, attitude.quality, separation.quality) END AS quality,
+      ELSE coalesce(answer.quality, attitude.quality, separation.quality) END AS quality,
     coalesce(axis.quality, attitude.quality, separation.quality) AS own_quality,
     ra_deg, dec_deg, ifnull(attitude.qx, event.qx) AS qx, ifnull(attitude.qy, event.qy) AS qy,
     ifnull(attitude.qz, event.qz) AS qz, ifnull(attitude.qw, event.qw) AS qw,
@@ -298,14 +293,11 @@ FROM (
     (SELECT start_utc FROM run_utc WHERE run_utc.run_id = run.run_id) AS start_utc,
     (SELECT end_utc FROM run_utc WHERE run_utc.run_id = run.run_id) AS end_utc, run.contact_share,
     ifnull('computing failed' || ifnull(' at ' || fault.utc, '') || ': ' || fault.what || '; ', '')
-      || ifnull((SELECT group_concat(
-        CASE WHEN disagree THEN format('%s and %s disagree by %.3f deg, %.1f sigma; ', one, other, apart_deg, apart_sigmas)
-          ELSE format('%s is %s, %s is %s; ', one, one_quality, other, other_quality) END, '')
-        FROM spin_comparison WHERE spin_comparison.run_id = run.run_id AND (disagree OR contradict)), '') AS others,
+      || ifnull(nullif(answer.against, '') || '; ', '') AS others,
     coalesce(axis.status, attitude.status, separation.status, 'no estimate') AS status
-  FROM run LEFT JOIN spin_estimate AS axis ON axis.run_id = run.run_id AND (axis.t_tai_ns, axis.estimator) =
-    (SELECT t_tai_ns, estimator FROM pass_answer WHERE pass_answer.run_id = run.run_id
-     ORDER BY CASE estimator WHEN 'batch' THEN 1 WHEN 'sequential' THEN 2 ELSE 3 END LIMIT 1)
+  FROM run LEFT JOIN spin_answer AS answer USING (run_id)
+  LEFT JOIN spin_estimate AS axis ON axis.run_id = run.run_id
+    AND (axis.t_tai_ns, axis.estimator) = (answer.estimate_tai_ns, answer.estimator)
   LEFT JOIN attitude ON attitude.run_id = run.run_id AND (attitude.t_tai_ns, attitude.source) =
     (SELECT t_tai_ns, source FROM attitude_answer WHERE attitude_answer.run_id = run.run_id)
   LEFT JOIN reconstruction AS separation ON attitude.run_id IS NULL AND separation.run_id = run.run_id

@@ -1,6 +1,7 @@
 #include "pipelines/supervision/attitude_conditions.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cstdint>
 #include <optional>
 #include <utility>
@@ -45,14 +46,43 @@ AttitudeConditions::AttitudeConditions(const AlertLimits& limits, std::optional<
                 "% of chi-square",
                 {.raise_s = limits.diverged_s, .clear_s = limits.diverged_s}},
       lost_{AlertCode::AttitudeLost, "s"},
+      doubtful_{AlertCode::AttitudeDoubtful,
+                "s",
+                {.raise_s = limits.attitude_doubtful_s, .clear_s = limits.attitude_doubtful_s}},
+      presence_{AlertCode::AttitudeNoAnswer, limits.attitude_no_answer_s},
       launcher_{AlertCode::ReconstructionLauncher, "% of chi-square"} {}
+
+ConditionChanges AttitudeConditions::await_answer(std::vector<TaiTime> samples) {
+  ConditionChanges changes;
+  for (const TaiTime t : std::exchange(awaited_, std::move(samples))) {
+    add(presence_.see_sample(t), changes);
+  }
+  return changes;
+}
 
 ConditionChanges AttitudeConditions::evaluate(const AttitudeEstimate& estimate) {
   ConditionChanges changes;
+  presence_.see_answer(estimate.t);
+  add(doubtful_.update(estimate.t, estimate.assessment.quality == Quality::Doubtful), changes);
   add(lost_.update(estimate.t,
                    estimate.assessment.quality == Quality::Lost || begins_anew(estimate)),
       changes);
   add(see_innovations(estimate), changes);
+  last_ = estimate.t;
+  quality_ = estimate.assessment.quality;
+  return changes;
+}
+
+ConditionChanges AttitudeConditions::settle() {
+  ConditionChanges changes = await_answer({});
+  if (last_) {
+    lost_.end();
+    doubtful_.end();
+    // Behind all that was judged, since a change at the time of another would be taken for known.
+    const TaiTime t = *last_ + std::chrono::nanoseconds{1};
+    add(lost_.update(t, quality_ == Quality::Lost), changes);
+    add(doubtful_.update(t, quality_ == Quality::Doubtful), changes);
+  }
   return changes;
 }
 

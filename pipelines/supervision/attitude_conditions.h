@@ -5,8 +5,10 @@
 
 #include <deque>
 #include <optional>
+#include <vector>
 
 #include "pipelines/reconstruction/separation.h"
+#include "pipelines/supervision/answer_presence.h"
 #include "pipelines/supervision/condition_watch.h"
 #include "pipelines/supervision/kind_presence.h"
 #include "pipelines/supervision/limits.h"
@@ -20,8 +22,16 @@ class AttitudeConditions {
   AttitudeConditions(const AlertLimits& limits, std::optional<Orbit> orbit);
 
   ConditionChanges evaluate(SampleKind kind, TaiTime t) { return kinds_.evaluate(kind, t); }
+  /// Awaits an answer of samples: of those given before, if their answers have come by now. To be
+  /// called with the samples as they come.
+  /// @param samples Times of star fixes and magnetometer samples, of which an attitude can be made.
+  ConditionChanges await_answer(std::vector<TaiTime> samples);
   ConditionChanges evaluate(const AttitudeEstimate& estimate);
   ConditionChanges evaluate(const ReconstructedSeparation& separation);
+
+  /// Settles the conditions of the answer by the last one, without hold. To be called once, when
+  /// the run has ended.
+  ConditionChanges settle();
 
  private:
   std::optional<ConditionChange> see_innovations(const AttitudeEstimate& estimate);
@@ -38,6 +48,11 @@ class AttitudeConditions {
   std::optional<TaiTime> judged_;  ///< Time of the last test of `recent_`.
   ConditionWatch diverged_;
   ConditionWatch lost_;
+  ConditionWatch doubtful_;
+  AnswerPresence presence_;
+  std::vector<TaiTime> awaited_;           ///< Samples whose answers may not have come yet.
+  std::optional<TaiTime> last_;            ///< Time of the answer in force.
+  Quality quality_ = Quality::Converging;  ///< Its quality.
   ConditionWatch launcher_;
 };
 

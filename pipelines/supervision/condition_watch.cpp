@@ -10,12 +10,12 @@ ConditionWatch::ConditionWatch(AlertCode code, std::string_view unit, Holding ho
 
 std::optional<ConditionChange> ConditionWatch::update(TaiTime t, const Reading& reading) {
   return judge(t, reading, reading.value >= reading.limit,
-               reading.value <= kClearShare * reading.limit);
+               reading.value <= clear_share_ * reading.limit);
 }
 
 std::optional<ConditionChange> ConditionWatch::see_least(TaiTime t, const Reading& reading) {
   return judge(t, reading, reading.value < reading.limit,
-               kClearShare * reading.value >= reading.limit);
+               clear_share_ * reading.value >= reading.limit);
 }
 
 std::optional<ConditionChange> ConditionWatch::judge(TaiTime t, const Reading& reading,
@@ -40,6 +40,12 @@ std::optional<ConditionChange> ConditionWatch::update(TaiTime t, bool is_there) 
     change->evidence.value = seconds_between(change->evidence.since, t);
   }
   return change;
+}
+
+void ConditionWatch::end() {
+  holding_ = {};
+  clear_share_ = 1.0;
+  last_.reset();
 }
 
 std::optional<ConditionChange> ConditionWatch::settle(TaiTime t, Change now, Evidence evidence) {

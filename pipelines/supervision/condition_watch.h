@@ -75,6 +75,9 @@ class ConditionWatch {
   /// Watches a yes/no condition; its evidence is the time it has held.
   std::optional<ConditionChange> update(TaiTime t, bool is_there);
 
+  /// Makes the next reading final: it decides at once, by the limit alone, whatever its time.
+  void end();
+
  private:
   std::optional<ConditionChange> judge(TaiTime t, const Reading& reading, bool is_there,
                                        bool is_gone);
@@ -84,6 +87,7 @@ class ConditionWatch {
   std::string about_;
   std::string_view unit_;
   Holding holding_;
+  double clear_share_ = kClearShare;
   std::optional<TaiTime> last_;
   std::optional<Change> said_;
   std::optional<Change> coming_;

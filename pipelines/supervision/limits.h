@@ -36,6 +36,9 @@ struct AlertLimits {
   double off_target_deg = 2.0;
   double off_target_sigmas = 3.0;
   double nutation_deg = 0.5;
+  double spin_no_answer_s = 60.0;
+  double attitude_doubtful_s = 30.0;
+  double attitude_no_answer_s = 60.0;
   double diverged_percent = 99.9;
   double diverged_s = 60.0;
   double launcher_percent = 99.0;

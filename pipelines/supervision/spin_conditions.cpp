@@ -1,8 +1,11 @@
 #include "pipelines/supervision/spin_conditions.h"
 
 #include <algorithm>
+#include <array>
+#include <chrono>
 #include <cmath>
 #include <utility>
+#include <vector>
 
 #include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
@@ -13,9 +16,16 @@ namespace {
 
 // Noise may put a single answer off; the condition must hold over several.
 constexpr Holding kSeveralAnswers{.raise_s = 10.0, .clear_s = 10.0};
-constexpr double kApartAtMost_s = 60.0;  // Longest time between compared answers.
 
 constexpr Holding as_long_again(double held_s) { return {.raise_s = held_s, .clear_s = held_s}; }
+
+/// Returns whether an answer could come of the edge, even if it does not.
+bool is_usable(const PulseUse& use) {
+  constexpr std::array kLeftOut{Rejection::Late, Rejection::OutOfTime, Rejection::Contradicted,
+                                Rejection::Copy, Rejection::Operator};
+  return !use.rejected_by ||
+         std::find(kLeftOut.begin(), kLeftOut.end(), *use.rejected_by) == kLeftOut.end();
+}
 
 double sigma_deg_of(const SpinEstimate& estimate) {
   return std::sqrt(estimate.covariance_rad2.trace()) * kDegPerRad;
@@ -44,7 +54,9 @@ SpinConditions::SpinConditions(const SpinConfig& config, Orbit orbit, const Aler
       off_target_{AlertCode::SpinOffTarget, "deg", kSeveralAnswers},
       nutation_{AlertCode::SpinNutation, "deg"},
       rate_{AlertCode::SpinRate, "rpm", kSeveralAnswers},
-      lost_{AlertCode::AttitudeLost, "s"} {}
+      lost_{AlertCode::AttitudeLost, "s"},
+      presence_{AlertCode::SpinNoAnswer, limits.spin_no_answer_s},
+      answers_{limits.disagree_sigmas} {}
 
 void SpinConditions::set_target(TaiTime t, const Eigen::Vector3d& axis_icrf) {
   targets_.emplace(t, axis_icrf);
@@ -52,14 +64,16 @@ void SpinConditions::set_target(TaiTime t, const Eigen::Vector3d& axis_icrf) {
 
 ConditionChanges SpinConditions::evaluate(const PulseUse& use) {
   std::optional<AxisSeen> axis;
-  if (const auto& answer = sequential_ ? sequential_ : mean_;
-      answer && is_unopposed(answer->assessment.quality)) {
-    axis = AxisSeen{.axis_icrf = answer->axis_icrf,
-                    .sigma_rad = std::sqrt(answer->covariance_rad2.trace())};
+  if (const auto& answer = answers_.in_force(); answer && is_unopposed(answer->quality)) {
+    axis = AxisSeen{.axis_icrf = answer->estimate.axis_icrf,
+                    .sigma_rad = std::sqrt(answer->estimate.covariance_rad2.trace())};
   }
   // A copy is not a further edge of its channel.
   const bool is_copy = use.rejected_by == Rejection::Copy;
   ConditionChanges changes = is_copy ? ConditionChanges{} : channels_.evaluate(use.pulse, axis);
+  if (is_usable(use)) {
+    add(presence_.see_sample(use.pulse.t), changes);
+  }
   add(interference_.update(use.pulse.t, use.rejected_by == Rejection::Interference), changes);
   if (use.revolution || is_copy || use.rejected_by == Rejection::Unassociated) {
     if (const auto percent = left_out_.count(use.revolution, use.rejected_by.has_value())) {
@@ -91,6 +105,8 @@ ConditionChanges SpinConditions::evaluate(const SpinMeasurement& measurement) {
 
 ConditionChanges SpinConditions::evaluate(const SpinEstimate& estimate) {
   ConditionChanges changes;
+  answers_.take(estimate);
+  presence_.see_answer(estimate.t);
   if (estimate.estimator == SpinEstimator::Batch) {
     return changes;
   }
@@ -100,61 +116,74 @@ ConditionChanges SpinConditions::evaluate(const SpinEstimate& estimate) {
     manoeuvres_.erase(manoeuvres_.begin(), later);
   }
   first_ = first_.value_or(estimate.t);
-  const bool is_sequential = estimate.estimator == SpinEstimator::Sequential;
-  (is_sequential ? sequential_ : mean_) = estimate;
-  if (is_sequential || !sequential_) {
-    evaluate_in_force(estimate, changes);
-  }
-  evaluate_disagreement(changes);
+  judged_ = std::max(judged_.value_or(estimate.t), estimate.t);
+  evaluate_in_force(estimate.t, *answers_.in_force(), changes);
+  evaluate_disagreement(estimate.t, changes);
   return changes;
 }
 
-void SpinConditions::evaluate_in_force(const SpinEstimate& estimate, ConditionChanges& changes) {
-  const auto later = targets_.upper_bound(estimate.t);
+void SpinConditions::evaluate_in_force(TaiTime t, const SpinAnswer& answer,
+                                       ConditionChanges& changes) {
+  const auto later = targets_.upper_bound(t);
   for (auto due = targets_.begin(); due != later; due = targets_.erase(due)) {
     target_ = SpinTarget{.axis_icrf = due->second, .rate = target_ ? target_->rate : std::nullopt};
   }
-  const Quality quality = estimate.assessment.quality;
-  add(ambiguous_.update(estimate.t, quality == Quality::Ambiguous), changes);
-  add(doubtful_.update(estimate.t, quality == Quality::Doubtful), changes);
-  add(lost_.update(estimate.t, quality == Quality::Lost), changes);
-  if (seconds_between(*first_, estimate.t) >= limits_.sigma_after_s) {
-    add(sigma_.update(estimate.t, {.value = sigma_deg_of(estimate), .limit = limits_.sigma_deg}),
+  add(ambiguous_.update(t, answer.quality == Quality::Ambiguous), changes);
+  add(doubtful_.update(t, answer.quality == Quality::Doubtful), changes);
+  add(lost_.update(t, answer.quality == Quality::Lost), changes);
+  if (first_ && seconds_between(*first_, t) >= limits_.sigma_after_s) {
+    add(sigma_.update(t, {.value = sigma_deg_of(answer.estimate), .limit = limits_.sigma_deg}),
         changes);
   }
-  if (target_ && is_unopposed(quality)) {
-    evaluate_target(estimate, changes);
+  if (target_ && is_unopposed(answer.quality)) {
+    evaluate_target(t, answer.estimate, changes);
   }
 }
 
-void SpinConditions::evaluate_target(const SpinEstimate& estimate, ConditionChanges& changes) {
+void SpinConditions::evaluate_target(TaiTime t, const SpinEstimate& estimate,
+                                     ConditionChanges& changes) {
   const double sigma_deg = sigma_deg_of(estimate);
-  add(off_target_.update(estimate.t,
+  add(off_target_.update(t,
                          {.value = degrees_between(estimate.axis_icrf, target_->axis_icrf),
                           .limit = limits_.off_target_deg + limits_.off_target_sigmas * sigma_deg,
                           .sigma = sigma_deg}),
       changes);
   if (const auto& rate = target_->rate) {
-    add(rate_.update(estimate.t,
-                     {.value = kRpmPerRad_s * std::abs(estimate.spin_rate_rad_s - rate->rad_s),
-                      .limit = kRpmPerRad_s * rate->tolerance_rad_s,
-                      .sigma = kRpmPerRad_s * estimate.spin_rate_sigma_rad_s}),
+    add(rate_.update(t, {.value = kRpmPerRad_s * std::abs(estimate.spin_rate_rad_s - rate->rad_s),
+                         .limit = kRpmPerRad_s * rate->tolerance_rad_s,
+                         .sigma = kRpmPerRad_s * estimate.spin_rate_sigma_rad_s}),
         changes);
   }
 }
 
-void SpinConditions::evaluate_disagreement(ConditionChanges& changes) {
-  if (!mean_ || !sequential_ || mean_->assessment.quality != Quality::Ok ||
-      sequential_->assessment.quality != Quality::Ok ||
-      std::abs(seconds_between(mean_->t, sequential_->t)) > kApartAtMost_s) {
-    return;
+void SpinConditions::evaluate_disagreement(TaiTime t, ConditionChanges& changes) {
+  const std::vector<AxesApart> pairs = answers_.apart();
+  const auto worst =
+      std::max_element(pairs.begin(), pairs.end(),
+                       [](const AxesApart& a, const AxesApart& b) { return a.sigmas < b.sigmas; });
+  if (worst != pairs.end()) {
+    add(disagree_.update(t, {.value = worst->sigmas, .limit = limits_.disagree_sigmas}), changes);
   }
-  const double sigma_deg = difference_sigma_rad(*mean_, *sequential_) * kDegPerRad;
-  add(disagree_.update(
-          std::max(mean_->t, sequential_->t),
-          {.value = degrees_between(mean_->axis_icrf, sequential_->axis_icrf) / sigma_deg,
-           .limit = limits_.disagree_sigmas}),
-      changes);
+}
+
+ConditionChanges SpinConditions::settle() {
+  ConditionChanges changes;
+  const auto& answer = answers_.in_force();
+  if (!answer) {
+    return changes;
+  }
+  for (ConditionWatch* const watch :
+       {&ambiguous_, &doubtful_, &lost_, &sigma_, &off_target_, &rate_, &disagree_}) {
+    watch->end();
+  }
+  // Behind all that was judged, since a change at the time of another would be taken for known.
+  const TaiTime t = std::max(answer->t, judged_.value_or(answer->t)) + std::chrono::nanoseconds{1};
+  evaluate_in_force(t, *answer, changes);
+  evaluate_disagreement(t, changes);
+  if (answers_.apart().empty()) {
+    add(disagree_.update(t, {.value = 0.0, .limit = limits_.disagree_sigmas}), changes);
+  }
+  return changes;
 }
 
 ConditionChanges SpinConditions::evaluate(const BatchSolution& solution) {

@@ -14,13 +14,16 @@
 #include "pipelines/spin/batch/batch_solution.h"
 #include "pipelines/spin/types/products.h"
 #include "pipelines/statistics/turn_share.h"
+#include "pipelines/supervision/answer_in_force.h"
+#include "pipelines/supervision/answer_presence.h"
 #include "pipelines/supervision/channel_presence.h"
 #include "pipelines/supervision/condition_watch.h"
 #include "pipelines/supervision/limits.h"
 
 namespace spindrift {
 
-/// Watches the answer in force: that of `sequential`, or that of `mean` until it exists.
+/// Watches the answer in force (answer_in_force.h). It is judged whenever `sequential` or `mean`
+/// gives an answer, since solutions of `batch` come at any time, and at the end of the run.
 class SpinConditions {
  public:
   SpinConditions(const SpinConfig& config, Orbit orbit, const AlertLimits& limits,
@@ -29,9 +32,15 @@ class SpinConditions {
   /// Sets the target axis for estimates from `t` on; the target rate stays.
   void set_target(TaiTime t, const Eigen::Vector3d& axis_icrf);
   /// Announces a manoeuvre at `t`, after which a large axis sigma is expected for a while.
-  void note_manoeuvre(TaiTime t) { manoeuvres_.insert(t); }
+  void note_manoeuvre(TaiTime t) {
+    manoeuvres_.insert(t);
+    answers_.note_manoeuvre(t);
+  }
+  /// Notes that the computation of the run failed.
+  void note_fault() { answers_.note_fault(); }
   /// Returns the target as of the last estimate.
   const std::optional<SpinTarget>& target() const { return target_; }
+  const std::optional<SpinAnswer>& in_force() const { return answers_.in_force(); }
 
   ConditionChanges evaluate(const PulseUse& use);
   ConditionChanges evaluate(const RevolutionProduct& revolution);
@@ -39,10 +48,14 @@ class SpinConditions {
   ConditionChanges evaluate(const SpinEstimate& estimate);
   ConditionChanges evaluate(const BatchSolution& solution);
 
+  /// Settles the conditions of the answer by the final one, without hold. To be called once, when
+  /// the run has ended.
+  ConditionChanges settle();
+
  private:
-  void evaluate_in_force(const SpinEstimate& estimate, ConditionChanges& changes);
-  void evaluate_target(const SpinEstimate& estimate, ConditionChanges& changes);
-  void evaluate_disagreement(ConditionChanges& changes);
+  void evaluate_in_force(TaiTime t, const SpinAnswer& answer, ConditionChanges& changes);
+  void evaluate_target(TaiTime t, const SpinEstimate& estimate, ConditionChanges& changes);
+  void evaluate_disagreement(TaiTime t, ConditionChanges& changes);
   ConditionWatch::Reading reading_of(const Estimated& half_angle_rad);
 
   AlertLimits limits_;
@@ -62,11 +75,12 @@ class SpinConditions {
   ConditionWatch nutation_;
   ConditionWatch rate_;
   ConditionWatch lost_;
+  AnswerPresence presence_;
   std::map<std::int64_t, TaiTime> t_sun1_;  ///< Sun pulse of revolutions without a period yet.
   std::optional<TaiTime> first_;            ///< First estimate since start or manoeuvre.
   std::set<TaiTime> manoeuvres_;            ///< Times of future manoeuvres.
-  std::optional<SpinEstimate> mean_;
-  std::optional<SpinEstimate> sequential_;
+  std::optional<TaiTime> judged_;           ///< When the answer in force was judged last.
+  SpinAnswers answers_;
   std::optional<Estimated> least_nutation_rad_;  ///< Smallest half-angle found.
 };
 

@@ -59,8 +59,38 @@ Occurrence occurrence_of(const ConditionChange& change, const std::string& run_i
           .evidence = evidence_json(change.evidence, mission.sha256)};
 }
 
+/// Returns the times of the samples of which an attitude can be made, without those left out.
+std::vector<TaiTime> times_of_fixes(const ArrivedSamples& samples) {
+  std::vector<TaiTime> times;
+  in_order_of_arrival(samples, [&](const auto& sample) {
+    using Value = std::remove_cvref_t<decltype(sample.value)>;
+    if constexpr (std::is_same_v<Value, StarFix> || std::is_same_v<Value, MagneticField>) {
+      if (!is_left_out(sample)) {
+        times.push_back(sample.value.t);
+      }
+    }
+  });
+  return times;
+}
+
 void append(ConditionChanges changes, ConditionChanges& all) {
   std::move(changes.begin(), changes.end(), std::back_inserter(all));
+}
+
+/// Tells the conditions of the products that they do not judge, and adds to `batch` which answer is
+/// in force if that may have changed.
+void weigh_answers(SpinConditions& conditions, ArchiveBatch& batch) {
+  bool may_change = false;
+  for (const Product& product : batch.products) {
+    const bool is_fault = std::holds_alternative<RunFault>(product);
+    if (is_fault) {
+      conditions.note_fault();
+    }
+    may_change = may_change || is_fault || std::holds_alternative<SpinEstimate>(product);
+  }
+  if (const auto& answer = conditions.in_force(); may_change && answer) {
+    batch.products.emplace_back(*answer);
+  }
 }
 
 std::optional<Alert> settle(AlertBook& book, Change change, const Occurrence& occurrence) {
@@ -120,6 +150,13 @@ void AlertDesk::begin(Supervised& supervised) {
   }
 }
 
+/// Keeps the answers of the run that ends, whose last solution may still be computed.
+void AlertDesk::end(Supervised& supervised) {
+  auto* const spin = std::get_if<SpinConditions>(&supervised.conditions);
+  supervised.ended = spin == nullptr ? std::nullopt : std::optional{std::move(*spin)};
+  supervised.ended_run = supervised.run_id;
+}
+
 /// Samples that are left out must not advance the conditions: their times are wrong.
 /// @param samples ArrivedSamples or PlacedValues.
 template <class Samples>
@@ -171,8 +208,15 @@ void AlertDesk::evaluate(ArchiveBatch& batch) {
   Supervised& supervised = *desk.supervised;
   const bool begins = batch.continuation || (batch.start && batch.start->mode == mode_);
   if (begins && supervised.run_id != batch.run_id) {
+    end(supervised);
     supervised.run_id = batch.run_id;
     begin(supervised);
+  }
+  if (supervised.ended && supervised.ended_run == batch.run_id) {
+    for (const Product& product : batch.products) {
+      changes_by_product(*supervised.ended, product);
+    }
+    weigh_answers(*supervised.ended, batch);
   }
   if (supervised.run_id != batch.run_id) {
     return;
@@ -264,14 +308,25 @@ std::vector<Alert> AlertDesk::changed_by(const ServiceState& state, Desk& desk) 
   return alerts;
 }
 
-std::vector<Alert> AlertDesk::changed_by(const ArchiveBatch& batch, Desk& desk) {
+std::vector<Alert> AlertDesk::changed_by(ArchiveBatch& batch, Desk& desk) {
   Supervised& supervised = *desk.supervised;
   ConditionChanges all = changes_by(batch.samples, supervised);
+  if (auto* const attitude = std::get_if<AttitudeConditions>(&supervised.conditions);
+      attitude != nullptr && count_of(batch.samples) > 0) {
+    append(attitude->await_answer(times_of_fixes(batch.samples)), all);
+  }
   for (const Product& product : batch.products) {
     append(std::visit([&](auto& conditions) { return changes_by_product(conditions, product); },
                       supervised.conditions),
            all);
     append(contradictions_by(supervised.contradictions, product), all);
+  }
+  if (auto* const spin = std::get_if<SpinConditions>(&supervised.conditions)) {
+    weigh_answers(*spin, batch);
+  }
+  if (batch.finished_utc) {
+    append(std::visit([](auto& conditions) { return conditions.settle(); }, supervised.conditions),
+           all);
   }
   return settled(all, desk);
 }

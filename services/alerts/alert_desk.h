@@ -104,7 +104,10 @@ class AlertDesk {
     ContradictionConditions contradictions;
     std::optional<ModelComparison> comparison;
     ServiceConditions service;
-    std::string run_id = {};      ///< Supervised run, empty before the first.
+    std::string run_id = {};  ///< Supervised run, empty before the first.
+    /// Answers of the run before, whose last solution comes while this one goes on.
+    std::optional<SpinConditions> ended = {};
+    std::string ended_run = {};
     std::string stored_run = {};  ///< Latest stored run, empty before the first.
   };
   struct Desk {
@@ -116,9 +119,10 @@ class AlertDesk {
 
   static Conditions conditions_of(const Mission& mission);
   static void begin(Supervised& supervised);
+  static void end(Supervised& supervised);
   template <class Samples>
   static ConditionChanges changes_by(const Samples& samples, Supervised& supervised);
-  static std::vector<Alert> changed_by(const ArchiveBatch& batch, Desk& desk);
+  static std::vector<Alert> changed_by(ArchiveBatch& batch, Desk& desk);
   static std::vector<Alert> changed_by(const ServiceState& state, Desk& desk);
   static std::vector<Alert> settled(const ConditionChanges& changes, Desk& desk);
 

@@ -2,9 +2,11 @@
 
 #include <SQLiteCpp/Statement.h>
 #include <SQLiteCpp/Transaction.h>
+#include <fmt/format.h>
 
 #include <optional>
 
+#include "pipelines/time/utc.h"
 #include "services/archive/connection.h"
 
 namespace spindrift {
@@ -20,6 +22,25 @@ std::optional<Quality> quality_named(const std::string& name) {
   return std::nullopt;
 }
 
+std::optional<SeparationVerdict> separation_of(SQLite::Statement& query,
+                                               const std::string& run_id) {
+  query.reset();
+  query.bind(1, run_id);
+  if (!query.executeStep()) {
+    return std::nullopt;
+  }
+  SeparationVerdict verdict{
+      .method = query.getColumn(0).getString(),
+      .quality = quality_named(query.getColumn(1).getString()).value_or(Quality::Lost),
+      .t1 = tai_from_ns(query.getColumn(2).getInt64()),
+      .sigma_deg = query.getColumn(3).getDouble(),
+      .why = query.getColumn(4).getString(),
+      .says = {}};
+  verdict.says = fmt::format("T1 {}: {} by {}, sigma {:.3g} deg", format_utc(verdict.t1),
+                             name_of(verdict.quality), verdict.method, verdict.sigma_deg);
+  return verdict;
+}
+
 PassVerdict verdict_of(SQLite::Statement& query, const std::string& run_id) {
   query.reset();
   query.bind(1, run_id);
@@ -33,6 +54,9 @@ PassVerdict verdict_of(SQLite::Statement& query, const std::string& run_id) {
   return {.finished = query.getColumn(0).getInt() != 0,
           .estimator = query.getColumn(1).getString(),
           .quality = quality_named(query.getColumn(2).getString()),
+          .t = query.getColumn(11).isNull()
+                   ? std::nullopt
+                   : std::optional{tai_from_ns(query.getColumn(11).getInt64())},
           .sigma_deg = number(3),
           .noise_sigma_deg = number(10),
           .ra_deg = number(4),
@@ -52,12 +76,16 @@ std::vector<PassVerdict> verdicts_in(SQLite::Database& archive,
   SQLite::Statement query{
       archive,
       "SELECT finished, ifnull(estimator, ''), ifnull(quality, ''), sigma_deg, ra_deg, dec_deg,"
-      " spin_rate_rpm, sigma_rpm, why, against, noise_sigma_deg FROM pass_verdict WHERE run_id = "
-      "?"};
+      " spin_rate_rpm, sigma_rpm, why, against, noise_sigma_deg, t_tai_ns FROM pass_verdict"
+      " WHERE run_id = ?"};
+  SQLite::Statement separation{archive,
+                               "SELECT method, quality, t1_tai_ns, sigma_deg, why"
+                               " FROM separation_verdict WHERE run_id = ?"};
   std::vector<PassVerdict> verdicts;
   verdicts.reserve(run_ids.size());
   for (const std::string& run_id : run_ids) {
     verdicts.push_back(verdict_of(query, run_id));
+    verdicts.back().separation = separation_of(separation, run_id);
   }
   return verdicts;
 }

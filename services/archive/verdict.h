@@ -1,5 +1,5 @@
 /// @file
-/// Reads the judgement on a run from the archive's views, which alone define its rules, and what
+/// Reads the judgement on a run from the archive's views, and what
 /// failed or contradicted itself in it.
 
 #pragma once

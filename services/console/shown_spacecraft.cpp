@@ -13,6 +13,7 @@
 #include "pipelines/time/utc.h"
 #include "services/base/degrees.h"
 #include "services/base/reasons_json.h"
+#include "services/products/separation_json.h"
 #include "services/products/to_json.h"
 
 namespace spindrift {
@@ -82,6 +83,13 @@ nlohmann::json verdict_json(const PassVerdict& verdict) {
   }
   if (verdict.quality) {
     object["quality"] = name_of(*verdict.quality);
+  }
+  if (verdict.t) {
+    object["answer_tai_ns"] = tai_ns(*verdict.t);
+    object["answer_utc"] = format_utc(*verdict.t);
+  }
+  if (verdict.separation) {
+    object["separation"] = separation_json(*verdict.separation);
   }
   add(object, "sigma_deg", verdict.sigma_deg);
   add(object, "noise_sigma_deg", verdict.noise_sigma_deg);

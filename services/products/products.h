@@ -24,16 +24,18 @@
 #include "services/products/run_notice.h"
 #include "services/products/sample_contradiction.h"
 #include "services/products/sample_residual.h"
+#include "services/products/spin_answer.h"
 #include "services/products/spin_estimate.h"
 #include "services/products/spin_fix.h"
 #include "services/products/spin_measurement.h"
 
 namespace spindrift {
 
-using Product = std::variant<PulseUse, RevolutionProduct, SpinMeasurement, SpinFix, SpinEstimate,
-                             BatchProduct, RunFault, RejectedSample, AttitudeEstimate,
-                             SampleObservation, ReconstructionProduct, ChannelComparison,
-                             SampleContradiction, Alert, RunNotice, AxisChoice, NormalEquations>;
+using Product =
+    std::variant<PulseUse, RevolutionProduct, SpinMeasurement, SpinFix, SpinEstimate, BatchProduct,
+                 RunFault, RejectedSample, AttitudeEstimate, SampleObservation,
+                 ReconstructionProduct, ChannelComparison, SampleContradiction, Alert, RunNotice,
+                 AxisChoice, NormalEquations, SpinAnswer>;
 
 /// Index of a kind in Product.
 template <class Kind>

@@ -16,7 +16,20 @@ namespace spindrift {
 namespace {
 
 /// Parts of the line by decreasing priority: when it is too long, the last ones are dropped first.
-enum class Need { Always, Name, Quality, Utc, Channels, Revolution, Rate, Estimator, Axis, Date };
+enum class Need {
+  Always,
+  Name,
+  Quality,
+  Utc,
+  Channels,
+  Revolution,
+  Rate,
+  Estimator,
+  Axis,
+  Separation,
+  AsOf,
+  Date
+};
 struct Part {
   Need need;
   std::string text;
@@ -70,6 +83,11 @@ std::string ages(const std::vector<Sensor>& sensors, const TalliedArrivals& arri
   return fmt::format("{}", fmt::join(texts, " "));
 }
 
+std::string time_of_day(TaiTime t) {
+  const std::string utc = format_utc(t, 0);
+  return utc.substr(utc.find('T') + 1);
+}
+
 void add_answer(const PassVerdict& verdict, std::vector<Part>& parts) {
   if (verdict.ra_deg && verdict.dec_deg) {
     parts.push_back(
@@ -83,6 +101,14 @@ void add_answer(const PassVerdict& verdict, std::vector<Part>& parts) {
   parts.push_back({Need::Quality, verdict.sigma_deg
                                       ? fmt::format("{} {:.2g}deg", quality, *verdict.sigma_deg)
                                       : quality});
+  if (verdict.t) {
+    parts.push_back({Need::AsOf, "of " + time_of_day(*verdict.t)});
+  }
+  if (verdict.separation) {
+    parts.push_back(
+        {Need::Separation, fmt::format("T1 {} {:.2g}deg", name_of(verdict.separation->quality),
+                                       verdict.separation->sigma_deg)});
+  }
 }
 
 std::size_t length_of(const std::vector<Part>& parts) {

@@ -22,6 +22,7 @@
 #include "services/base/json_line.h"
 #include "services/base/reasons_json.h"
 #include "services/base/warning.h"
+#include "services/products/separation_json.h"
 #include "services/products/to_json.h"
 #include "services/program/batch_text.h"
 #include "services/program/comparison_notice.h"
@@ -242,7 +243,8 @@ std::string to_text(const PassVerdict& verdict) {
   const std::string answer =
       verdict.estimator.empty() || !verdict.quality
           ? std::string{}
-          : fmt::format("{} by {}: ", name_of(*verdict.quality), verdict.estimator);
+          : fmt::format("{} by {}{}: ", name_of(*verdict.quality), verdict.estimator,
+                        verdict.t ? " at " + format_utc(*verdict.t) : std::string{});
   return fmt::format("  verdict      {}{}\n", answer, verdict.why);
 }
 
@@ -253,12 +255,16 @@ nlohmann::json to_json(const PassVerdict& verdict) {
   const auto number = [](const std::optional<double>& value) {
     return value ? nlohmann::json(*value) : nlohmann::json{};
   };
-  return {{"estimator", known(verdict.estimator)},
-          {"quality", known(verdict.quality ? name_of(*verdict.quality) : "")},
-          {"sigma_deg", number(verdict.sigma_deg)},
-          {"noise_sigma_deg", number(verdict.noise_sigma_deg)},
-          {"why", verdict.why},
-          {"against", verdict.against}};
+  return {
+      {"estimator", known(verdict.estimator)},
+      {"quality", known(verdict.quality ? name_of(*verdict.quality) : "")},
+      {"t_tai_ns", verdict.t ? nlohmann::json(tai_ns(*verdict.t)) : nlohmann::json{}},
+      {"utc", known(verdict.t ? format_utc(*verdict.t) : "")},
+      {"separation", verdict.separation ? separation_json(*verdict.separation) : nlohmann::json{}},
+      {"sigma_deg", number(verdict.sigma_deg)},
+      {"noise_sigma_deg", number(verdict.noise_sigma_deg)},
+      {"why", verdict.why},
+      {"against", verdict.against}};
 }
 
 nlohmann::json to_json(const RunFault& fault) {

@@ -48,6 +48,7 @@ Expected<void> put_origin(Result& result, const ResultOrigin& origin) {
 
 /// The message points into `health`, which must outlive it.
 Expected<spindrift_SpacecraftHealth> to_idl(const SpacecraftHealth& health) {
+  static const std::string kNone;
   const PassVerdict& verdict = health.verdict;
   spindrift_SpacecraftHealth out{
       .spacecraft = {},
@@ -58,7 +59,9 @@ Expected<spindrift_SpacecraftHealth> to_idl(const SpacecraftHealth& health) {
       .quality = {},
       .sigma_deg = verdict.sigma_deg.value_or(kNotAvailable),
       .why = only_read(verdict.why),
-      .against = only_read(verdict.against)};
+      .against = only_read(verdict.against),
+      .answer_tai_ns = verdict.t ? tai_ns(*verdict.t) : 0,
+      .separation = only_read(verdict.separation ? verdict.separation->says : kNone)};
   return put_name(out.spacecraft, health.spacecraft, "spacecraft")
       .and_then([&] { return put_name(out.estimator, verdict.estimator, "estimator"); })
       .and_then([&] {

@@ -91,7 +91,7 @@ class ArchiveFailure : public testing::ArchiveFixture {
   }
 
   /// Opens an archive that fulfils `failed` when writing fails.
-  std::unique_ptr<Archive> open_watched(OnWriteFailure policy, std::promise<Error>& failed) const {
+  std::unique_ptr<Archive> open_watched(OnWriteFailure policy, std::promise<Error>& failed) {
     auto archive = open({.on_write_failure = policy,
                          .queue_rows = 4 * kPulsesPerBatch,
                          .on_failure = first_into(failed)});

@@ -9,15 +9,18 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <numbers>
 #include <stdexcept>
 #include <string>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
+#include "pipelines/statistics/significance.h"
 #include "services/archive/archive.h"
 #include "services/archive/connection.h"
 #include "tests/support/outcome.h"
@@ -105,33 +108,32 @@ class ArchiveFixture : public ::testing::Test {
     return value_or_throw(Archive::open(path(), std::move(options)));
   }
 
-  /// Commits the batches through an archive that is opened for them and closed again.
-  void store(const std::vector<ArchiveBatch>& batches) const {
+  /// Commits the batches, each with the answer in force behind it as supervision adds it, through
+  /// an archive that is opened for them and closed again.
+  void store(const std::vector<ArchiveBatch>& batches) {
     const auto archive = open();
     for (const ArchiveBatch& batch : batches) {
-      expect(archive->submit(batch));
+      expect(archive->submit(with_answer(batch)));
     }
     expect(archive->close());
   }
-  void store(const ArchiveBatch& batch) const { store(std::vector{batch}); }
+  void store(const ArchiveBatch& batch) { store(std::vector{batch}); }
   /// Commits the first products of run-1.
-  void store_run(std::vector<Product> products) const {
+  void store_run(std::vector<Product> products) {
     store(with_products(start_of("run-1"), std::move(products)));
   }
   /// Commits further products of run-1.
-  void store_more(std::vector<Product> products) const {
+  void store_more(std::vector<Product> products) {
     store(with_products(batch_of("run-1"), std::move(products)));
   }
   /// Commits the batches through an open archive.
-  static void commit(Archive& archive, const std::vector<ArchiveBatch>& batches) {
+  void commit(Archive& archive, const std::vector<ArchiveBatch>& batches) {
     for (const ArchiveBatch& batch : batches) {
-      expect(archive.submit(batch));
+      expect(archive.submit(with_answer(batch)));
     }
     expect(archive.flush());
   }
-  static void commit(Archive& archive, const ArchiveBatch& batch) {
-    commit(archive, std::vector{batch});
-  }
+  void commit(Archive& archive, const ArchiveBatch& batch) { commit(archive, std::vector{batch}); }
 
   SQLite::Database reader() const { return value_or_throw(open_for_reading(path())); }
 
@@ -159,7 +161,28 @@ class ArchiveFixture : public ::testing::Test {
     }
   }
 
+  ArchiveBatch with_answer(ArchiveBatch batch) {
+    SpinAnswers& answers = answers_.try_emplace(batch.run_id, kContradictionSigmas).first->second;
+    for (const OperatorAction& action : batch.actions) {
+      if (action.action == "mark_manoeuvre") {
+        answers.note_manoeuvre(action.t.value());
+      }
+    }
+    bool may_change = false;
+    for (const Product& product : batch.products) {
+      if (const auto* const estimate = std::get_if<SpinEstimate>(&product)) {
+        answers.take(*estimate);
+        may_change = true;
+      }
+    }
+    if (may_change) {
+      batch.products.emplace_back(*answers.in_force());
+    }
+    return batch;
+  }
+
   TemporaryFolder folder_;
+  std::map<std::string, SpinAnswers> answers_;  ///< Answers by run.
 };
 
 }  // namespace spindrift::testing

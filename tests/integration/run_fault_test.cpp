@@ -1,9 +1,11 @@
+#include <functional>
 #include <new>
 #include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "services/alerts/alert_desk.h"
 #include "services/archive/verdict.h"
 #include "services/mission/mission.h"
 #include "services/processor/processor.h"
@@ -39,19 +41,22 @@ void spoil(PassInput& input, TaiTime bad) {
 struct RunFaults : testing::ArchiveFixture {
   std::filesystem::path db(const std::string& name) const { return directory() / (name + ".db"); }
 
-  static Processor new_processor() {
+  static std::vector<Mission> missions() {
     std::vector<Mission> missions(2, load_mission(kPass / "mission.toml").value());
     missions[0].spacecraft_id = "FAILS";
     missions[1].spacecraft_id = "SOUND";
-    return testing::live_processor(missions);
+    return missions;
   }
 
   /// Sends `at_once` edges of each spacecraft at a time, after those that are stored.
-  static void serve(const std::filesystem::path& db, std::size_t at_once, bool stored) {
+  /// @param on_submit Supervises the batches.
+  static void serve(
+      const std::filesystem::path& db, std::size_t at_once, bool stored,
+      std::function<void(ArchiveBatch&)> on_submit = [](auto& /*batch*/) {}) {
     const testing::Samples fails = edges_of("FAILS");
     const testing::Samples sound = edges_of("SOUND");
-    const auto archive = Archive::open(db, {}).value();
-    Processor processor = new_processor();
+    const auto archive = Archive::open(db, {.on_submit = std::move(on_submit)}).value();
+    Processor processor = testing::live_processor(missions());
     const auto work = [&](Routed routed) {
       testing::submit(*archive, std::move(routed.samples));
       for (PassInput& input : routed.work) {
@@ -83,7 +88,8 @@ struct RunFaults : testing::ArchiveFixture {
 };
 
 TEST_F(RunFaults, AreOfOneSpacecraftAndMakeItsAnswerDoubtful) {
-  serve(db("served"), 60, false);
+  AlertDesk desk{missions(), RunMode::Live};
+  serve(db("served"), 60, false, [&](ArchiveBatch& batch) { desk.evaluate(batch); });
   for (const std::string spacecraft : {"FAILS", "SOUND"}) {
     EXPECT_EQ(count_of(db("served"), spacecraft, "pulse USING (spacecraft_id)"), kEdges);
   }

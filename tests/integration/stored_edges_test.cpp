@@ -14,7 +14,7 @@ namespace spindrift::stored_edges_test {
 class ArchiveEdges : public testing::ArchiveFixture {
  protected:
   /// Stores a run with five edges of sun slit 2.
-  void store_run(const std::string& run_id, std::optional<std::int64_t> revolution) const {
+  void store_run(const std::string& run_id, std::optional<std::int64_t> revolution) {
     ArchiveBatch batch = testing::start_of(run_id);
     for (std::int64_t t_tai_ns = 0; t_tai_ns < 50; t_tai_ns += 10) {
       batch.products.emplace_back(

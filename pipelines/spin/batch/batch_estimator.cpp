@@ -387,6 +387,7 @@ Expected<Heard> solve_with_noise(const SpinConfig& config, const Orbit& orbit,
                     solution.outliers, solution.edges + solution.outliers));
   }
   solution.choice = axis_choice(*solved, starts.of_pass);
+  solution.estimate.shift_icrf = solution.choice.shifts.front().shift_icrf;
   const BiasSet suspected = config.batch.biases.value_or(seen_biases(information));
   solution.undetermined = Observability{information, suspected}.undetermined();
   const auto wanted = most_significant_bias(best.beside_considered(), best.estimated);

@@ -8,7 +8,9 @@
 
 #include <algorithm>
 #include <chrono>
+#include <functional>
 #include <map>
+#include <set>
 #include <string>
 #include <utility>
 #include <variant>
@@ -99,9 +101,24 @@ class SupervisedPass {
       add(one, {place++}, batch);
     }
     see(processor_.process(std::move(batch)));
-    see(processor_.finish());
+    finish();
     return raised_;
   }
+
+  /// Ends the run, like `process` and a service that stops.
+  void finish() { see(processor_.finish()); }
+
+  /// Returns the keys of the open alerts.
+  std::set<std::string> open() const {
+    std::set<std::string> keys;
+    for (const OpenAlert& one : desk_.open()) {
+      keys.insert(one.alert.key);
+    }
+    return keys;
+  }
+
+  /// Called with each answer in force when supervision has seen it.
+  std::function<void(const SpinAnswer&)> on_answer = [](const SpinAnswer& /*answer*/) {};
 
   /// Processes the samples in steps of one second, like `serve`, and some seconds beyond their end.
   RaisedByKey serve(const std::vector<Sent>& sent) {
@@ -181,6 +198,11 @@ class SupervisedPass {
       desk_.evaluate(batch);
       desk_.note_stored({&batch, 1});
       note_alerts(batch);
+      for (const Product& product : batch.products) {
+        if (const auto* const answer = std::get_if<SpinAnswer>(&product)) {
+          on_answer(*answer);
+        }
+      }
     }
   }
 

@@ -45,6 +45,50 @@ TEST_F(AttitudeConditionsTest, RaiseThatStarFixesOverruleTheAttitude) {
   EXPECT_THAT(conditions_.evaluate(anew), only(Change::Cleared));
 }
 
+/// Returns the keys raised among the changes.
+std::set<std::string> raised_in(const ConditionChanges& changes) {
+  std::set<std::string> raised;
+  for (const ConditionChange& change : changes) {
+    if (change.change == Change::Raised) {
+      raised.insert(alert_key(change.code, change.about));
+    }
+  }
+  return raised;
+}
+
+TEST_F(AttitudeConditionsTest, RaiseAnAttitudeThatIsDoubtfulForHalfAMinute) {
+  for (double t_s = 0.0; t_s < 30.0; t_s += 1.0) {
+    EXPECT_THAT(raised_in(conditions_.evaluate(estimate(t_s, Quality::Doubtful))), IsEmpty());
+  }
+  EXPECT_EQ(raised_in(conditions_.evaluate(estimate(30.0, Quality::Doubtful))),
+            std::set<std::string>{"attitude.doubtful"});
+}
+
+TEST_F(AttitudeConditionsTest, AreSettledByTheLastAttitude) {
+  EXPECT_THAT(conditions_.settle(), IsEmpty()) << "there is no answer";
+  conditions_.evaluate(estimate(0.0, Quality::Lost));
+  conditions_.evaluate(estimate(1.0, Quality::Doubtful));
+  EXPECT_EQ(raised_in(conditions_.settle()), std::set<std::string>{"attitude.doubtful"});
+}
+
+TEST_F(AttitudeConditionsTest, RaiseThatNoAnswerComesOfFixes) {
+  std::set<std::string> raised;
+  for (int t_s = 0; t_s <= 61; ++t_s) {
+    raised = raised_in(conditions_.await_answer({at(t_s)}));
+    EXPECT_EQ(raised.contains("attitude.no_answer"), t_s == 61) << t_s;
+  }
+  AttitudeConditions answered{AlertLimits{}, std::nullopt};
+  std::vector<TaiTime> all;
+  for (int t_s = 0; t_s <= 600; ++t_s) {
+    all.push_back(at(t_s));
+  }
+  answered.await_answer(all);
+  for (int t_s = 0; t_s <= 600; t_s += 10) {
+    answered.evaluate(estimate(t_s, Quality::Ok));
+  }
+  EXPECT_THAT(raised_in(answered.settle()), IsEmpty());
+}
+
 /// Gives ten estimates a second with this mean square of the innovations in five degrees of
 /// freedom.
 /// @return The last change that concerns divergence.

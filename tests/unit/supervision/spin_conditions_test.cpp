@@ -64,7 +64,12 @@ struct Supervised {
 
   template <class Product>
   void evaluate(const Product& product) {
-    for (const ConditionChange& change : conditions.evaluate(product)) {
+    note(conditions.evaluate(product));
+  }
+  void settle() { note(conditions.settle()); }
+
+  void note(const ConditionChanges& changes) {
+    for (const ConditionChange& change : changes) {
       const std::string key = alert_key(change.code, change.about);
       if (change.change == Change::Raised) {
         raised.insert(key);
@@ -117,6 +122,14 @@ const Keys& give_turns(Supervised& pass, int from, int to,
     give_edges(pass, revolution, silent);
   }
   return pass.raised;
+}
+
+/// Gives an answer that says nothing of the axis, every half minute.
+void give_answer(Supervised& pass, int revolution) {
+  if (revolution % 30 == 29) {
+    pass.evaluate(
+        estimate(revolution, revolution % 60 == 29 ? Quality::Doubtful : Quality::Ambiguous));
+  }
 }
 
 class SpinConditionsTest : public ::testing::Test {
@@ -186,6 +199,61 @@ TEST_F(SpinConditionsTest, RaiseThatTheEstimatorsDiffer) {
   EXPECT_EQ(pass_.raised, Keys{"spin.disagree"});
 }
 
+TEST_F(SpinConditionsTest, RaiseNothingOfASequentialThatBatchOverrules) {
+  for (double t_s = 0.0; t_s < 120.0; t_s += 1.0) {
+    if (t_s == 5.0 || t_s == 65.0) {
+      pass_.evaluate(estimate(t_s, Quality::Ok, 0.02, 0.0, SpinEstimator::Batch));
+    }
+    pass_.evaluate(estimate(t_s, Quality::Doubtful, 0.01));
+  }
+  EXPECT_EQ(pass_.raised, Keys{});
+  // The solutions by batch stop.
+  EXPECT_EQ(give_estimates(pass_, Quality::Doubtful, 0.01, 0.0, 120.0, 240.0),
+            Keys{"spin.doubtful"});
+}
+
+TEST_F(SpinConditionsTest, AreSettledByTheFinalAnswer) {
+  give_estimates(pass_, Quality::Doubtful, 2.0, 0.0, 0.0, 200.0);
+  EXPECT_EQ(pass_.raised, (Keys{"spin.doubtful", "spin.sigma"}));
+  pass_.evaluate(estimate(199.0, Quality::Ok, 0.9, 0.0, SpinEstimator::Batch));
+  pass_.settle();
+  EXPECT_EQ(pass_.raised, Keys{});
+
+  Supervised ambiguous;
+  give_estimates(ambiguous, Quality::Ok, 0.1, 0.0, 0.0, 10.0);
+  EXPECT_EQ(give_estimates(ambiguous, Quality::Ambiguous, 0.1, 0.0, 10.0, 20.0), Keys{});
+  ambiguous.settle();
+  EXPECT_EQ(ambiguous.raised, Keys{"spin.ambiguous"});
+
+  Supervised apart;
+  give_estimates(apart, Quality::Ok, 0.1, 0.0, 0.0, 10.0);
+  apart.evaluate(estimate(9.0, Quality::Ok, 0.1, 0.6, SpinEstimator::Batch));
+  EXPECT_EQ(apart.raised, Keys{});
+  apart.settle();
+  EXPECT_EQ(apart.raised, (Keys{"spin.disagree", "spin.doubtful"}));
+}
+
+TEST_F(SpinConditionsTest, RaiseThatNoAnswerComesOfUsableEdges) {
+  for (const auto rejected_by :
+       {std::optional{Rejection::Unassociated}, std::optional<Rejection>{}}) {
+    Supervised pass;
+    for (int revolution = 0; revolution < 59; ++revolution) {
+      give_edges(pass, revolution, std::nullopt, rejected_by);
+    }
+    EXPECT_FALSE(pass.raised.contains("spin.no_answer"));
+    give_edges(pass, 60, std::nullopt, rejected_by);
+    EXPECT_TRUE(pass.raised.contains("spin.no_answer"));
+    pass.evaluate(estimate(61.0, Quality::Ambiguous));
+    give_edges(pass, 61, std::nullopt, rejected_by);
+    EXPECT_FALSE(pass.raised.contains("spin.no_answer"));
+  }
+  Supervised late;
+  for (int revolution = 0; revolution < 100; ++revolution) {
+    give_edges(late, revolution, std::nullopt, Rejection::OutOfTime);
+  }
+  EXPECT_FALSE(late.raised.contains("spin.no_answer"));
+}
+
 TEST_F(SpinConditionsTest, RaiseAChannelThatTheAxisInForceShouldSee) {
   pass_.evaluate(estimate(0.0, Quality::Ok));
   give_turns(pass_, 0, 20);
@@ -248,6 +316,7 @@ TEST_F(SpinConditionsTest, ExpectNoEdgesOfABeamThatMissesTheEarth) {
   pass_.evaluate(estimate(0.0, Quality::Ok, 0.05, 70.0));
   give_turns(pass_, 0, 20);
   // From a quarter of the orbit on the Earth is 20 deg from that axis.
+  pass_.evaluate(estimate(2300.0, Quality::Ok, 0.05, 70.0));
   EXPECT_EQ(give_turns(pass_, 2300, 2350, NorthIn), Keys{});
 }
 
@@ -257,6 +326,7 @@ TEST_F(SpinConditionsTest, RaiseSharesOfTheLastHundredRevolutions) {
     give_edges(pass_, revolution, std::nullopt,
                is_bad ? std::optional{Rejection::Phase} : std::nullopt);
     give_period(pass_, revolution, is_bad ? std::optional{Rejection::Period} : std::nullopt);
+    give_answer(pass_, revolution);
   }
   EXPECT_EQ(pass_.raised, (Keys{"spin.period", "spin.rejection"}));
 }
@@ -276,6 +346,8 @@ TEST_F(SpinConditionsTest, CountEdgesThatFoundNoRevolution) {
       for (const PulseChannel channel : {Sun1, Sun2, NorthIn, NorthOut, SouthIn, SouthOut}) {
         without_axis.evaluate(left_over(revolution + 0.005, channel, rejection));
       }
+      give_answer(copied, revolution);
+      give_answer(without_axis, revolution);
     }
     EXPECT_EQ(copied.raised, Keys{"spin.rejection"});
     EXPECT_EQ(without_axis.raised, Keys{"spin.rejection"});
@@ -284,6 +356,7 @@ TEST_F(SpinConditionsTest, CountEdgesThatFoundNoRevolution) {
   for (int revolution = 0; revolution < 110; ++revolution) {
     give_edges(by_operator, revolution, Sun1);
     by_operator.evaluate(left_over(revolution + 0.005, Sun1, Rejection::Operator));
+    give_answer(by_operator, revolution);
   }
   EXPECT_EQ(by_operator.raised, Keys{});
 }
@@ -342,6 +415,7 @@ TEST_F(SpinConditionsTest, GiveARateInRpm) {
 TEST_F(SpinConditionsTest, RaiseInterferenceWhileItLasts) {
   give_edges(pass_, 0, std::nullopt, Rejection::Interference);
   EXPECT_EQ(pass_.raised, Keys{"spin.interference"});
+  give_answer(pass_, 29);
   EXPECT_EQ(give_turns(pass_, 1, 70), Keys{});
 }
 

@@ -21,6 +21,8 @@ export function drawAttitude(craft, utcOf) {
   }
   if (craft.rate_deg_s) rows.push(['Rate x y z, °/s', list(craft.rate_deg_s, 4)]);
   rows.push(['Sigma', sigma(craft.sigma_deg)], ['Source', craft.source ?? craft.estimator ?? '–']);
+  const t1 = craft.separation;
+  if (t1) rows.push(['At T1', `${t1.quality}, ${sigma(t1.sigma_deg)}, ${t1.method} at ${clock(utcOf(t1.t_tai_ns))}`]);
   fillTable(byId('attitude'), rows);
   const events = (craft.reconstruction ?? []).map(row => [`${row.event} ${row.method}`, clock(utcOf(row.t_tai_ns)),
     list([1, 2, 3].map(i => row[`euler312_icrf_deg_${i}`]), 2), sigma(row.sigma_deg)]);

@@ -51,7 +51,8 @@ export function drawHeader(craft, service, since_s, stale) {
   put('To target', number(craft.to_target_deg, 2, '°'));
   const [mark, tone] = sign(craft.quality);
   say('quality', `${mark} ${craft.quality ?? 'WAITING'}`, tone);
-  say('why', craft.quality ? [craft.estimator, craft.why].filter(Boolean).join(': ') : 'for the first telemetry');
+  const asOf = craft.answer_utc ? `${craft.estimator} at ${craft.answer_utc.replace(/^.*T/, '').replace(/\.\d+Z$/, 'Z')}` : craft.estimator;
+  say('why', craft.quality ? [asOf, craft.why].filter(Boolean).join(': ') : 'for the first telemetry');
   say('case', Number.isFinite(craft.geometry_case) ? `case ${craft.geometry_case}, dual solution ${settled[craft.resolution] ?? '–'}` : '',
     craft.resolution === 'AMBIGUOUS' ? 'warn' : 'dim');
   drawGo(craft.go, stale);
