@@ -47,6 +47,14 @@ AttitudeConditions::AttitudeConditions(const AlertLimits& limits, std::optional<
       lost_{AlertCode::AttitudeLost, "s"},
       launcher_{AlertCode::ReconstructionLauncher, "% of chi-square"} {}
 
+void AttitudeConditions::set_limits(const AlertLimits& limits) {
+  launcher_percent_ = limits.launcher_percent;
+  diverged_percent_ = limits.diverged_percent;
+  diverged_s_ = limits.diverged_s;
+  diverged_.hold({.raise_s = limits.diverged_s, .clear_s = limits.diverged_s});
+  kinds_.set_silent_s(limits.silent_s);
+}
+
 ConditionChanges AttitudeConditions::evaluate(const AttitudeEstimate& estimate) {
   ConditionChanges changes;
   add(lost_.update(estimate.t,

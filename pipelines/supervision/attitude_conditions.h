@@ -19,6 +19,9 @@ class AttitudeConditions {
   /// @param orbit Orbit for the prediction of eclipses; empty if unknown.
   AttitudeConditions(const AlertLimits& limits, std::optional<Orbit> orbit);
 
+  /// Sets the limits of what is evaluated from now on.
+  void set_limits(const AlertLimits& limits);
+
   ConditionChanges evaluate(SampleKind kind, TaiTime t) { return kinds_.evaluate(kind, t); }
   ConditionChanges evaluate(const AttitudeEstimate& estimate);
   ConditionChanges evaluate(const ReconstructedSeparation& separation);

@@ -46,6 +46,19 @@ SpinConditions::SpinConditions(const SpinConfig& config, Orbit orbit, const Aler
       rate_{AlertCode::SpinRate, "rpm", kSeveralAnswers},
       lost_{AlertCode::AttitudeLost, "s"} {}
 
+void SpinConditions::set_limits(const AlertLimits& limits) {
+  if (limits.period.revolutions != limits_.period.revolutions) {
+    irrational_ = TurnShare{limits.period.revolutions, 1};
+  }
+  if (limits.rejection.revolutions != limits_.rejection.revolutions) {
+    left_out_ = TurnShare{limits.rejection.revolutions, kPulseChannels};
+  }
+  channels_.set_silent_revolutions(limits.silent_revolutions);
+  ambiguous_.hold(as_long_again(limits.ambiguous_s));
+  doubtful_.hold(as_long_again(limits.doubtful_s));
+  limits_ = limits;
+}
+
 void SpinConditions::set_target(TaiTime t, const Eigen::Vector3d& axis_icrf) {
   targets_.emplace(t, axis_icrf);
 }
