@@ -203,7 +203,7 @@ CREATE TABLE operator_action (
   by            TEXT NOT NULL CHECK (by <> ''),
   action        TEXT NOT NULL CHECK (action IN (
     'exclude_channel', 'include_channel', 'exclude_segment', 'choose_root', 'set_prior', 'mark_manoeuvre',
-    'set_target')),
+    'set_target', 'set_limit')),
   arguments     TEXT NOT NULL,  -- JSON: an object
   note          TEXT NOT NULL
 ) STRICT, WITHOUT ROWID;
@@ -764,7 +764,8 @@ CREATE TABLE reconstruction_event (
 ) STRICT, WITHOUT ROWID;
 
 -- key: what the alert is about; one alert per key is open at a time. run_id: of the run that raised or last
--- changed it. count: the how manyth of its key. Rows are replaced by higher revisions only.
+-- changed it. returned_tai_ns: when its condition last returned within its hold-off. count: how often the condition
+-- of its key has begun so far. accepted_by: who acknowledged it. Rows are replaced by higher revisions only.
 CREATE TABLE alert (
   alert_id       TEXT PRIMARY KEY NOT NULL,
   run_id         TEXT NOT NULL REFERENCES run,
@@ -775,8 +776,11 @@ CREATE TABLE alert (
   revision       INTEGER NOT NULL CHECK (revision > 0),
   raised_tai_ns  INTEGER NOT NULL,
   updated_tai_ns INTEGER NOT NULL,
+  returned_tai_ns INTEGER,
   cleared_tai_ns INTEGER,
   shelved_until_tai_ns INTEGER,
+  accepted_by    TEXT,
+  accepted_tai_ns INTEGER,
   count          INTEGER NOT NULL CHECK (count > 0),
   message        TEXT NOT NULL,
   evidence       TEXT NOT NULL  -- JSON; json_valid() may not stand in a schema with trusted_schema off

@@ -22,6 +22,12 @@ constexpr std::string_view name_of(AlertState state) {
   return kNames.at(static_cast<std::size_t>(state));
 }
 
+/// An operator's acceptance of an alert.
+struct Acknowledgement {
+  std::string by;
+  TaiTime t;
+};
+
 struct Alert {
   std::string alert_id = {};  ///< Identifies one occurrence.
   std::string key = {};
@@ -29,16 +35,18 @@ struct Alert {
   AlertState state = AlertState::Active;
   std::int64_t revision = 1;  ///< Rises with every change.
   TaiTime raised = {};
-  TaiTime updated = {};  ///< Time of the last change.
+  TaiTime updated = {};                  ///< Time of the last change.
+  std::optional<TaiTime> returned = {};  ///< Time at which the condition last returned.
   std::optional<TaiTime> cleared = {};
-  std::optional<TaiTime> shelved_until = {};
-  std::int64_t count = 1;     ///< Occurrences of this key so far, this one included.
+  std::optional<TaiTime> shelved_until = {};  ///< Belongs to the key: a cleared alert keeps it.
+  std::optional<Acknowledgement> accepted = {};
+  std::int64_t count = 1;     ///< How often the condition of this key has begun so far.
   std::string message = {};   ///< Text for operators.
   std::string evidence = {};  ///< A JSON object.
   /// @name The last change
   /// @{
   std::optional<AlertState> from = {};  ///< Previous state; empty when the alert was raised.
-  std::string by = {};
+  std::string by = {};                  ///< Empty when only the message has changed.
   std::string note = {};
   /// @}
 };

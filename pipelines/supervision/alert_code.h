@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -74,6 +75,42 @@ inline std::string alert_key(AlertCode code, std::string_view about) {
     key.append(":").append(about);
   }
   return key;
+}
+
+/// Returns the code of a key; empty when there is none.
+constexpr std::optional<AlertCode> code_of(std::string_view key) {
+  for (int i = 0; i < kAlertCodes; ++i) {
+    if (name_of(static_cast<AlertCode>(i)) == key.substr(0, key.find(':'))) {
+      return static_cast<AlertCode>(i);
+    }
+  }
+  return std::nullopt;
+}
+
+/// Returns what stands behind the colon of a key, or empty.
+constexpr std::string_view about_of(std::string_view key) {
+  const std::size_t colon = key.find(':');
+  return colon == std::string_view::npos ? std::string_view{} : key.substr(colon + 1);
+}
+
+/// Returns whether the condition says something about the answer itself, so that no operator can
+/// accept it.
+constexpr bool bears_on_answer(AlertCode code) {
+  switch (code) {
+    case AlertCode::ServiceTwice:
+    case AlertCode::ChannelSilent:
+    case AlertCode::SpinInterference:
+    case AlertCode::SpinOffTarget:
+    case AlertCode::SpinNutation:
+    case AlertCode::SpinRate:
+    case AlertCode::ArchiveBacklog:
+    case AlertCode::ArchiveDisk:
+    case AlertCode::ClockJump:
+    case AlertCode::DataOutdated:
+      return false;
+    default:
+      return true;
+  }
 }
 
 enum class AlertSeverity { Info, Warning, Critical };

@@ -16,6 +16,7 @@ class AnswerPresence {
  public:
   AnswerPresence(AlertCode code, double limit_s) : limit_s_{limit_s}, watch_{code, "s"} {}
 
+  void set_limit_s(double limit_s) { limit_s_ = limit_s; }
   void see_answer(TaiTime t) { answers_.insert(t); }
   /// @param t Time of a usable sample; one earlier than the sample before is ignored.
   std::optional<ConditionChange> see_sample(TaiTime t);

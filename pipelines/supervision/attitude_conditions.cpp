@@ -60,6 +60,16 @@ ConditionChanges AttitudeConditions::await_answer(std::vector<TaiTime> samples) 
   return changes;
 }
 
+void AttitudeConditions::set_limits(const AlertLimits& limits) {
+  launcher_percent_ = limits.launcher_percent;
+  diverged_percent_ = limits.diverged_percent;
+  diverged_s_ = limits.diverged_s;
+  diverged_.hold({.raise_s = limits.diverged_s, .clear_s = limits.diverged_s});
+  doubtful_.hold({.raise_s = limits.attitude_doubtful_s, .clear_s = limits.attitude_doubtful_s});
+  presence_.set_limit_s(limits.attitude_no_answer_s);
+  kinds_.set_silent_s(limits.silent_s);
+}
+
 ConditionChanges AttitudeConditions::evaluate(const AttitudeEstimate& estimate) {
   ConditionChanges changes;
   presence_.see_answer(estimate.t);

@@ -21,6 +21,9 @@ class AttitudeConditions {
   /// @param orbit Orbit for the prediction of eclipses; empty if unknown.
   AttitudeConditions(const AlertLimits& limits, std::optional<Orbit> orbit);
 
+  /// Sets the limits of what is evaluated from now on.
+  void set_limits(const AlertLimits& limits);
+
   ConditionChanges evaluate(SampleKind kind, TaiTime t) { return kinds_.evaluate(kind, t); }
   /// Awaits an answer of samples: of those given before, if their answers have come by now. To be
   /// called with the samples as they come.

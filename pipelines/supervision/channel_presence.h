@@ -32,6 +32,8 @@ class ChannelPresence {
  public:
   ChannelPresence(SpinConfig config, Orbit orbit, int silent_revolutions);
 
+  void set_silent_revolutions(int revolutions) { limit_ = revolutions; }
+
   ConditionChanges evaluate(const Pulse& edge, const std::optional<AxisSeen>& axis);
 
  private:

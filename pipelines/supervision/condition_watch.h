@@ -23,9 +23,11 @@ struct Evidence {
   TaiTime last;   ///< Time of the deciding reading.
   std::optional<double> sigma = {};
   std::vector<std::string> sources = {};  ///< Telemetry sources involved, if several.
+  std::optional<double> worst = {};       ///< Since it was raised; empty: `value`.
 };
 
-enum class Change { Raised, Cleared };
+/// A renewed condition holds as before, with a value that has moved.
+enum class Change { Raised, Renewed, Cleared };
 
 struct ConditionChange {
   AlertCode code;
@@ -52,13 +54,19 @@ struct Holding {
 
 /// Watches one condition with hysteresis: it holds from its limit on and is absent below
 /// kClearShare of the limit. An initially absent condition is reported as cleared once, as an
-/// earlier run may have raised it.
+/// earlier run may have raised it. A condition that holds is renewed when its value, or its worst
+/// value, has moved by kMovedShare of what was told last, at most every kBetweenTold_s.
 class ConditionWatch {
  public:
   static constexpr double kClearShare = 0.8;
+  static constexpr double kMovedShare = 0.1;
+  static constexpr double kBetweenTold_s = 10.0;
 
   explicit ConditionWatch(AlertCode code, std::string_view unit, Holding holding = {},
                           std::string about = {});
+
+  /// Changes for how long the condition must hold or be absent from now on.
+  void hold(Holding holding) { holding_ = holding; }
 
   struct Reading {
     double value;
@@ -81,7 +89,10 @@ class ConditionWatch {
  private:
   std::optional<ConditionChange> judge(TaiTime t, const Reading& reading, bool is_there,
                                        bool is_gone);
-  std::optional<ConditionChange> settle(TaiTime t, Change now, Evidence evidence);
+  bool settle(TaiTime t, Change now);
+  ConditionChange tell(Change change, const Evidence& evidence) const;
+  ConditionChange tell_settled(Evidence evidence);
+  std::optional<ConditionChange> renew(Evidence evidence);
 
   AlertCode code_;
   std::string about_;
@@ -92,6 +103,13 @@ class ConditionWatch {
   std::optional<Change> said_;
   std::optional<Change> coming_;
   TaiTime since_ = {};  ///< Start time of `coming_`.
+  struct Told {
+    Evidence evidence;
+    double worst;
+  };
+  std::optional<Told> told_;  ///< What was told last, while the condition holds.
+  double worst_ = 0.0;        ///< Worst value since the condition was raised.
+  bool is_least_ = false;     ///< Whether smaller values are worse.
 };
 
 }  // namespace spindrift

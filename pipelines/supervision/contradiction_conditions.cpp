@@ -28,15 +28,8 @@ ConditionChanges ContradictionConditions::evaluate(const SampleContradiction& co
   for (const std::string& name : doubted.empty() ? all : doubted) {
     Source& source = sources_.try_emplace(name, name).first->second;
     source.last_minute.push_back(newest_);
-    if (auto change = look(source)) {
-      change->evidence.sources.assign(all.begin(), all.end());
-      for (const std::string& other : all) {
-        if (other != name) {
-          change->who += (change->who.empty() ? "" : ", ") + other;
-        }
-      }
-      changes.push_back(*std::move(change));
-    }
+    source.involved = all;
+    add(look(name, source), changes);
   }
   return changes;
 }
@@ -46,19 +39,29 @@ ConditionChanges ContradictionConditions::evaluate(TaiTime t) {
   if (t > newest_) {
     newest_ = t;
     for (auto& [name, source] : sources_) {
-      add(look(source), changes);
+      add(look(name, source), changes);
     }
   }
   return changes;
 }
 
-std::optional<ConditionChange> ContradictionConditions::look(Source& source) const {
+std::optional<ConditionChange> ContradictionConditions::look(const std::string& name,
+                                                             Source& source) const {
   auto& times = source.last_minute;
   while (!times.empty() && span_between(times.front(), newest_) >= kRecent) {
     times.pop_front();
   }
-  return source.watch.update(newest_,
-                             {.value = static_cast<double>(times.size()), .limit = limit_samples_});
+  auto change = source.watch.update(
+      newest_, {.value = static_cast<double>(times.size()), .limit = limit_samples_});
+  if (change && change->change != Change::Cleared) {
+    change->evidence.sources.assign(source.involved.begin(), source.involved.end());
+    for (const std::string& other : source.involved) {
+      if (other != name) {
+        change->who += (change->who.empty() ? "" : ", ") + other;
+      }
+    }
+  }
+  return change;
 }
 
 }  // namespace spindrift

@@ -6,6 +6,7 @@
 #include <deque>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 
 #include "pipelines/supervision/condition_watch.h"
@@ -21,6 +22,9 @@ class ContradictionConditions {
   explicit ContradictionConditions(const AlertLimits& limits)
       : limit_samples_{limits.contradicted_samples} {}
 
+  /// Sets the limits of what is evaluated from now on.
+  void set_limits(const AlertLimits& limits) { limit_samples_ = limits.contradicted_samples; }
+
   /// Counts a contradiction, whose senders must be named.
   ConditionChanges evaluate(const SampleContradiction& contradiction);
   /// Advances telemetry time to `t`.
@@ -31,10 +35,11 @@ class ContradictionConditions {
     explicit Source(const std::string& name)
         : watch{AlertCode::LinkContradiction, "samples", {}, name} {}
     std::deque<TaiTime> last_minute;  ///< Times of contradictions.
+    std::set<std::string> involved;   ///< Sources of the last one.
     ConditionWatch watch;
   };
 
-  std::optional<ConditionChange> look(Source& source) const;
+  std::optional<ConditionChange> look(const std::string& name, Source& source) const;
 
   double limit_samples_;
   TaiTime newest_ = TaiTime::min();

@@ -21,6 +21,8 @@ class KindPresence {
  public:
   KindPresence(std::optional<Orbit> orbit, double silent_s);
 
+  void set_silent_s(double silent_s) { silent_s_ = silent_s; }
+
   ConditionChanges evaluate(SampleKind kind, TaiTime t);
 
  private:

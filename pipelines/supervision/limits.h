@@ -4,8 +4,12 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
+#include <map>
 #include <optional>
+#include <string>
 
+#include "pipelines/supervision/alert_code.h"
 #include "pipelines/time/tai_time.h"
 
 namespace spindrift {
@@ -16,6 +20,12 @@ struct ShareLimit {
   int revolutions;
   friend bool operator==(const ShareLimit&, const ShareLimit&) = default;
 };
+
+constexpr std::array<double, kAlertCodes> every_code(double value) {
+  std::array<double, kAlertCodes> values{};
+  values.fill(value);
+  return values;
+}
 
 struct AlertLimits {
   double link_silent_s = 5.0;
@@ -46,7 +56,15 @@ struct AlertLimits {
   double backlog_s = 10.0;
   double disk_gib = 1.0;
   double clock_jump_s = 1.0;
+  /// By AlertCode: a condition that returns within it is the same occurrence.
+  std::array<double, kAlertCodes> hold_off_s = every_code(60.0);
   friend bool operator==(const AlertLimits&, const AlertLimits&) = default;
+};
+
+/// An operator's limits for one kind of alert, as the mission file has them under [alerts].
+struct SetLimit {
+  std::string key;                       ///< Name of an AlertCode.
+  std::map<std::string, double> limits;  ///< By name, in the unit of the mission file.
 };
 
 /// The planned contact of a pass.

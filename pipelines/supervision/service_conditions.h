@@ -46,6 +46,9 @@ class ServiceConditions {
  public:
   ServiceConditions(const AlertLimits& limits, std::optional<Contact> contact);
 
+  /// Sets the limits of what is evaluated from now on.
+  void set_limits(const AlertLimits& limits) { limits_ = limits; }
+
   ConditionChanges evaluate(const ServiceState& state);
 
  private:

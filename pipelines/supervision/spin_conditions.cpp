@@ -58,6 +58,20 @@ SpinConditions::SpinConditions(const SpinConfig& config, Orbit orbit, const Aler
       presence_{AlertCode::SpinNoAnswer, limits.spin_no_answer_s},
       answers_{limits.disagree_sigmas} {}
 
+void SpinConditions::set_limits(const AlertLimits& limits) {
+  if (limits.period.revolutions != limits_.period.revolutions) {
+    irrational_ = TurnShare{limits.period.revolutions, 1};
+  }
+  if (limits.rejection.revolutions != limits_.rejection.revolutions) {
+    left_out_ = TurnShare{limits.rejection.revolutions, kPulseChannels};
+  }
+  channels_.set_silent_revolutions(limits.silent_revolutions);
+  ambiguous_.hold(as_long_again(limits.ambiguous_s));
+  doubtful_.hold(as_long_again(limits.doubtful_s));
+  presence_.set_limit_s(limits.spin_no_answer_s);
+  limits_ = limits;
+}
+
 void SpinConditions::set_target(TaiTime t, const Eigen::Vector3d& axis_icrf) {
   targets_.emplace(t, axis_icrf);
 }

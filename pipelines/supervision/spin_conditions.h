@@ -31,6 +31,8 @@ class SpinConditions {
 
   /// Sets the target axis for estimates from `t` on; the target rate stays.
   void set_target(TaiTime t, const Eigen::Vector3d& axis_icrf);
+  /// Sets the limits of what is evaluated from now on.
+  void set_limits(const AlertLimits& limits);
   /// Announces a manoeuvre at `t`, after which a large axis sigma is expected for a while.
   void note_manoeuvre(TaiTime t) {
     manoeuvres_.insert(t);

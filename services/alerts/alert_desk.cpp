@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <cstdint>
 #include <iterator>
 #include <optional>
 #include <string>
@@ -35,28 +36,38 @@ ConditionChanges changes_by_product(Conditions& conditions, const Product& produ
       product);
 }
 
-/// Advances the conditions by the times of results, which come in order.
+/// Returns the time of a result that comes in order; empty for any other product.
+std::optional<TaiTime> time_in_order(const Product& product) {
+  if (const auto* const attitude = std::get_if<AttitudeEstimate>(&product)) {
+    return attitude->t;
+  }
+  const auto* const axis = std::get_if<SpinEstimate>(&product);
+  // Solutions of `batch` are excluded, since they come at any time.
+  return axis != nullptr && axis->estimator != SpinEstimator::Batch ? std::optional{axis->t}
+                                                                    : std::nullopt;
+}
+
 ConditionChanges contradictions_by(ContradictionConditions& conditions, const Product& product) {
   if (const auto* const contradiction = std::get_if<SampleContradiction>(&product)) {
     return conditions.evaluate(*contradiction);
   }
-  if (const auto* const attitude = std::get_if<AttitudeEstimate>(&product)) {
-    return conditions.evaluate(attitude->t);
-  }
-  const auto* const axis = std::get_if<SpinEstimate>(&product);
-  // Solutions of `batch` are excluded, since they come at any time.
-  return axis != nullptr && axis->estimator != SpinEstimator::Batch ? conditions.evaluate(axis->t)
-                                                                    : ConditionChanges{};
+  const auto t = time_in_order(product);
+  return t ? conditions.evaluate(*t) : ConditionChanges{};
 }
 
 Occurrence occurrence_of(const ConditionChange& change, const std::string& run_id,
-                         const Mission& mission) {
+                         const std::string& config_sha256, const AlertLimits& limits,
+                         const AlertBook& book) {
+  std::string key = alert_key(change.code, change.about);
+  const std::int64_t count = book.count_of(key) + (change.change == Change::Raised ? 1 : 0);
   return {.run_id = run_id,
-          .key = alert_key(change.code, change.about),
+          .key = std::move(key),
           .severity = change.severity,
           .t = change.t,
-          .message = sentence_of(change),
-          .evidence = evidence_json(change.evidence, mission.sha256)};
+          .message = sentence_of(change, count),
+          .evidence = evidence_json(change.evidence, config_sha256, count),
+          .took_s = seconds_between(change.evidence.since, change.t),
+          .hold_off_s = limits.hold_off_s.at(static_cast<std::size_t>(change.code))};
 }
 
 /// Returns the times of the samples of which an attitude can be made, without those left out.
@@ -94,26 +105,14 @@ void weigh_answers(SpinConditions& conditions, ArchiveBatch& batch) {
 }
 
 std::optional<Alert> settle(AlertBook& book, Change change, const Occurrence& occurrence) {
-  return change == Change::Raised ? book.raise(occurrence) : book.clear(occurrence);
+  return change == Change::Raised    ? book.raise(occurrence)
+         : change == Change::Cleared ? book.clear(occurrence)
+                                     : book.renew(occurrence);
 }
 
 void append(std::vector<Alert> alerts, std::vector<Product>& products) {
   for (Alert& alert : alerts) {
     products.emplace_back(std::move(alert));
-  }
-}
-
-template <class Conditions>
-void apply(const OperatorAction& action, Conditions& conditions) {
-  const auto* const does = std::get_if<SpinAction>(&action.does);
-  auto* const spin = std::get_if<SpinConditions>(&conditions);
-  if (does == nullptr || spin == nullptr) {
-    return;
-  }
-  if (const auto* const target = std::get_if<SetTarget>(does)) {
-    spin->set_target(action.t.value(), target->axis_icrf);
-  } else if (std::holds_alternative<MarkManoeuvre>(*does)) {
-    spin->note_manoeuvre(action.t.value());
   }
 }
 
@@ -129,7 +128,11 @@ AlertDesk::AlertDesk(const std::vector<Mission>& missions, RunMode mode, const G
                             .conditions = conditions_of(mission),
                             .contradictions = ContradictionConditions{mission.alerts},
                             .comparison = {},
-                            .service = ServiceConditions{mission.alerts, mission.contact}};
+                            .service = ServiceConditions{mission.alerts, mission.contact},
+                            .limits = mission.alerts,
+                            .service_limits = mission.alerts,
+                            .to_come = LimitsInForce{mission.alert_values},
+                            .service_to_come = LimitsInForce{mission.alert_values}};
     begin(*supervised);
   }
 }
@@ -147,6 +150,41 @@ void AlertDesk::begin(Supervised& supervised) {
   supervised.contradictions = ContradictionConditions{supervised.mission.alerts};
   if (supervised.model) {
     supervised.comparison.emplace(supervised.model, supervised.mission.alerts.departure_sigmas);
+  }
+  supervised.limits = supervised.service_limits = supervised.mission.alerts;
+  supervised.service.set_limits(supervised.service_limits);
+  supervised.to_come = supervised.service_to_come = LimitsInForce{supervised.mission.alert_values};
+}
+
+void AlertDesk::apply(const OperatorAction& action, Supervised& supervised) {
+  const TaiTime t = action.t.value();
+  if (const auto* const limit = std::get_if<SetLimit>(&action.does)) {
+    supervised.to_come.set(t, *limit);
+    supervised.service_to_come.set(t, *limit);
+  }
+  const auto* const does = std::get_if<SpinAction>(&action.does);
+  auto* const spin = std::get_if<SpinConditions>(&supervised.conditions);
+  if (does == nullptr || spin == nullptr) {
+    return;
+  }
+  if (const auto* const target = std::get_if<SetTarget>(does)) {
+    spin->set_target(t, target->axis_icrf);
+  } else if (std::holds_alternative<MarkManoeuvre>(*does)) {
+    spin->note_manoeuvre(t);
+  }
+}
+
+/// Puts the limits in force that operators have set for results from `t` or earlier on.
+void AlertDesk::advance_limits(TaiTime t, Supervised& supervised) {
+  const auto limits = supervised.to_come.advance(t);
+  if (!limits) {
+    return;
+  }
+  supervised.limits = *limits;
+  std::visit([&](auto& conditions) { conditions.set_limits(*limits); }, supervised.conditions);
+  supervised.contradictions.set_limits(*limits);
+  if (supervised.comparison) {
+    supervised.comparison->set_band(limits->departure_sigmas);
   }
 }
 
@@ -222,7 +260,7 @@ void AlertDesk::evaluate(ArchiveBatch& batch) {
     return;
   }
   for (const OperatorAction& action : batch.actions) {
-    apply(action, supervised.conditions);
+    apply(action, supervised);
   }
   std::vector<Alert> alerts = changed_by(batch, desk);
   std::move(alerts.begin(), alerts.end(), std::back_inserter(desk.waiting));
@@ -286,6 +324,7 @@ std::vector<ArchiveBatch> AlertDesk::evaluate(const std::map<std::string, Servic
       append(changed_by(state->second, desk), batch.products);
     }
     append(desk.book.expire(now), batch.products);
+    append(desk.book.catch_up(now), batch.products);
     if (!batch.products.empty()) {
       batches.push_back(std::move(batch));
     }
@@ -296,9 +335,14 @@ std::vector<ArchiveBatch> AlertDesk::evaluate(const std::map<std::string, Servic
 /// These alerts cannot be recomputed, so they must not be lost when the clock is set back.
 std::vector<Alert> AlertDesk::changed_by(const ServiceState& state, Desk& desk) {
   Supervised& supervised = *desk.supervised;
+  if (const auto limits = supervised.service_to_come.advance(state.pass_t)) {
+    supervised.service_limits = *limits;
+    supervised.service.set_limits(*limits);
+  }
   std::vector<Alert> alerts;
   for (const ConditionChange& change : supervised.service.evaluate(state)) {
-    Occurrence occurrence = occurrence_of(change, supervised.stored_run, supervised.mission);
+    Occurrence occurrence = occurrence_of(change, supervised.stored_run, supervised.mission.sha256,
+                                          supervised.service_limits, desk.book);
     occurrence.t = desk.book.after(occurrence.key, occurrence.t);
     if (auto alert = settle(desk.book, change.change, occurrence)) {
       desk.run_of.try_emplace(alert->alert_id, supervised.stored_run);
@@ -316,6 +360,9 @@ std::vector<Alert> AlertDesk::changed_by(ArchiveBatch& batch, Desk& desk) {
     append(attitude->await_answer(times_of_fixes(batch.samples)), all);
   }
   for (const Product& product : batch.products) {
+    if (const auto t = time_in_order(product)) {
+      advance_limits(*t, supervised);
+    }
     append(std::visit([&](auto& conditions) { return changes_by_product(conditions, product); },
                       supervised.conditions),
            all);
@@ -336,10 +383,15 @@ std::vector<Alert> AlertDesk::settled(const ConditionChanges& changes, Desk& des
   std::vector<Alert> alerts;
   for (const ConditionChange& change : changes) {
     if (auto alert = settle(desk.book, change.change,
-                            occurrence_of(change, supervised.run_id, supervised.mission))) {
+                            occurrence_of(change, supervised.run_id, supervised.mission.sha256,
+                                          supervised.limits, desk.book))) {
       desk.run_of.try_emplace(alert->alert_id, supervised.run_id);
       alerts.push_back(*std::move(alert));
     }
+  }
+  if (!changes.empty()) {
+    std::vector<Alert> late = desk.book.catch_up(changes.back().t);
+    std::move(late.begin(), late.end(), std::back_inserter(alerts));
   }
   return alerts;
 }

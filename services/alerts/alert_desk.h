@@ -20,6 +20,7 @@
 #include "pipelines/supervision/service_conditions.h"
 #include "pipelines/supervision/spin_conditions.h"
 #include "services/archive/records.h"
+#include "services/mission/limits_in_force.h"
 #include "services/mission/mission.h"
 
 namespace spindrift {
@@ -104,6 +105,10 @@ class AlertDesk {
     ContradictionConditions contradictions;
     std::optional<ModelComparison> comparison;
     ServiceConditions service;
+    AlertLimits limits;          ///< Limits in force for what samples and products raise.
+    AlertLimits service_limits;  ///< Limits in force for what the service raises.
+    LimitsInForce to_come;       ///< Operators' limits, by the time of results.
+    LimitsInForce service_to_come;
     std::string run_id = {};  ///< Supervised run, empty before the first.
     /// Answers of the run before, whose last solution comes while this one goes on.
     std::optional<SpinConditions> ended = {};
@@ -120,6 +125,8 @@ class AlertDesk {
   static Conditions conditions_of(const Mission& mission);
   static void begin(Supervised& supervised);
   static void end(Supervised& supervised);
+  static void apply(const OperatorAction& action, Supervised& supervised);
+  static void advance_limits(TaiTime t, Supervised& supervised);
   template <class Samples>
   static ConditionChanges changes_by(const Samples& samples, Supervised& supervised);
   static std::vector<Alert> changed_by(ArchiveBatch& batch, Desk& desk);

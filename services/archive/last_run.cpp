@@ -26,7 +26,8 @@ Expected<std::optional<LastRun>> find_last_run(const std::filesystem::path& arch
   return read_archive(archive, [&](SQLite::Database& database) -> std::optional<LastRun> {
     SQLite::Statement query{
         database,
-        "SELECT run_id, software_version, config_sha256, orbit_sha256, last_tai_ns FROM run"
+        "SELECT run_id, software_version, config_sha256, orbit_sha256, first_tai_ns, last_tai_ns "
+        "FROM run"
         " WHERE spacecraft_id = ? AND mode = ? ORDER BY first_arrival DESC, started_utc DESC"
         " LIMIT 1"};
     query.bind(1, spacecraft_id);
@@ -36,14 +37,17 @@ Expected<std::optional<LastRun>> find_last_run(const std::filesystem::path& arch
     }
     const std::string run_id = query.getColumn(0).getString();
     const SQLite::Column orbit = query.getColumn(3);
-    const SQLite::Column last = query.getColumn(4);
-    return LastRun{
-        .run_id = run_id,
-        .telemetry = telemetry_of(database, run_id),
-        .software_version = query.getColumn(1).getString(),
-        .config_sha256 = query.getColumn(2).getString(),
-        .orbit_sha256 = orbit.isNull() ? std::nullopt : std::optional{orbit.getString()},
-        .last_sample = last.isNull() ? std::nullopt : std::optional{tai_from_ns(last.getInt64())}};
+    const auto time_in = [&](int column) {
+      const SQLite::Column t = query.getColumn(column);
+      return t.isNull() ? std::nullopt : std::optional{tai_from_ns(t.getInt64())};
+    };
+    return LastRun{.run_id = run_id,
+                   .telemetry = telemetry_of(database, run_id),
+                   .software_version = query.getColumn(1).getString(),
+                   .config_sha256 = query.getColumn(2).getString(),
+                   .orbit_sha256 = orbit.isNull() ? std::nullopt : std::optional{orbit.getString()},
+                   .first_sample = time_in(4),
+                   .last_sample = time_in(5)};
   });
 }
 

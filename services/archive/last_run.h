@@ -20,6 +20,7 @@ struct LastRun {
   std::string software_version;
   std::string config_sha256;
   std::optional<std::string> orbit_sha256;  ///< Empty when the mission names no orbit file.
+  std::optional<TaiTime> first_sample;      ///< Empty when no sample came.
   std::optional<TaiTime> last_sample;       ///< Empty when no sample came.
 };
 

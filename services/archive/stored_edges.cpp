@@ -138,10 +138,13 @@ void read_actions(SQLite::Database& database, StoredEdges& stored) {
   std::multimap<TaiTime, SpinAction> of_prior;
   for (const OperatorAction& action :
        read_actions_of_run(database, stored.run_id, SpacecraftKind::Spin)) {
-    const auto& does = std::get<SpinAction>(action.does);
-    stored.pass.act(action.t.value(), does);
-    if (is_of_prior(does)) {
-      of_prior.emplace(action.t.value(), does);
+    const auto* const does = std::get_if<SpinAction>(&action.does);
+    if (does == nullptr) {
+      continue;
+    }
+    stored.pass.act(action.t.value(), *does);
+    if (is_of_prior(*does)) {
+      of_prior.emplace(action.t.value(), *does);
     }
   }
   read_told_prior(database, of_prior, stored);

@@ -28,8 +28,9 @@ Exclusions<SampleKind> read_exclusions(SQLite::Database& database,
     const std::string run_id = query.getColumn(0).getString();
     for (const OperatorAction& action :
          read_actions_of_run(database, run_id, SpacecraftKind::ThreeAxis)) {
-      std::visit([&](const auto& what) { excluded.apply(action.t.value(), what); },
-                 std::get<AttitudeAction>(action.does));
+      if (const auto* const does = std::get_if<AttitudeAction>(&action.does)) {
+        std::visit([&](const auto& what) { excluded.apply(action.t.value(), what); }, *does);
+      }
     }
   }
   return excluded;

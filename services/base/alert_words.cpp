@@ -33,17 +33,18 @@ constexpr std::array<Words, kAlertCodes> kWords{{
      "look at the link, and at the network between front-end and host"},
     {LinkRejected, "share of unreadable or impossible samples of the last minute",
      "look at rejected_input and at the front-end"},
-    {LinkRepeated, "a new session brings what came before it", "none: it is stored once"},
+    {LinkRepeated, "a new session brings what came before it",
+     "nothing needs to be done: it is stored once"},
     {LinkRestarted, "sessions that the source began in the last minute",
-     "none, if it was to be started again"},
+     "nothing needs to be done if it was to be started again"},
     {LinkContradiction, "samples of the last minute that another source gives with other values",
      "look at the table contradiction; [sources] prefer names the one whose value counts"},
     {ServiceTwice, "another service publishes results of the spacecraft in this partition",
      "stop one of the two; `spindrift doctor` says who is on the bus"},
-    {ChannelSilent, "nothing of a channel that should give something",
+    {ChannelSilent, "silent channel that should give something",
      "look at sensor and telemetry link"},
     {SpinInterference, "edges of two channels spoil each other",
-     "none: they are left out while it lasts"},
+     "nothing needs to be done: both are left out while it lasts"},
     {SpinPeriod, "share of revolutions with an irrational period",
      "look at the edges of sun1 and at what was commanded"},
     {SpinRejection, "share of edges left out", "look at pulse_use.rejected_by"},
@@ -91,17 +92,16 @@ constexpr std::array<Ending, 3> kEndings{{
      "install a program with the next generation of it"},
 }};
 
-/// Returns null for a change of any other kind.
-const Ending* ending_of(const ConditionChange& change) {
-  const auto* const found = std::find_if(kEndings.begin(), kEndings.end(), [&](const Ending& one) {
-    return one.about == change.about;
-  });
-  return change.code == DataOutdated && found != kEndings.end() ? found : nullptr;
+/// Returns null for a condition of any other kind.
+const Ending* ending_of(AlertCode code, std::string_view about) {
+  const auto* const found = std::find_if(kEndings.begin(), kEndings.end(),
+                                         [&](const Ending& one) { return one.about == about; });
+  return code == DataOutdated && found != kEndings.end() ? found : nullptr;
 }
 
 std::string value_text(const ConditionChange& change) {
   const Evidence& evidence = change.evidence;
-  if (const Ending* const ending = ending_of(change)) {
+  if (const Ending* const ending = ending_of(change.code, change.about)) {
     const bool is_over = evidence.value < 0.0;
     return fmt::format(": {} {}{}{}", ending->what, is_over ? "ended " : "ends in ",
                        duration_text(std::abs(evidence.value) * kHour_s), is_over ? " ago" : "");
@@ -111,18 +111,21 @@ std::string value_text(const ConditionChange& change) {
   }
   const std::string sigma =
       evidence.sigma ? fmt::format(" (sigma {:.3g})", *evidence.sigma) : std::string{};
-  return fmt::format(": {:.3g} {}{}, limit {:.3g}", evidence.value, evidence.unit, sigma,
+  const std::string worst = evidence.worst && *evidence.worst != evidence.value
+                                ? fmt::format(", worst {:.3g}", *evidence.worst)
+                                : std::string{};
+  return fmt::format(": {:.3g} {}{}{}, limit {:.3g}", evidence.value, evidence.unit, sigma, worst,
                      evidence.limit);
 }
 
 std::string_view what_to_do(const ConditionChange& change) {
-  const Ending* const ending = ending_of(change);
+  const Ending* const ending = ending_of(change.code, change.about);
   return ending != nullptr ? ending->to_do : kWords.at(static_cast<std::size_t>(change.code)).to_do;
 }
 
 }  // namespace
 
-std::string sentence_of(const ConditionChange& change) {
+std::string sentence_of(const ConditionChange& change, std::int64_t count) {
   const Words& words = kWords.at(static_cast<std::size_t>(change.code));
   if (change.change == Change::Cleared) {
     return fmt::format("over at {}", format_utc(change.t));
@@ -130,17 +133,37 @@ std::string sentence_of(const ConditionChange& change) {
   const std::string who = change.who.empty() ? "" : fmt::format(" ({})", shown(change.who));
   // The value of a departure was measured at its first instant.
   const TaiTime t = change.code == ModelDeparture ? change.evidence.since : change.t;
-  return fmt::format("{}{}{} at {}: {}", words.what, who, value_text(change), format_utc(t),
-                     what_to_do(change));
+  const std::string since = change.change == Change::Renewed
+                                ? fmt::format(", since {}", format_utc(change.evidence.since))
+                                : std::string{};
+  const std::string often = count > 1 ? fmt::format(", {} times so far", count) : std::string{};
+  return fmt::format("{}{}{} at {}{}{}: {}", words.what, who, value_text(change), format_utc(t),
+                     since, often, what_to_do(change));
 }
 
-std::string evidence_json(const Evidence& evidence, std::string_view config_sha256) {
+std::string words_of(const std::string& key) {
+  const auto code = code_of(key);
+  if (!code) {
+    return key;
+  }
+  const std::string_view about = about_of(key);
+  const Ending* const ending = ending_of(*code, about);
+  return ending != nullptr ? fmt::format("{} is old", ending->what)
+         : about.empty()   ? std::string{kWords.at(static_cast<std::size_t>(*code)).what}
+                           : fmt::format("{} ({})", kWords.at(static_cast<std::size_t>(*code)).what,
+                                         shown(std::string{about}));
+}
+
+std::string evidence_json(const Evidence& evidence, std::string_view config_sha256,
+                          std::int64_t count) {
   nlohmann::ordered_json json{{"value", evidence.value},
                               {"limit", evidence.limit},
                               {"unit", evidence.unit},
                               {"since_tai_ns", tai_ns(evidence.since)},
                               {"samples", {tai_ns(evidence.since), tai_ns(evidence.last)}},
                               {"config_sha256", config_sha256}};
+  json["worst"] = evidence.worst.value_or(evidence.value);
+  json["count"] = count;
   if (evidence.sigma) {
     json["sigma"] = *evidence.sigma;
   }

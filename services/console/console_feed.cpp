@@ -35,12 +35,22 @@ nlohmann::json leap_seconds_json() {
   return offsets;
 }
 
-nlohmann::json go_json(const std::vector<Objection>& against) {
-  nlohmann::json texts = nlohmann::json::array();
-  for (const Objection& objection : against) {
-    texts.push_back({{"code", objection.code}, {"text", objection.text}});
+nlohmann::json go_json(const GoNoGo& go) {
+  nlohmann::json against = nlohmann::json::array();
+  for (const Objection& objection : go.against) {
+    against.push_back({{"code", objection.code}, {"text", objection.text}});
   }
-  return {{"is_go", against.empty()}, {"against", std::move(texts)}};
+  nlohmann::json accepted = nlohmann::json::array();
+  for (const AcceptedAlert& alert : go.accepted) {
+    accepted.push_back({{"key", alert.key},
+                        {"by", alert.accepted.by},
+                        {"t_tai_ns", tai_ns(alert.accepted.t)},
+                        {"utc", format_utc(alert.accepted.t)},
+                        {"text", alert.text}});
+  }
+  return {{"is_go", go.against.empty()},
+          {"against", std::move(against)},
+          {"accepted", std::move(accepted)}};
 }
 
 }  // namespace

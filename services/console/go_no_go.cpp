@@ -2,8 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <cstddef>
 #include <string>
 #include <utility>
+
+#include "pipelines/core/shown.h"
+#include "pipelines/time/utc.h"
+#include "services/base/alert_words.h"
 
 namespace spindrift {
 namespace {
@@ -53,30 +58,49 @@ void see_axis(const Standing& standing, const AlertLimits& limits, Objections& a
   }
 }
 
-void see_alerts(const std::vector<Alert>& alerts, Objections& against) {
+/// An unknown key is held to bear on the answer.
+bool is_accepted(const Alert& alert) {
+  const auto code = code_of(alert.key);
+  return alert.state == AlertState::Acknowledged && alert.accepted &&
+         alert.severity == AlertSeverity::Warning && code && !bears_on_answer(*code);
+}
+
+AcceptedAlert accepted_of(const Alert& alert) {
+  constexpr std::size_t kMinutes = 11;  // Of "2026-11-20T03:12:00.000Z".
+  return {
+      .key = alert.key,
+      .accepted = *alert.accepted,
+      .text = fmt::format("{}, accepted by {} {}", words_of(alert.key), shown(alert.accepted->by),
+                          format_utc(alert.accepted->t).substr(kMinutes, 5))};
+}
+
+void see_alerts(const std::vector<Alert>& alerts, GoNoGo& go) {
   for (const Alert& alert : alerts) {
-    if (alert.severity != AlertSeverity::Info) {
-      against.push_back({"alert", fmt::format("{} {}, {}", name_of(alert.severity), alert.key,
-                                              name_of(alert.state))});
+    if (is_accepted(alert)) {
+      go.accepted.push_back(accepted_of(alert));
+    } else if (alert.severity != AlertSeverity::Info) {
+      go.against.push_back({"alert", fmt::format("{} {}, {}", name_of(alert.severity), alert.key,
+                                                 name_of(alert.state))});
     }
   }
 }
 
 }  // namespace
 
-std::vector<Objection> go_no_go(const Standing& standing, const std::string& trouble,
-                                const AlertLimits& limits) {
-  Objections against;
-  if (!trouble.empty()) {
-    against.push_back({"service", trouble});
+GoNoGo go_no_go(const Standing& standing, const std::string& trouble, const AlertLimits& limits) {
+  GoNoGo go;
+  Objections& against = go.against;
+  if (trouble.empty()) {
+    see_link(standing, against);
+  } else {
+    against.push_back({"service", trouble});  // What comes is not known then.
   }
-  see_link(standing, against);
   see_answer(standing.verdict, against);
   if (standing.kind == SpacecraftKind::Spin) {
     see_axis(standing, limits, against);
   }
-  see_alerts(standing.alerts, against);
-  return against;
+  see_alerts(standing.alerts, go);
+  return go;
 }
 
 }  // namespace spindrift

@@ -32,10 +32,21 @@ struct Objection {
   std::string text;  ///< Sentence for people.
 };
 
+/// A warning that stands against nothing, since an operator has acknowledged it and it does not
+/// bear on the answer.
+struct AcceptedAlert {
+  std::string key;
+  Acknowledgement accepted;
+  std::string text;  ///< Sentence for people: what, by whom and when.
+};
+
+struct GoNoGo {
+  std::vector<Objection> against;  ///< Empty means go.
+  std::vector<AcceptedAlert> accepted;
+};
+
 /// Anything unknown is an objection.
 /// @param trouble Why the service takes or stores nothing; empty when it does.
-/// @return The objections; empty means go.
-std::vector<Objection> go_no_go(const Standing& standing, const std::string& trouble,
-                                const AlertLimits& limits);
+GoNoGo go_no_go(const Standing& standing, const std::string& trouble, const AlertLimits& limits);
 
 }  // namespace spindrift

@@ -100,6 +100,49 @@ nlohmann::json verdict_json(const PassVerdict& verdict) {
   return object;
 }
 
+/// What an action says of the telemetry that is used.
+struct SaysOfUse {
+  bool excludes = false;
+  std::optional<std::size_t> channel = {};  ///< From its time on; empty: of a segment.
+
+  template <class Channel>
+  explicit SaysOfUse(const ExcludeChannel<Channel>& does)
+      : excludes{true}, channel{static_cast<std::size_t>(does.channel)} {}
+  template <class Channel>
+  explicit SaysOfUse(const IncludeChannel<Channel>& does)
+      : channel{static_cast<std::size_t>(does.channel)} {}
+  template <class Channel>
+  explicit SaysOfUse(const ExcludeSegment<Channel>& /*does*/) : excludes{true} {}
+  template <class Other>
+  explicit SaysOfUse(const Other& /*does*/) {}
+};
+
+SaysOfUse use_by(const OperatorAction& action) {
+  return std::visit(
+      [](const auto& of_kind) {
+        if constexpr (requires { of_kind.limits; }) {
+          return SaysOfUse{of_kind};
+        } else {
+          return std::visit([](const auto& does) { return SaysOfUse{does}; }, of_kind);
+        }
+      },
+      action.does);
+}
+
+/// Keeps the last actions, and all exclusions in force.
+void keep_last_and_exclusions(std::size_t most, std::deque<OperatorAction>& actions) {
+  for (auto action = actions.begin(); actions.size() > most && action != actions.end();) {
+    const SaysOfUse said = use_by(*action);
+    const bool is_in_force =
+        said.excludes &&
+        (!said.channel ||
+         std::none_of(std::next(action), actions.end(), [&](const OperatorAction& later) {
+           return use_by(later).channel == said.channel;
+         }));
+    action = is_in_force ? std::next(action) : actions.erase(action);
+  }
+}
+
 template <class Value>
 void keep_last(std::size_t most, std::deque<Value>& values) {
   while (values.size() > most) {
@@ -199,7 +242,7 @@ void ShownSpacecraft::take_details(const ArchiveBatch& stored) {
   for (const OperatorAction& action : stored.actions) {
     show(action);
   }
-  keep_last(kActionsKept, actions_);
+  keep_last_and_exclusions(kActionsKept, actions_);
   keep_last(kMostEdgesAtOnce, edges_);
   while (periods_s_.size() > kTurnsKept) {
     periods_s_.erase(periods_s_.begin());
@@ -256,11 +299,21 @@ nlohmann::json ShownSpacecraft::residuals() const {
 
 void ShownSpacecraft::show(const OperatorAction& action) {
   actions_.push_back(action);
+  if (const auto* const limit = std::get_if<SetLimit>(&action.does)) {
+    limits_to_come_.set(action.t.value(), *limit);
+  }
   const auto* const does = std::get_if<SpinAction>(&action.does);
   const auto* const said = does == nullptr ? nullptr : std::get_if<SetPrior>(does);
   if (said != nullptr) {
     priors_.insert_or_assign(action.t.value(), said->prior);
   }
+}
+
+const AlertLimits& ShownSpacecraft::limits() {
+  if (health_.last_sample) {
+    limits_ = limits_to_come_.advance(*health_.last_sample).value_or(limits_);
+  }
+  return limits_;
 }
 
 /// Returns the mission's prior unless an operator has replaced it.

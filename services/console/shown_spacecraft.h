@@ -14,6 +14,7 @@
 #include "pipelines/observation/ledger.h"
 #include "services/archive/records.h"
 #include "services/console/go_no_go.h"
+#include "services/mission/limits_in_force.h"
 #include "services/mission/mission.h"
 #include "services/products/products.h"
 #include "services/publisher/health.h"
@@ -47,7 +48,8 @@ class ShownSpacecraft {
   nlohmann::json state();
   /// Returns the standing without alerts.
   Standing standing() const;
-  const AlertLimits& limits() const { return mission_.alerts; }
+  /// Returns the limits of alerts in force.
+  const AlertLimits& limits();
   /// Returns the edges since the last call, with their spin phase where that is known.
   nlohmann::json take_pulses();
 
@@ -72,7 +74,9 @@ class ShownSpacecraft {
   /// Latest measurements that failed their test.
   std::map<std::pair<std::int64_t, SpinQuantity>, SpinMeasurement> failed_;
   Ledger ledger_;  ///< Residuals of edges in `sequential`, or of samples in the filter.
-  std::deque<OperatorAction> actions_;                   ///< The latest actions.
+  std::deque<OperatorAction> actions_;  ///< The latest actions.
+  LimitsInForce limits_to_come_{mission_.alert_values};
+  AlertLimits limits_ = mission_.alerts;
   std::map<TaiTime, SpinPrior> priors_;                  ///< Set by actions, by start time.
   std::optional<std::pair<TaiTime, double>> bound_deg_;  ///< From the last batch solution.
   ApparentSun sun_;

@@ -18,6 +18,7 @@
 #include "pipelines/three_axis/config.h"
 #include "services/mission/mission_alignment.h"
 #include "services/mission/mission_reconstruction.h"
+#include "services/mission/scalar.h"
 #include "services/mission/spacecraft_kind.h"
 
 namespace spindrift {
@@ -33,6 +34,7 @@ struct Mission {
   std::set<std::string> tables;                      ///< Non-empty tables, "three_axis.gyro".
   std::vector<std::string> orbit_doubts;             ///< Orbit file sentences (mission_orbit.h).
   AlertLimits alerts = {};
+  TomlValues alert_values = {};  ///< Values of [alerts], of which `alerts` is made.
   std::optional<SpinTarget> target = {};
   std::optional<Contact> contact = {};
   std::string preferred_source = {};                       ///< Value of [sources] prefer, or empty.

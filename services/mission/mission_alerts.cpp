@@ -2,7 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
+#include <iterator>
 #include <string>
+#include <string_view>
 
 #include "pipelines/frames/celestial.h"
 #include "pipelines/time/utc.h"
@@ -12,12 +16,34 @@
 namespace spindrift {
 namespace {
 
+constexpr std::string_view kAlerts = "alerts.";
+
 ShareLimit share_limit(const TomlValues& values, const std::string& table) {
   return {.percent = number(values, table + ".percent"),
           .revolutions = static_cast<int>(number(values, table + ".revolutions"))};
 }
 
+std::array<double, kAlertCodes> hold_offs_s(const TomlValues& values) {
+  std::array<double, kAlertCodes> all{};
+  for (int i = 0; i < kAlertCodes; ++i) {
+    all.at(static_cast<std::size_t>(i)) =
+        number(values, limit_path(name_of(static_cast<AlertCode>(i)), "hold_off_s"));
+  }
+  return all;
+}
+
 }  // namespace
+
+std::string limit_path(std::string_view key, std::string_view name) {
+  return fmt::format("{}{}.{}", kAlerts, key, name);
+}
+
+TomlValues alert_values(const TomlValues& values) {
+  TomlValues all;
+  std::copy_if(values.begin(), values.end(), std::inserter(all, all.end()),
+               [](const auto& value) { return value.first.starts_with(kAlerts); });
+  return all;
+}
 
 AlertLimits alert_limits(const TomlValues& values) {
   return {
@@ -48,7 +74,8 @@ AlertLimits alert_limits(const TomlValues& values) {
       .departure_sigmas = number(values, "alerts.model.departure.sigmas"),
       .backlog_s = number(values, "alerts.archive.backlog.seconds"),
       .disk_gib = number(values, "alerts.archive.disk.gib"),
-      .clock_jump_s = number(values, "alerts.clock.jump.seconds")};
+      .clock_jump_s = number(values, "alerts.clock.jump.seconds"),
+      .hold_off_s = hold_offs_s(values)};
 }
 
 std::optional<Contact> planned_contact(TomlDocument& document) {

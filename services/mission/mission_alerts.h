@@ -4,6 +4,8 @@
 #pragma once
 
 #include <optional>
+#include <string>
+#include <string_view>
 
 #include "pipelines/supervision/limits.h"
 #include "services/mission/document.h"
@@ -11,8 +13,14 @@
 
 namespace spindrift {
 
-/// @param values Values of a mission file without problems.
+/// @param values Values of a mission file without problems, or those of its [alerts].
 AlertLimits alert_limits(const TomlValues& values);
+
+/// Returns the values of [alerts] alone.
+TomlValues alert_values(const TomlValues& values);
+
+/// Returns the place of a limit among the values, such as "alerts.spin.sigma.deg".
+std::string limit_path(std::string_view key, std::string_view name);
 
 /// Returns empty if the mission file has no contact. Adds a problem if it ends before it begins.
 std::optional<Contact> planned_contact(TomlDocument& document);

@@ -10,6 +10,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -19,6 +20,8 @@
 #include "services/base/json_line.h"
 #include "services/base/unique_id.h"
 #include "services/base/wall_clock.h"
+#include "services/mission/key_check.h"
+#include "services/mission/mission_schema.h"
 #include "services/telemetry/telemetry_time.h"
 
 namespace spindrift {
@@ -207,6 +210,27 @@ SpinPrior prior(SaidValues& said) {
   return {.axis_icrf = axis, .sigma_rad = said.number("sigma_deg", 1e-3, 180.0) * kRadPerDeg};
 }
 
+/// Takes the limits that the mission file may have for the alert, with the same bounds.
+ActionEffect limits_of_alert(SaidValues& said) {
+  std::array<std::string_view, kAlertCodes> keys;
+  for (int i = 0; i < kAlertCodes; ++i) {
+    keys.at(static_cast<std::size_t>(i)) = name_of(static_cast<AlertCode>(i));
+  }
+  SetLimit set{.key = std::string{keys.at(said.name("key", keys))}, .limits = {}};
+  const TableRule schema = mission_schema().value();
+  const auto& rules = schema.tables.at("alerts").tables.at(set.key).keys;
+  for (const auto& [name, rule] : rules) {
+    if (said.has(name.c_str())) {
+      set.limits[name] =
+          said.number(name.c_str(), as_number(rule.lower->value), as_number(rule.upper->value));
+    }
+  }
+  if (set.limits.empty()) {
+    said.wrong(fmt::format("a limit of {} is missing", set.key));
+  }
+  return set;
+}
+
 /// An action by name with how its arguments are read for each kind of spacecraft; null where that
 /// kind does not have it.
 struct KnownAction {
@@ -220,7 +244,7 @@ struct KnownAction {
 };
 
 /// The only list of actions. The page and the schema of the archive are tested against it.
-constexpr std::array<KnownAction, 7> kActions{{
+constexpr std::array<KnownAction, 8> kActions{{
     {"exclude_channel", &of_channel<SpinAction, ExcludeChannel<PulseChannel>>,
      &of_channel<AttitudeAction, ExcludeChannel<SampleKind>>},
     {"include_channel", &of_channel<SpinAction, IncludeChannel<PulseChannel>>,
@@ -235,27 +259,11 @@ constexpr std::array<KnownAction, 7> kActions{{
      [](SaidValues& /*said*/) -> ActionEffect { return SpinAction{MarkManoeuvre{}}; }},
     {"set_target",
      [](SaidValues& said) -> ActionEffect { return SpinAction{SetTarget{axis_icrf(said)}}; }},
+    {"set_limit", &limits_of_alert, &limits_of_alert},
 }};
 
 Unexpected invalid(std::string message) {
   return Unexpected{{ErrorCode::InvalidInput, std::move(message)}};
-}
-
-struct Segment {
-  TaiTime from;
-  TaiTime to;
-};
-
-/// Returns empty for an action without a segment.
-std::optional<Segment> segment_in(const ActionEffect& does) {
-  const auto of_one = [](const auto& what) -> std::optional<Segment> {
-    if constexpr (requires { what.from; }) {
-      return Segment{.from = what.from, .to = what.to};
-    } else {
-      return std::nullopt;
-    }
-  };
-  return std::visit([&](const auto& of_kind) { return std::visit(of_one, of_kind); }, does);
 }
 
 /// Sets the time of a segment's action to its beginning, which usually lies in the past.
@@ -284,6 +292,25 @@ Expected<SpacecraftKind> kind_of(const std::string& spacecraft, const KnownSpace
 }
 
 }  // namespace
+
+std::optional<Segment> segment_in(const ActionEffect& does) {
+  const auto of_one = [](const auto& what) -> std::optional<Segment> {
+    if constexpr (requires { what.from; }) {
+      return Segment{.from = what.from, .to = what.to};
+    } else {
+      return std::nullopt;
+    }
+  };
+  return std::visit(
+      [&](const auto& of_kind) -> std::optional<Segment> {
+        if constexpr (std::is_same_v<std::remove_cvref_t<decltype(of_kind)>, SetLimit>) {
+          return std::nullopt;
+        } else {
+          return std::visit(of_one, of_kind);
+        }
+      },
+      does);
+}
 
 std::vector<std::string_view> action_names(std::optional<SpacecraftKind> kind) {
   std::vector<std::string_view> names;

@@ -34,6 +34,15 @@ Expected<OperatorAction> parse_action(const nlohmann::json& request, const Known
 /// What an action does, by the kind of spacecraft.
 using ActionEffect = decltype(OperatorAction::does);
 
+/// The telemetry that an action is about, where it names an end.
+struct Segment {
+  TaiTime from;
+  TaiTime to;
+};
+
+/// Returns empty for an action without a segment.
+std::optional<Segment> segment_in(const ActionEffect& does);
+
 /// Parses the arguments of an action, also of one from an archive.
 /// @return InvalidInput with all problems.
 Expected<ActionEffect> what_it_does(SpacecraftKind kind, const std::string& action,

@@ -32,9 +32,20 @@ struct AlertTable {
       ProductColumn{"revision", &Alert::revision},
       ProductColumn{"raised_tai_ns", [](const Alert& alert) { return tai_ns(alert.raised); }},
       ProductColumn{"updated_tai_ns", [](const Alert& alert) { return tai_ns(alert.updated); }},
+      ProductColumn{"returned_tai_ns",
+                    [](const Alert& alert) { return tai_ns_if(alert.returned); }},
       ProductColumn{"cleared_tai_ns", [](const Alert& alert) { return tai_ns_if(alert.cleared); }},
       ProductColumn{"shelved_until_tai_ns",
                     [](const Alert& alert) { return tai_ns_if(alert.shelved_until); }},
+      ProductColumn{"accepted_by",
+                    [](const Alert& alert) {
+                      return alert.accepted ? std::optional{alert.accepted->by} : std::nullopt;
+                    }},
+      ProductColumn{"accepted_tai_ns",
+                    [](const Alert& alert) {
+                      return alert.accepted ? std::optional{tai_ns(alert.accepted->t)}
+                                            : std::nullopt;
+                    }},
       ProductColumn{"count", &Alert::count}, ProductColumn{"message", &Alert::message},
       ProductColumn{"evidence", &Alert::evidence});
 };
@@ -51,6 +62,8 @@ struct AlertTransitionTable {
                     }},
       ProductColumn{"to_state", [](const Alert& alert) { return name_of(alert.state); }},
       ProductColumn{"by", &Alert::by}, ProductColumn{"note", &Alert::note});
+  /// A new message alone is no transition.
+  static bool has_row(const Alert& alert) { return !alert.by.empty(); }
 };
 
 template <>
@@ -80,6 +93,13 @@ struct ProductKind<Alert> {
     alert.revision = row.integer("revision");
     alert.raised = tai_from_ns(row.integer("raised_tai_ns"));
     alert.updated = tai_from_ns(row.integer("updated_tai_ns"));
+    if (row.has("returned_tai_ns")) {
+      alert.returned = tai_from_ns(row.integer("returned_tai_ns"));
+    }
+    if (row.has("accepted_by") && row.has("accepted_tai_ns")) {
+      alert.accepted = Acknowledgement{.by = std::string{row.text("accepted_by")},
+                                       .t = tai_from_ns(row.integer("accepted_tai_ns"))};
+    }
     if (row.has("cleared_tai_ns")) {
       alert.cleared = tai_from_ns(row.integer("cleared_tai_ns"));
     }

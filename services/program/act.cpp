@@ -27,6 +27,10 @@ Expected<nlohmann::json> request_of(const ActOptions& options) {
   add("ra_deg", options.ra_deg);
   add("dec_deg", options.dec_deg);
   add("sigma_deg", options.sigma_deg);
+  add("key", options.key);
+  for (const auto& [name, limit] : options.limits) {
+    request[name] = limit;
+  }
   const std::array<std::pair<const char*, const std::optional<std::string>&>, 3> times{
       {{"t_tai_ns", options.at}, {"from_tai_ns", options.from}, {"to_tai_ns", options.to}}};
   for (const auto& [key, utc] : times) {

@@ -12,6 +12,7 @@
 #include <variant>
 #include <vector>
 
+#include "pipelines/core/shown.h"
 #include "pipelines/time/utc.h"
 #include "services/alerts/alert_desk.h"
 #include "services/alerts/alert_json.h"
@@ -37,9 +38,16 @@ std::string to_text(const StoredAlert& stored) {
   const Alert& alert = stored.alert;
   const std::string until =
       alert.cleared ? fmt::format(" until {}", format_utc(*alert.cleared)) : std::string{};
-  return fmt::format("{} {} {} {} {} since {}{}, {} run: {}\n", alert.alert_id, stored.spacecraft,
-                     name_of(alert.severity), name_of(alert.state), alert.key,
-                     format_utc(alert.raised), until, name_of(stored.mode), alert.message);
+  const std::string accepted = alert.accepted
+                                   ? fmt::format(", accepted by {} {}", shown(alert.accepted->by),
+                                                 format_utc(alert.accepted->t))
+                                   : std::string{};
+  const std::string often =
+      alert.count > 1 ? fmt::format(", count {}", alert.count) : std::string{};
+  return fmt::format("{} {} {} {} {} since {}{}{}{}, {} run: {}\n", alert.alert_id,
+                     stored.spacecraft, name_of(alert.severity), name_of(alert.state), alert.key,
+                     format_utc(alert.raised), until, often, accepted, name_of(stored.mode),
+                     alert.message);
 }
 
 nlohmann::json json_of(const StoredAlert& stored) {

@@ -13,6 +13,7 @@
 #include <thread>
 #include <vector>
 
+#include "services/mission/mission_schema.h"
 #include "services/operator/parse_action.h"
 
 namespace spindrift {
@@ -346,6 +347,20 @@ std::string any_action() {
   return fmt::format("{} or {}", fmt::join(names, ", "), last);
 }
 
+/// Gives each limit that some alert of the mission file has its option.
+void add_limits(CLI::App& command, std::map<std::string, double>& limits) {
+  std::map<std::string, KeyRule> rules;
+  const TableRule schema = mission_schema().value();
+  for (const auto& [key, alert] : schema.tables.at("alerts").tables) {
+    rules.insert(alert.keys.begin(), alert.keys.end());
+  }
+  for (const auto& [name, rule] : rules) {
+    command.add_option_function<double>(
+        "--" + name, [&limits, name = name](double limit) { limits[name] = limit; },
+        fmt::format("Limit of an alert that has it{}{}", rule.unit.empty() ? "" : ", ", rule.unit));
+  }
+}
+
 void add_act(CLI::App& app, Request& request) {
   ActOptions& options = request.act;
   CLI::App& command = *app.add_subcommand(
@@ -364,6 +379,9 @@ void add_act(CLI::App& app, Request& request) {
   command.add_option("--sigma", options.sigma_deg, "One standard deviation, deg");
   command.add_option("--from", options.from, "Beginning of a segment, UTC");
   command.add_option("--to", options.to, "End of a segment, UTC");
+  command.add_option("--key", options.key,
+                     "Alert whose limits are set: key without what it is about");
+  add_limits(command, options.limits);
   command.add_flag("--json", options.json, "Print one JSON object");
   command.callback([&] { request.run = [&] { return act(request.act); }; });
 }

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -212,8 +213,10 @@ struct ActOptions {
   std::optional<double> ra_deg = {};
   std::optional<double> dec_deg = {};
   std::optional<double> sigma_deg = {};
-  std::optional<std::string> from = {};  ///< UTC.
-  std::optional<std::string> to = {};    ///< UTC.
+  std::optional<std::string> from = {};       ///< UTC.
+  std::optional<std::string> to = {};         ///< UTC.
+  std::optional<std::string> key = {};        ///< Of alerts.
+  std::map<std::string, double> limits = {};  ///< By name, as under [alerts].
   /// @}
 };
 

@@ -305,7 +305,8 @@ Expected<GoneOn> go_on(const ServiceParts& parts, ConsoleFeed* feed, Announcer& 
 Expected<void> take_and_answer(const ServeOptions& options, const ServiceParts& parts,
                                ConsoleFeed* feed, ServiceTerminal& terminal, StoredActions& actions,
                                GoneOn stored) {
-  ActionInbox inbox{kinds_of(parts.missions), parts.archive, parts.taken, actions};
+  ActionInbox inbox{
+      kinds_of(parts.missions), parts.db, parts.mode, parts.archive, parts.taken, actions};
   const auto requests = answer_requests(options.db, parts.archive, parts.desk, inbox);
   const auto console = start_console(options, feed, parts.desk, parts.archive, inbox);
   if (!console) {

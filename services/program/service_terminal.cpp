@@ -36,7 +36,7 @@ spdlog::level::level_enum level_of(AlertSeverity severity) {
 
 /// Describes the change of the alert and who made it.
 std::string what_changed(const Alert& alert) {
-  if (!alert.from) {
+  if (!alert.from || alert.from == AlertState::Cleared) {
     return alert.message;
   }
   if (alert.state == AlertState::Cleared) {
@@ -47,10 +47,12 @@ std::string what_changed(const Alert& alert) {
 }
 
 void log_change(const std::string& spacecraft, const Alert& alert) {
-  if (alert.state == AlertState::Cleared && alert.severity == AlertSeverity::Info) {
-    return;  // An alert of severity Info reports an event; its clearing is no news.
+  if (alert.by.empty() ||
+      (alert.state == AlertState::Cleared && alert.severity == AlertSeverity::Info)) {
+    return;  // A new message alone is no news, nor is the end of an event.
   }
-  spdlog::log(alert.from ? spdlog::level::info : level_of(alert.severity), "{}: {}: {}", spacecraft,
+  const bool is_raised = !alert.from || alert.from == AlertState::Cleared;
+  spdlog::log(is_raised ? level_of(alert.severity) : spdlog::level::info, "{}: {}: {}", spacecraft,
               shown(alert.key), what_changed(alert));
 }
 

@@ -2,10 +2,18 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
+#include "pipelines/time/utc.h"
+#include "services/archive/last_run.h"
+#include "services/base/wall_clock.h"
+
 namespace spindrift {
 namespace {
 
 constexpr std::chrono::seconds kPatience{5};
+// What is planned further ahead is not of this pass.
+constexpr std::chrono::hours kAhead{24};
 
 }  // namespace
 
@@ -37,8 +45,27 @@ bool StoredActions::wait(const std::string& action_id, std::chrono::seconds at_m
   return stored_.wait_for(lock, at_most, [&] { return !awaited_.contains(action_id); });
 }
 
+/// Before the first telemetry, nothing is known of the pass.
+Expected<OperatorAction> ActionInbox::within_pass(OperatorAction action) const {
+  const auto run = find_last_run(db_, action.spacecraft, mode_);
+  if (!action.t || !run || !*run || !(*run)->first_sample || !(*run)->last_sample) {
+    return action;
+  }
+  const TaiTime first = *(*run)->first_sample;
+  const TaiTime end = std::max(*(*run)->last_sample, tai_now()) + kAhead;
+  const auto segment = segment_in(action.does);
+  if (*action.t <= end && (segment ? segment->to : *action.t) >= first) {
+    return action;
+  }
+  return Unexpected{
+      {ErrorCode::InvalidInput,
+       fmt::format("{}: {} is outside the pass: must lie from its first sample, {}, to {}",
+                   action.action, format_utc(*action.t), format_utc(first), format_utc(end))}};
+}
+
 Expected<std::string> ActionInbox::submit(const nlohmann::json& request) {
   return parse_action(request, known_)
+      .and_then([&](const OperatorAction& action) { return within_pass(action); })
       .and_then([&](const OperatorAction& action) -> Expected<std::string> {
         if (const auto failure = archive_.statistics().failure) {
           return Unexpected{{ErrorCode::Unavailable,

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <condition_variable>
 #include <cstddef>
+#include <filesystem>
 #include <mutex>
 #include <nlohmann/json.hpp>
 #include <set>
@@ -49,19 +50,30 @@ class StoredActions {
 /// Accepts operators' actions. May be used by any thread.
 class ActionInbox {
  public:
-  /// All arguments must outlive the inbox. @param taken Queue that the actions go into.
+  /// All arguments must outlive the inbox. @param db Path of the archive. @param mode Mode of the
+  /// runs that the actions are for. @param taken Queue that the actions go into.
   /// @param stored Is told of every commit.
-  ActionInbox(KnownSpacecraft known, const Archive& archive, BoundedQueue<SampleBatch>& taken,
-              StoredActions& stored)
-      : known_{std::move(known)}, archive_{archive}, taken_{taken}, stored_{stored} {}
+  ActionInbox(KnownSpacecraft known, std::filesystem::path db, RunMode mode, const Archive& archive,
+              BoundedQueue<SampleBatch>& taken, StoredActions& stored)
+      : known_{std::move(known)},
+        db_{std::move(db)},
+        mode_{mode},
+        archive_{archive},
+        taken_{taken},
+        stored_{stored} {}
 
   /// Queues an action behind the samples that are queued already, even if the queue is full, and
-  /// waits until it is stored. @return The action_id; errors as parse_action; Unavailable when the
+  /// waits until it is stored. @return The action_id; errors as parse_action; InvalidInput for a
+  /// time before the first sample of the pass or a day after the last; Unavailable when the
   /// service stops, too many actions wait, or the action is not stored within 5 s.
   Expected<std::string> submit(const nlohmann::json& request);
 
  private:
+  Expected<OperatorAction> within_pass(OperatorAction action) const;
+
   KnownSpacecraft known_;
+  std::filesystem::path db_;
+  RunMode mode_;
   const Archive& archive_;
   BoundedQueue<SampleBatch>& taken_;
   StoredActions& stored_;

@@ -8,6 +8,7 @@
 #include <variant>
 
 #include "pipelines/spin/types/spin_action.h"
+#include "pipelines/supervision/limits.h"
 #include "pipelines/three_axis/attitude_action.h"
 #include "pipelines/time/tai_time.h"
 #include "services/telemetry/places.h"
@@ -24,7 +25,7 @@ struct OperatorAction {
   std::string action;     ///< Name as in `schemas/tables.sql`.
   std::string arguments;  ///< A JSON object.
   std::string note;
-  std::variant<SpinAction, AttitudeAction> does;  ///< `action` and `arguments`, parsed.
+  std::variant<SpinAction, AttitudeAction, SetLimit> does;  ///< `action` and `arguments`, parsed.
   RunPlace arrival = {};  ///< Its place among the samples of the run that took it.
 };
 

@@ -161,6 +161,17 @@ test('names places on the sky wherever they lie together', { timeout: within_ms 
   for (let dec = -90; dec <= 90; dec += 0.1) drawSky({ ra_deg: 9, dec_deg: dec, sun_ra_deg: 9, sun_dec_deg: dec });
 }));
 
+test('says beside GO what an operator has accepted, and that telemetry without an answer is no wait', async () => {
+  const said = await page.evaluate(async () => {
+    const { drawHeader } = await import('/header.js');
+    const text = 'the table of leap seconds is old, accepted by OPS1 03:12';
+    drawHeader({ state: 'live', go: { is_go: true, against: [], accepted: [{ text }] } }, { mode: 'live' }, 0, false);
+    return ['go', 'against', 'quality'].map(id => document.getElementById(id).textContent);
+  });
+  assert.deepEqual(said.slice(0, 2), ['✔ GO', 'the table of leap seconds is old, accepted by OPS1 03:12']);
+  assert.match(said[2], /NO ANSWER$/);
+});
+
 test('needs no scrolling at 1366x768 and on a tablet', async () => {
   for (const [width, height] of [[1366, 768], [1024, 768]]) {
     await page.setViewportSize({ width, height });

@@ -110,6 +110,8 @@ class DepartureWatch {
   /// @param band_sigmas Half-width of the band, in sigma of each residual.
   DepartureWatch(const std::vector<ComparedChannel>& channels, double band_sigmas);
 
+  void set_band(double band_sigmas) { band_sigmas_ = band_sigmas; }
+
   /// Judges a sample; one earlier than its channel's last sample counts for the statistics only.
   std::optional<ConditionChange> evaluate(const ComparedSample& sample);
 

@@ -36,6 +36,9 @@ class ModelComparison {
   /// @param band_sigmas Half-width of the band, in sigma of each residual.
   ModelComparison(std::shared_ptr<const GroundModel> model, double band_sigmas);
 
+  /// Sets the band of what is compared from now on.
+  void set_band(double band_sigmas) { watch_.set_band(band_sigmas); }
+
   struct Compared {
     std::vector<ComparedSample> samples;
     ConditionChanges changes;  ///< Departures of channels and their ends.

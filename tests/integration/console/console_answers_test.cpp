@@ -152,6 +152,47 @@ TEST_F(ConsoleAnswers, AnAcknowledgementOnceItIsStoredAndTold) {
             400U);  // The alert is already acknowledged.
 }
 
+/// What the state says for and against acting, with the ids of its alerts left out.
+TEST_F(ConsoleAnswers, GoWithAWarningThatAnOperatorHasAcceptedAndWithNoneThatBearsOnTheAnswer) {
+  Alert old_table = alert();
+  old_table.alert_id = "11ff11ff11ff11ff";
+  old_table.key = "data.outdated:leap_seconds";
+  ArchiveBatch more = testing::batch_of(kRun);
+  more.products.emplace_back(old_table);
+  commit(*archive_, more);
+  desk_.take_up("SPINNER", kRun, old_table);
+  Health health = testing::some_health();
+  health.spacecraft = {{.spacecraft = "SPINNER",
+                        .link = LinkState::Live,
+                        .last_sample = tai_from_ns(9),
+                        .data_age_s = 0.1}};
+  feed_.put(health);
+  feed_.put("SPINNER", kRun, {.quality = Quality::Ok, .sigma_deg = 0.1, .against = ""});
+  const auto go = [&] { return client_->get_json("/api/v1/state")["spacecraft"]["SPINNER"]["go"]; };
+  EXPECT_EQ(go()["is_go"], false);
+  EXPECT_EQ(go()["against"].size(), 2U);
+  EXPECT_TRUE(go()["accepted"].empty());
+
+  const std::string body = R"({"by":"OPS1","note":"known"})";
+  ASSERT_EQ(client_->post("/api/v1/alerts/11ff11ff11ff11ff/ack", body, token()).result_int(), 200U);
+  ASSERT_EQ(client_->post(kAck, body, token()).result_int(), 200U);
+  EXPECT_EQ(go()["is_go"], false);
+  ASSERT_EQ(go()["against"].size(), 1U);
+  EXPECT_EQ(go()["against"][0]["text"], "warning spin.sigma, acknowledged");
+
+  Alert over = alert();
+  over.state = AlertState::Cleared;
+  feed_.put({.run_id = kRun, .spacecraft = "SPINNER", .mode = RunMode::Live, .alert = over});
+  EXPECT_EQ(go()["is_go"], true);
+  ASSERT_EQ(go()["accepted"].size(), 1U);
+  EXPECT_EQ(go()["accepted"][0]["key"], "data.outdated:leap_seconds");
+  EXPECT_EQ(go()["accepted"][0]["by"], "OPS1");
+  EXPECT_THAT(go()["accepted"][0]["text"].get<std::string>(),
+              HasSubstr("the table of leap seconds is old, accepted by OPS1 "));
+  EXPECT_EQ(texts("SELECT accepted_by FROM alert WHERE key = 'data.outdated:leap_seconds'"),
+            std::vector<std::string>{"OPS1"});
+}
+
 TEST_F(ConsoleAnswers, ShelvingForAWhile) {
   const std::string target = "/api/v1/alerts/00ff00ff00ff00ff/shelve";
   EXPECT_EQ(client_->post(target, R"({"by":"a"})", token()).result_int(), 400U);

@@ -48,6 +48,34 @@ TEST(Act, GoesThroughTheServiceIntoTheArchiveAndIsRepeatedAfterAKill) {
                  "operator_action)"));
 }
 
+TEST(Act, SetsALimitOfAnAlertThatHoldsOverARestart) {
+  ReadyService service{"nominal"};
+  FrontEnd front_end{service.bus(), "SPINNER", pulses_of("nominal")};
+  ASSERT_TRUE(front_end.send_until(0.2));
+  ASSERT_TRUE(eventually([&] { return count_rows(service.db(), "spin_estimate") > 50; }))
+      << service.log();
+  EXPECT_EQ(count_rows(service.db(), "alert WHERE key = 'spin.sigma'"), 0);
+  refused(act(service.db(), {"--action", "set_limit", "--key", "spin.sigma", "--gib", "1"}),
+          {"gib is not known here: key, after_s, deg, hold_off_s are"});
+  succeeded(act(service.db(), {"--action", "set_limit", "--key", "spin.sigma", "--deg", "0.0001",
+                               "--after_s", "0"}));
+  ASSERT_TRUE(front_end.send_until(0.3));
+  const auto is_open = [&] {
+    return count_rows(service.db(),
+                      "alert WHERE key = 'spin.sigma' AND state = 'active' AND "
+                      "evidence ->> 'limit' = 0.0001") == 1;
+  };
+  EXPECT_TRUE(eventually(is_open)) << service.log();
+  service.kill_and_go_on();
+  ASSERT_TRUE(front_end.send_until(0.4));
+  ASSERT_EQ(service.stop_when_computed(), 0) << service.log();
+  EXPECT_TRUE(is_open());
+  EXPECT_THAT(rows_of(service.db(), "SELECT action, arguments FROM operator_action"),
+              ElementsAre(R"(set_limit|{"after_s":0.0,"deg":0.0001,"key":"spin.sigma"}|)"));
+  EXPECT_THAT(rows_of(service.db(), "SELECT count FROM alert WHERE key = 'spin.sigma'"),
+              ElementsAre("1|"));
+}
+
 TEST(Act, SaysWhatIsWrongAndWhatToDo) {
   const TemporaryFolder folder;
   refused(act(folder.path() / "none.db", {"--action", "mark_manoeuvre"}), {"no service holds it"},

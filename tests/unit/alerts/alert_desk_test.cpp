@@ -107,6 +107,78 @@ TEST(AlertDesk, EndsAShelvingWithoutTelemetry) {
   EXPECT_EQ(changes_in(served.desk.evaluate({}, at(63.0)).at(0)), Changes{"link.silent active"});
 }
 
+OperatorAction limit(const std::string& key, std::map<std::string, double> limits, double t_s) {
+  return {.action_id = "act",
+          .spacecraft = "SPINNER",
+          .t = at(t_s),
+          .made_utc = {},
+          .by = "shift",
+          .action = "set_limit",
+          .arguments = {},
+          .note = {},
+          .does = SetLimit{.key = key, .limits = std::move(limits)}};
+}
+
+TEST(AlertDesk, TakesLimitsOfTheServiceFromTheirTimeOn) {
+  Served served;
+  ArchiveBatch said = batch_of_run();
+  said.actions.push_back(limit("link.silent", {{"seconds", 60.0}}, 10.0));
+  served.desk.evaluate(said);
+  ASSERT_EQ(served.silent(2.0, 6.0).size(), 1U);
+  EXPECT_EQ(changes_in(served.silent(10.0, 14.0).at(0)), Changes{"link.silent cleared"});
+  EXPECT_TRUE(served.silent(40.0, 44.0).empty());
+  EXPECT_EQ(changes_in(served.silent(60.0, 64.0).at(0)), Changes{"link.silent active"});
+}
+
+TEST(AlertDesk, TakesLimitsOfResultsFromTheirTimeOnInEveryRunThatIsToldOfThem) {
+  AlertDesk desk{{spinner()}, RunMode::Live};
+  for (const char* const run : {"run-1", "run-2"}) {
+    ArchiveBatch batch = beginning();
+    batch.run_id = run;
+    batch.actions.push_back(limit("spin.sigma", {{"deg", 0.2}, {"after_s", 0.0}}, 10.0));
+    const auto with_sigma = [&](double t_s) {
+      return SpinEstimate{.t = at(t_s),
+                          .estimator = SpinEstimator::Sequential,
+                          .axis_icrf = Eigen::Vector3d::UnitZ(),
+                          .covariance_rad2 = Eigen::Matrix2d::Identity() * 2e-5,
+                          .spin_rate_rad_s = 6.0,
+                          .spin_rate_sigma_rad_s = 0.1,
+                          .assessment = {Quality::Ok}};
+    };
+    batch.products = {with_sigma(1.0), with_sigma(9.0)};
+    desk.evaluate(batch);
+    EXPECT_THAT(desk.open(), IsEmpty());
+    ArchiveBatch later = batch_of_run();
+    later.run_id = run;
+    later.products = {with_sigma(10.0)};
+    desk.evaluate(later);
+    ASSERT_EQ(desk.open().size(), 1U);
+    EXPECT_THAT(desk.open().front().alert.message, HasSubstr("limit 0.2"));
+    ArchiveBatch good = batch_of_run();
+    good.run_id = run;
+    SpinEstimate sure = with_sigma(20.0);
+    sure.covariance_rad2 *= 1e-3;
+    good.products = {sure};
+    desk.evaluate(good);
+    EXPECT_THAT(desk.open(), IsEmpty());
+  }
+}
+
+TEST(AlertDesk, OpensTheAlertAgainWithinItsHoldOffAsOperatorsSetIt) {
+  Served served;
+  ArchiveBatch said = batch_of_run();
+  said.actions.push_back(limit("link.silent", {{"hold_off_s", 5.0}}, 50.0));
+  served.desk.evaluate(said);
+  const auto id_of = [](const std::vector<ArchiveBatch>& batches) {
+    return std::get<Alert>(batches.at(0).products.at(0)).alert_id;
+  };
+  const std::string first = id_of(served.silent(2.0, 6.0));
+  ASSERT_FALSE(served.silent(3.0, 0.0).empty());
+  EXPECT_EQ(id_of(served.silent(10.0, 6.0)), first);
+  ASSERT_FALSE(served.silent(11.0, 0.0).empty());
+  EXPECT_NE(id_of(served.silent(60.0, 6.0)), first);
+}
+
 TEST(AlertDesk, GoesOnWithOpenAlertsOfBefore) {
   Served before;
   const auto raised = before.silent(2.0, 6.0);

@@ -38,6 +38,28 @@ TEST(AlertWords, GiveValueLimitTimeAndWhatToDo) {
             "over at 2026-11-20T03:00:00.000Z");
 }
 
+TEST(AlertWords, OfAConditionThatGoesOnHaveItsWorstItsBeginningAndItsCount) {
+  auto renewed = change(AlertCode::SpinSigma, Change::Renewed, 1.0);
+  renewed.evidence.worst = 2.5;
+  renewed.evidence.since = shifted(kTime, -60.0);
+  EXPECT_EQ(sentence_of(renewed, 3),
+            "sigma of the answer in force: 1.25 deg, worst 2.5, limit 1 at "
+            "2026-11-20T03:00:00.000Z, since 2026-11-20T02:59:00.000Z, 3 times so far: wait, or "
+            "look which channels give nothing");
+  const auto evidence = nlohmann::json::parse(evidence_json(renewed.evidence, "00ff", 3));
+  EXPECT_EQ(evidence["worst"], 2.5);
+  EXPECT_EQ(evidence["count"], 3);
+}
+
+TEST(AlertWords, SayInShortWhatAnAlertIsAbout) {
+  EXPECT_EQ(words_of("data.outdated:leap_seconds"), "the table of leap seconds is old");
+  EXPECT_EQ(words_of("channel.silent:sun2"), "silent channel that should give something (sun2)");
+  EXPECT_EQ(words_of("spin.nutation"), "half-angle of the nutation");
+  EXPECT_EQ(words_of("link.restarted:gs1"),
+            "sessions that the source began in the last minute (gs1)");
+  EXPECT_EQ(words_of("none.such"), "none.such");
+}
+
 TEST(AlertWords, NameTheServiceThatRunsBesideThisOne) {
   auto twice = change(AlertCode::ServiceTwice, Change::Raised, 0.0);
   twice.who = "spindrift gs2:4242";

@@ -173,7 +173,9 @@ TEST_F(Feed, IsGoWhenNothingStandsAgainstIt) {
   put(estimate_at(kT, SpinEstimator::Mean));
   EXPECT_EQ(shown()["go"]["is_go"], false);
   put(PassVerdict{.quality = Quality::Ok, .sigma_deg = 0.1, .against = ""});
-  EXPECT_EQ(shown()["go"], (nlohmann::json{{"is_go", true}, {"against", nlohmann::json::array()}}));
+  EXPECT_EQ(shown()["go"], (nlohmann::json{{"is_go", true},
+                                           {"against", nlohmann::json::array()},
+                                           {"accepted", nlohmann::json::array()}}));
   put(Alert{.alert_id = "00ff",
             .key = "spin.nutation",
             .severity = AlertSeverity::Warning,
@@ -208,6 +210,40 @@ TEST_F(Feed, TellsTheLastActionsOfTheRun) {
   EXPECT_EQ(last["t_tai_ns"], tai_ns(kT));
   put(estimate_at(kT, SpinEstimator::Mean), "next run");
   EXPECT_EQ(shown()["actions"].size(), 0U);
+}
+
+TEST_F(Feed, TellsEveryExclusionThatIsInForce) {
+  put(estimate_at(kT, SpinEstimator::Mean));
+  const auto say = [&](const std::string& id, const SpinAction& does) {
+    feed_->put_details({.run_id = "run",
+                        .spacecraft_id = "SPINNER",
+                        .actions = {{.action_id = id,
+                                     .spacecraft = "SPINNER",
+                                     .t = kT,
+                                     .made_utc = {},
+                                     .by = "shift",
+                                     .action = {},
+                                     .arguments = "{}",
+                                     .note = {},
+                                     .does = does}}});
+  };
+  const auto ids = [&] {
+    std::string all;
+    const nlohmann::json state = shown();
+    for (const auto& action : state["actions"]) {
+      all += action["action_id"].get<std::string>() + " ";
+    }
+    return all;
+  };
+  using enum PulseChannel;
+  say("sun2", ExcludeChannel<PulseChannel>{Sun2});
+  say("segment", ExcludeSegment<PulseChannel>{.from = kT, .to = kT, .channel = {}});
+  say("north", ExcludeChannel<PulseChannel>{NorthIn});
+  say("again", IncludeChannel<PulseChannel>{NorthIn});
+  for (const char* const id : {"1", "2", "3", "4", "5"}) {
+    say(id, MarkManoeuvre{});
+  }
+  EXPECT_EQ(ids(), "sun2 segment 3 4 5 ");
 }
 
 TEST(FeedOfThreeAxes, ShowsAttitudeAndRate) {

@@ -23,7 +23,7 @@ std::string against(const Change& change, const std::string& trouble = "") {
   Standing standing = good();
   change(standing);
   std::string all;
-  for (const Objection& objection : go_no_go(standing, trouble, AlertLimits{})) {
+  for (const Objection& objection : go_no_go(standing, trouble, AlertLimits{}).against) {
     all += std::string{objection.code} + ": " + objection.text + "\n";
   }
   return all;
@@ -92,11 +92,52 @@ TEST(GoNoGo, IsGoUnlessSomethingStandsAgainstIt) {
   for (const Row& row : rows) {
     EXPECT_EQ(against(row.change), row.against) << row.when;
   }
-  EXPECT_EQ(go_no_go({.kind = SpacecraftKind::Spin}, "", AlertLimits{}).size(), 2U);
+  EXPECT_EQ(go_no_go({.kind = SpacecraftKind::Spin}, "", AlertLimits{}).against.size(), 2U);
+}
+
+/// Returns the decision on a good standing with an alert that OPS1 has acknowledged.
+GoNoGo with_accepted(const char* key, AlertSeverity severity, AlertState state) {
+  Standing standing = good();
+  standing.alerts = {alert(key, severity, state)};
+  standing.alerts.front().accepted =
+      Acknowledgement{.by = "OPS1", .t = tai_from_ns(1'795'144'357'000'000'000)};
+  return go_no_go(standing, "", AlertLimits{});
+}
+
+TEST(GoNoGo, AcceptsAnAcknowledgedWarningThatDoesNotBearOnTheAnswer) {
+  using enum AlertState;
+  const GoNoGo go =
+      with_accepted("data.outdated:leap_seconds", AlertSeverity::Warning, Acknowledged);
+  EXPECT_THAT(go.against, IsEmpty());
+  ASSERT_EQ(go.accepted.size(), 1U);
+  EXPECT_EQ(go.accepted.front().key, "data.outdated:leap_seconds");
+  EXPECT_EQ(go.accepted.front().accepted.by, "OPS1");
+  EXPECT_EQ(go.accepted.front().text, "the table of leap seconds is old, accepted by OPS1 03:12");
+  for (const auto state : {Active, Shelved}) {
+    const GoNoGo not_yet =
+        with_accepted("data.outdated:leap_seconds", AlertSeverity::Warning, state);
+    EXPECT_EQ(not_yet.against.size(), 1U);
+    EXPECT_THAT(not_yet.accepted, IsEmpty());
+  }
+}
+
+TEST(GoNoGo, IsNeverOverruledInWhatBearsOnTheAnswer) {
+  for (const char* const key :
+       {"spin.sigma", "spin.doubtful", "spin.ambiguous", "spin.disagree", "attitude.diverged",
+        "link.late", "link.contradiction:gs1", "of.another.program"}) {
+    EXPECT_EQ(with_accepted(key, AlertSeverity::Warning, AlertState::Acknowledged).against.size(),
+              1U)
+        << key;
+  }
+  EXPECT_EQ(with_accepted("archive.disk", AlertSeverity::Critical, AlertState::Acknowledged)
+                .against.size(),
+            1U);
 }
 
 TEST(GoNoGo, IsNotGoWhileTheServiceDoesNotWork) {
   EXPECT_EQ(against([](Standing&) {}, "not storing: disk full"),
+            "service: not storing: disk full\n");
+  EXPECT_EQ(against([](Standing& now) { now.link = LinkState::Stale; }, "not storing: disk full"),
             "service: not storing: disk full\n");
 }
 

@@ -1,5 +1,6 @@
 #include "services/operator/parse_action.h"
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -58,6 +59,35 @@ TEST(ParseAction, OfThreeAxesKnowsSensors) {
               HasSubstr("must be one of exclude_channel, include_channel, exclude_segment"));
 }
 
+TEST(ParseAction, TakesLimitsOfAnAlertByTheirNameWithinTheirBounds) {
+  for (const char* const spacecraft : {"SPINNER", "STABLE"}) {
+    const auto action = value_or_throw(parse_action(request({{"spacecraft", spacecraft},
+                                                             {"action", "set_limit"},
+                                                             {"key", "spin.sigma"},
+                                                             {"deg", 0.5},
+                                                             {"hold_off_s", 120}}),
+                                                    kKnown));
+    const auto& set = std::get<SetLimit>(action.does);
+    EXPECT_EQ(set.key, "spin.sigma");
+    EXPECT_EQ(set.limits, (std::map<std::string, double>{{"deg", 0.5}, {"hold_off_s", 120.0}}));
+  }
+  const auto refused = [](const json& more) {
+    json said{{"action", "set_limit"}, {"key", "spin.sigma"}};
+    said.update(more);
+    return why_not(said);
+  };
+  EXPECT_THAT(refused({{"key", "spin.sigmas"}, {"deg", 1}}),
+              HasSubstr("key: \"spin.sigmas\": must be one of link.silent, link.late"));
+  EXPECT_EQ(refused({{"percent", 1}}),
+            "set_limit: a limit of spin.sigma is missing; percent is not known here: key, "
+            "after_s, deg, hold_off_s are");
+  EXPECT_EQ(refused({{"deg", 181}}), "set_limit: deg: 181: must be a number, 0.0001 to 180");
+  EXPECT_EQ(refused({{"deg", "wide"}}),
+            "set_limit: deg: \"wide\": must be a number, 0.0001 to 180");
+  EXPECT_EQ(why_not({{"action", "set_limit"}, {"spacecraft", "OTHER"}}),
+            "spacecraft: 'OTHER': must be one of SPINNER, STABLE");
+}
+
 TEST(ParseAction, TakesASegmentAsOfItsBeginningOrOfATimeBeforeItsEnd) {
   const json segment{
       {"action", "exclude_segment"}, {"from_tai_ns", kFrom}, {"to_tai_ns", kFrom + 10}};
@@ -79,7 +109,7 @@ TEST(ParseAction, ReadsWhatItStores) {
   const auto action = parse_action(request(said), kKnown).value();
   const auto again =
       what_it_does(SpacecraftKind::Spin, action.action, json::parse(action.arguments)).value();
-  const auto prior_of = [](const std::variant<SpinAction, AttitudeAction>& does) {
+  const auto prior_of = [](const ActionEffect& does) {
     return std::get<SetPrior>(std::get<SpinAction>(does)).prior;
   };
   EXPECT_EQ(prior_of(again).axis_icrf, prior_of(action.does).axis_icrf);

@@ -134,7 +134,11 @@ std::set<std::string> raised_by(AttitudeConditions& conditions, std::vector<Samp
     for (const SampleKind kind : kinds) {
       for (const ConditionChange& change : conditions.evaluate(kind, at(t_s))) {
         const std::string key = alert_key(change.code, change.about);
-        change.change == Change::Raised ? (void)raised.insert(key) : (void)raised.erase(key);
+        if (change.change == Change::Raised) {
+          raised.insert(key);
+        } else if (change.change == Change::Cleared) {
+          raised.erase(key);
+        }
       }
     }
   }

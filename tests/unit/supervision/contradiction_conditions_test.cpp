@@ -36,7 +36,10 @@ TEST(ContradictionConditions, EndAMinuteBehindTheLast) {
   ContradictionConditions conditions{AlertLimits{}};
   conditions.evaluate(of(0, kBoth));
   conditions.evaluate(of(10, kBoth));
-  EXPECT_THAT(conditions.evaluate(at_s(69)), IsEmpty());
+  const ConditionChanges fewer = conditions.evaluate(at_s(69));
+  ASSERT_THAT(fewer, SizeIs(2));
+  EXPECT_EQ(fewer.front().change, Change::Renewed);
+  EXPECT_THAT(fewer.front().evidence.sources, ElementsAre("A", "B"));
   const ConditionChanges over = conditions.evaluate(at_s(70));
   ASSERT_THAT(over, SizeIs(2));
   EXPECT_EQ(over.front().change, Change::Cleared);

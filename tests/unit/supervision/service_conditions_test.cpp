@@ -36,7 +36,7 @@ struct Supervised {
       const std::string key = alert_key(change.code, change.about);
       if (change.change == Change::Raised) {
         raised.emplace(key, name_of(change.severity));
-      } else {
+      } else if (change.change == Change::Cleared) {
         raised.erase(key);
       }
     }

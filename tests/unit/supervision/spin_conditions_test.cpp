@@ -73,7 +73,7 @@ struct Supervised {
       const std::string key = alert_key(change.code, change.about);
       if (change.change == Change::Raised) {
         raised.insert(key);
-      } else {
+      } else if (change.change == Change::Cleared) {
         raised.erase(key);
       }
     }

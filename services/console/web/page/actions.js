@@ -38,6 +38,12 @@ const actions = {
     does: said => `Holds the axis to be at ${at(said)}, sigma ${said.sigma_deg}°`,
   },
   mark_manoeuvre: { word: 'Mark a manoeuvre', of: 'spin', fields: () => [], does: () => 'Lets the axis be new: its sigma opens again' },
+  set_limit: {
+    word: 'Set a limit of an alert',
+    fields: () => [field('Alert', 'key', { placeholder: 'spin.sigma' }), field('Limit', 'limit', { placeholder: 'deg' }),
+      field('Value', 'value', { type: 'number', step: 'any', min: 0 })],
+    does: said => `Sets ${said.limit} of ${said.key} to ${said.value}`,
+  },
   set_target: { word: 'Set the target axis', of: 'spin', fields: craft => axis(craft.target), does: said => `Measures how far the axis is from ${at(said)}` },
 };
 
@@ -45,8 +51,9 @@ const numbers = ['ra_deg', 'dec_deg', 'sigma_deg'];
 const times = { from: 'from_tai_ns', to: 'to_tai_ns', since: 't_tai_ns' };
 
 // What is left empty is not sent.
-function bodyOf(said, spacecraft, taiOf) {
+function bodyOf({ limit, value: bound, ...said }, spacecraft, taiOf) {
   const body = { spacecraft };
+  if (limit) body[limit] = Number(bound);
   for (const [name, value] of Object.entries(said)) {
     if (value === '') continue;
     if (times[name]) body[times[name]] = taiOf(Date.parse(`${value.replace(' ', 'T')}Z`) / 1e3);
@@ -78,7 +85,7 @@ export function askAction(spacecraft, craft, time, chosen = 'exclude_channel', p
   });
 }
 
-const listed = said => ['channel', 'ra_deg', 'dec_deg', 'sigma_deg'].filter(name => said[name] !== undefined)
+const listed = said => said.key ? Object.entries(said).map(pair => pair.filter(word => word !== 'key').join(' ')).join(', ') : ['channel', 'ra_deg', 'dec_deg', 'sigma_deg'].filter(name => said[name] !== undefined)
   .map(name => name === 'channel' ? said.channel : `${name.replace('_deg', '')} ${number(said[name], 2, '°')}`).join(', ');
 
 // The newest first; of this page's what the service has not computed yet above them.

@@ -1,4 +1,4 @@
-// The open alerts: those that nobody has taken up first, then most severe first.
+// The open alerts: those of the spacecraft that is shown first, of them those that nobody has taken up, then most severe first.
 import { byId, clock, element, sign } from './text.js';
 import { ask, field } from './hand.js';
 
@@ -46,13 +46,13 @@ function made(alert, utcOf) {
 }
 
 // Made anew only when they changed, with the focus kept: a key pressed on a button must hit it.
-export function drawAlerts(alerts, known, utcOf) {
-  const text = JSON.stringify(alerts) + known;
+export function drawAlerts(alerts, spacecraft, known, utcOf) {
+  const text = JSON.stringify(alerts) + spacecraft + known;
   if (text === shown) return;
   shown = text;
   const list = byId('alerts');
   const focused = list.contains(document.activeElement) ? document.activeElement.dataset.of : undefined;
-  const sorted = [...alerts].sort((a, b) => states.indexOf(a.state) - states.indexOf(b.state)
+  const sorted = [...alerts].sort((a, b) => (b.spacecraft === spacecraft) - (a.spacecraft === spacecraft) || states.indexOf(a.state) - states.indexOf(b.state)
     || order.indexOf(a.severity) - order.indexOf(b.severity));
   list.replaceChildren(...sorted.map(alert => made(alert, utcOf)));
   if (!sorted.length) list.append(element('p', known ? 'no open alerts' : 'nothing known before the first telemetry', 'dim'));

@@ -151,7 +151,7 @@ function draw() {
   if (!dirty) return;
   dirty = false;
   const known = Object.values(state.spacecraft ?? {}).some(one => one.state && one.state !== 'waiting');
-  drawAlerts(state.alerts ?? [], known, utcOf);
+  drawAlerts(state.alerts ?? [], shown, known, utcOf);
   drawHealth(state.service, stale);
   drawActions(craft(), utcOf);
   residuals?.summarise(craft().residuals);

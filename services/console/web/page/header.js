@@ -26,8 +26,9 @@ const put = (name, ...what) => write(places.get(name), ...what);
 // What was go when the service was last heard is not known to be so now.
 function drawGo(go, stale) {
   const isGo = go?.is_go === true && !stale;
+  const accepted = (go?.accepted ?? []).map(one => one.text).join('; ');
   say('go', isGo ? '✔ GO' : '✖ NO GO', isGo ? 'good' : 'bad');
-  say('against', stale ? 'no word from the service' : isGo ? 'nothing stands against it'
+  say('against', stale ? 'no word from the service' : isGo ? accepted || 'nothing stands against it'
     : (go?.against ?? []).map(one => one.text).join('; ') || 'nothing is known yet');
 }
 
@@ -50,9 +51,10 @@ export function drawHeader(craft, service, since_s, stale) {
   put('1 σ', sigma(craft.sigma_deg));
   put('To target', number(craft.to_target_deg, 2, '°'));
   const [mark, tone] = sign(craft.quality);
-  say('quality', `${mark} ${craft.quality ?? 'WAITING'}`, tone);
+  const waiting = (craft.state ?? 'waiting') === 'waiting';
+  say('quality', `${mark} ${craft.quality ?? (waiting ? 'WAITING' : 'NO ANSWER')}`, tone);
   const asOf = craft.answer_utc ? `${craft.estimator} at ${craft.answer_utc.replace(/^.*T/, '').replace(/\.\d+Z$/, 'Z')}` : craft.estimator;
-  say('why', craft.quality ? [asOf, craft.why].filter(Boolean).join(': ') : 'for the first telemetry');
+  say('why', craft.quality ? [asOf, craft.why].filter(Boolean).join(': ') : waiting ? 'for the first telemetry' : 'no estimator has one yet');
   say('case', Number.isFinite(craft.geometry_case) ? `case ${craft.geometry_case}, dual solution ${settled[craft.resolution] ?? '–'}` : '',
     craft.resolution === 'AMBIGUOUS' ? 'warn' : 'dim');
   drawGo(craft.go, stale);

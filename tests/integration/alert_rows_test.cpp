@@ -1,0 +1,64 @@
+// What is stored of alerts that come and go.
+
+#include <map>
+#include <string>
+
+#include "services/alerts/alert_desk.h"
+#include "tests/integration/archive_fixture.h"
+#include "tests/support/matchers.h"
+#include "tests/support/recorded_files.h"
+
+namespace spindrift::alert_rows_test {
+
+constexpr std::int64_t kStart_ns = 1'795'143'637'000'000'000;
+
+class AlertRows : public testing::ArchiveFixture {
+ protected:
+  AlertRows() : archive_{open()} {
+    ArchiveBatch start = testing::start_of("run-1");
+    start.start->mode = RunMode::Live;
+    desk_.evaluate(start);
+    commit(*archive_, start);
+    desk_.note_stored({&start, 1});
+  }
+
+  /// Stores what a link raises and clears that has been silent for so long.
+  void silent(double t_s, double silent_s) {
+    const TaiTime t = shifted(tai_from_ns(kStart_ns), t_s);
+    commit(*archive_,
+           desk_.evaluate({{"SPINNER", {.t = t, .pass_t = t, .silent_s = silent_s}}}, t));
+  }
+  void flap(int times, double every_s) {
+    for (int i = 0; i < times; ++i) {
+      silent(i * every_s, 6.0);
+      silent((i + 0.5) * every_s, 0.0);
+    }
+  }
+
+  AlertDesk desk_{{load_mission(kPasses / "nominal" / "mission.toml").value()}, RunMode::Live};
+  std::unique_ptr<Archive> archive_;
+};
+
+TEST_F(AlertRows, AConditionThatFlapsForTenMinutesIsOneOccurrenceThatIsCounted) {
+  flap(150, 4.0);
+  EXPECT_EQ(count("alert"), 1);
+  EXPECT_EQ(number("SELECT count FROM alert"), 150);
+  EXPECT_EQ(text("SELECT state FROM alert"), "cleared");
+  EXPECT_EQ(number("SELECT raised_tai_ns FROM alert"), kStart_ns);
+  EXPECT_EQ(count("alert_transition"), 300);
+  EXPECT_EQ(count("alert_transition WHERE from_state = 'cleared' AND to_state = 'active'"), 149);
+  EXPECT_EQ(number("SELECT evidence ->> 'count' FROM alert"), 150);
+}
+
+TEST_F(AlertRows, AreAtMostAThousandAnHourWhateverHappens) {
+  flap(3600, 1.0);
+  EXPECT_EQ(count("alert"), 1);
+  EXPECT_EQ(count("alert_transition"), 500);
+  silent(3600.5, 0.0);
+  silent(7201.0, 0.0);
+  EXPECT_EQ(number("SELECT count FROM alert"), 3600);
+  EXPECT_EQ(text("SELECT state FROM alert"), "cleared");
+  EXPECT_EQ(count("alert_transition WHERE note LIKE '%changes before it are left out%'"), 1);
+}
+
+}  // namespace spindrift::alert_rows_test
