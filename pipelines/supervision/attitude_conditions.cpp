@@ -40,6 +40,7 @@ AttitudeConditions::AttitudeConditions(const AlertLimits& limits, std::optional<
       diverged_percent_{limits.diverged_percent},
       diverged_s_{limits.diverged_s},
       kinds_{std::move(orbit), limits.silent_s},
+      sensors_{limits},
       // Noise leaves the 99.9 % band in one window of a thousand, but not in two consecutive ones.
       diverged_{AlertCode::AttitudeDiverged,
                 "% of chi-square",
@@ -48,7 +49,7 @@ AttitudeConditions::AttitudeConditions(const AlertLimits& limits, std::optional<
       launcher_{AlertCode::ReconstructionLauncher, "% of chi-square"} {}
 
 ConditionChanges AttitudeConditions::evaluate(const AttitudeEstimate& estimate) {
-  ConditionChanges changes;
+  ConditionChanges changes = sensors_.evaluate(estimate.t, estimate.contradiction);
   add(lost_.update(estimate.t,
                    estimate.assessment.quality == Quality::Lost || begins_anew(estimate)),
       changes);

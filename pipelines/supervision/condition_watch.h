@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "pipelines/core/assessment.h"
 #include "pipelines/supervision/alert_code.h"
 #include "pipelines/time/tai_time.h"
 
@@ -23,6 +24,7 @@ struct Evidence {
   TaiTime last;   ///< Time of the deciding reading.
   std::optional<double> sigma = {};
   std::vector<std::string> sources = {};  ///< Telemetry sources involved, if several.
+  std::vector<NamedValue> more = {};      ///< What else is known, by the name it has in the alert.
 };
 
 enum class Change { Raised, Cleared };

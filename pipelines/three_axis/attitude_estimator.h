@@ -50,6 +50,7 @@
 #include "pipelines/three_axis/mekf.h"
 #include "pipelines/three_axis/products.h"
 #include "pipelines/three_axis/samples.h"
+#include "pipelines/three_axis/sensor_contradictions.h"
 #include "pipelines/three_axis/sensor_errors.h"
 #include "pipelines/time/tai_time.h"
 
@@ -119,6 +120,7 @@ class AttitudeEstimator {
   using Sample = std::variant<StarFix, SeenDirection>;
 
   std::optional<RejectedSample> judge(const GyroSample& sample);
+  void compare_refused(const GyroSample& sample);
   void take_in_gyro(const GyroSample& sample, Products& out);
   void decide_suspect(const GyroSample& next, Products& out);
   void leave_out_suspect(const GyroDeviation& off, Products& out);
@@ -151,6 +153,7 @@ class AttitudeEstimator {
   void follow(const GyroSample& to, const Interval& interval);
   void coast(TaiTime t, Products& out);
   double coasted_rad2(TaiTime measured, TaiTime t) const;
+  RateSpan span_to(const GyroSample& to) const;
   void turn(const GyroSample& to, double turn_rad2);
 
   Mekf filter_at(const SensitiveAttitude& attitude) const;
@@ -183,8 +186,11 @@ class AttitudeEstimator {
   std::optional<Eigen::Vector3d> rate_rad_s_;  ///< Measured rate at `t_`; empty before the first.
   bool coasting_ = false;  ///< True while `rate_rad_s_` is an older rate that is held.
   std::optional<Mekf> filter_;
-  bool has_fixes_ = false;     ///< True once star fixes support the filter's attitude.
-  CarriedDirections carried_;  ///< Directions collected while there is no filter.
+  bool has_fixes_ = false;  ///< True once star fixes support the filter's attitude.
+  SensorContradictions contradictions_;
+  std::optional<GyroSample> refused_;  ///< Last gyro sample in a wrong unit.
+  bool gyro_was_wrong_ = false;        ///< True once the other sensors have contradicted the gyro.
+  CarriedDirections carried_;          ///< Directions collected while there is no filter.
   std::optional<RivalAttitude> rival_;
 
   /// One watch per sample kind; the gyro's is unused (GyroWatch has its own).
