@@ -433,6 +433,7 @@ bool AttitudeEstimator::work_in(TaiTime t, SampleKind kind, const Observed& obse
   said.residual.value *= length;
   said.residual.sigma *= length;
   out.emplace_back(SampleObservation{.estimator = AttitudeSource::Mekf, .said = said});
+  rejected_.at(index_of(kind)) = said.rejected_by ? std::optional{t} : std::nullopt;
   if (said.rejected_by) {
     leave_out({.t = t,
                .kind = kind,
@@ -553,6 +554,7 @@ void AttitudeEstimator::start(Products& out) {
   carried_.forget();
   ledger_ = Ledger{kSampleRules};
   since_given_ = {};
+  rejected_.fill(std::nullopt);
   rejected_in_a_row_ = 0;
   checked_.setZero();
   checks_ = 0.0;
@@ -664,6 +666,13 @@ bool AttitudeEstimator::is_held() const {
                      });
 }
 
+/// Returns whether the attitude has rejected the last sample of the sensor: one of the two is
+/// wrong.
+bool AttitudeEstimator::is_in_question(SampleKind kind) const {
+  const auto& rejected = rejected_.at(index_of(kind));
+  return rejected && elapsed_s(*rejected, *t_) < kHeld_s;
+}
+
 /// Returns whether the sensor is known to be wrong. For a star tracker, other sensors must confirm
 /// an attitude that its own earlier fixes supported; else it would be one sensor against another.
 bool AttitudeEstimator::is_out(SampleKind kind) const {
@@ -703,7 +712,7 @@ Assessment AttitudeEstimator::assess(double sigma_rad) const {
       known.push_back({ReasonCode::SensorGated, {{"sensor", sensor}}});
     } else if (record.heard() >= kFewestSamples && record.share_left_out() > kMany) {
       reasons.push_back({ReasonCode::SensorGated, {{"sensor", sensor}}});
-    } else if (record.heard() > 0.0 && record.share_left_out() == 1.0) {
+    } else if (record.heard() > 0.0 && (record.share_left_out() == 1.0 || is_in_question(kind))) {
       is_checked = false;
     }
     if (const double excess = record.excess_noise(); excess > 1.0) {

@@ -21,19 +21,22 @@
 /// The quality of the estimate is
 ///     CONVERGING nothing contradicts the attitude, but since it began fewer than ten star fixes
 ///                (or their equivalent in directions about every axis) have checked it; without a
-///                gyro the filter begins again at each fix
+///                gyro the filter begins again at each fix; or it has rejected the last sample of a
+///                sensor, so that one of the two is wrong
 ///     OK         enough samples have checked the attitude and nothing contradicts it
 ///     DOUBTFUL   samples of one sensor are rejected while those of another agree, and nobody knows
-///                which is wrong; or samples scatter beyond their noise and raise the covariance;
-///                or sensors contradict each other by more than errors of the mission file as
-///                stated explain (alignment_evidence.h); or the gyro is out, or was out and nothing
-///                has yet checked how the body turned meanwhile; or the standard deviation exceeds
-///                10 deg
+///                which is wrong; or sensors compared without the attitude contradict each other
+///                (sensor_contradictions.h); or samples scatter beyond their noise and raise the
+///                covariance; or sensors contradict each other by more than errors of the mission
+///                file as stated explain (alignment_evidence.h); or the gyro is out, or was out and
+///                nothing has yet checked how the body turned meanwhile; or the standard deviation
+///                exceeds 10 deg
 ///     LOST       the attitude may be any, as the covariance states; reported once per loss
 
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cstdint>
 #include <deque>
 #include <optional>
@@ -171,6 +174,7 @@ class AttitudeEstimator {
   bool gyro_is_out() const;
   bool is_confirmed() const;
   bool is_held() const;
+  bool is_in_question(SampleKind kind) const;
   bool is_out(SampleKind kind) const;
   Reason why_no_gyro() const;
   Assessment assess(double sigma_rad) const;
@@ -198,6 +202,8 @@ class AttitudeEstimator {
   SensorHealths sensors_;
   // The following members describe the time since the filter last began.
   Ledger ledger_;
+  /// Time of the last sample of each kind, if it was rejected by its innovation.
+  std::array<std::optional<TaiTime>, kSampleKinds> rejected_;
   int rejected_in_a_row_ = 0;
   Eigen::Matrix3d checked_ = Eigen::Matrix3d::Zero();  ///< Sum of checked-axis projectors, ICRF.
   double checks_ = 0.0;                                ///< Smallest eigenvalue of `checked_`.

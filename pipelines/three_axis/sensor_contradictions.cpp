@@ -28,8 +28,12 @@ constexpr double kLongestTurn_rad = 0.5;
 constexpr double kSunTurn_s = 2.0;
 // Below this sine of the angle between Sun and field, noise moves the axis across them.
 constexpr double kLeastSine = 0.2;
-// Number of sigma by which a third sensor would contradict the accused one.
+// Number of sigma by which a third sensor would contradict the accused one, and the most that it
+// does as a share of them.
 constexpr double kVouched = 6.0;
+constexpr double kVouchedShare = 0.25;
+// So long after a contradiction has begun, other pairs may not show it yet.
+constexpr double kUnsettled_s = 4.0;
 
 double squared(double value) { return value * value; }
 
@@ -329,7 +333,8 @@ bool SensorContradictions::is_vouched_for(SampleKind kind, const Pair& accused, 
       return false;
     }
     const double rate_to_turn = by_rate && !pair.has(kGyro) ? SensorPair::kRecent_s : 1.0;
-    return pair.test.sigmas_of(rate_to_turn * accused.test.turn_rad(), prior_) >= kVouched;
+    const double expected = pair.test.sigmas_of(rate_to_turn * accused.test.turn_rad(), prior_);
+    return expected >= kVouched && pair.test.sigmas() <= kVouchedShare * expected;
   });
 }
 
@@ -343,6 +348,9 @@ std::optional<SampleKind> SensorContradictions::culprit_of(const Pair& worst, Ta
     if (first) {
       break;
     }
+  }
+  if (!found_ || elapsed_s(found_->since, t) < kUnsettled_s) {
+    return std::nullopt;
   }
   const bool first = is_vouched_for(worst.first, worst, t);
   const bool second = is_vouched_for(worst.second, worst, t);

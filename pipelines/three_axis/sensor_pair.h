@@ -4,8 +4,9 @@
 /// Each comparison gives a small turn, by which the second sensor says otherwise than the first.
 /// The comparisons of the last seconds are averaged. The average is held against its total
 /// covariance: of noise, and of what the errors of the mission file may do, which do not average
-/// out. A single comparison that is far off has little weight, so that only several of them show a
-/// contradiction.
+/// out. A single comparison that is far off has little weight in it. Several in a row that are far
+/// off each by itself are a contradiction, too, whichever way each points: what a gyro of a wrong
+/// sign says of a body that turns to and fro averages out.
 
 #pragma once
 
@@ -53,15 +54,17 @@ class SensorPair {
   bool is_tested(TaiTime now) const;
   /// Returns the difference over its total standard deviation, as if it had one component.
   double sigmas() const { return sigmas_; }
-  bool contradicts(TaiTime now) const { return contradicts_ && is_tested(now); }
+  /// Returns whether the sensors have contradicted each other lately.
+  bool contradicts(TaiTime now) const;
   bool agrees(TaiTime now) const { return is_tested(now) && sigmas_ <= kAgrees; }
-  /// Returns the mean difference, least about axes that the pair does not measure.
-  Eigen::Vector3d turn_rad() const;
+  /// Returns the difference, least about axes that the pair does not measure.
+  const Eigen::Vector3d& turn_rad() const { return turn_rad_; }
   /// Returns how many sigma a mean difference by this turn would be.
   double sigmas_of(const Eigen::Vector3d& turn_rad, const PairPrior& prior) const;
 
  private:
   void forget(TaiTime t);
+  double sigmas_alone(const PairComparison& compared, const PairPrior& prior) const;
   void judge(const PairPrior& prior);
   Eigen::Matrix3d noise_covariance() const;
   Eigen::Matrix3d covariance(const PairPrior& prior) const;
@@ -73,10 +76,13 @@ class SensorPair {
   Eigen::Vector3d score_ = Eigen::Vector3d::Zero();
   TurnPerPairError per_error_ = TurnPerPairError::Zero();  ///< Derivative of `score_`.
   Eigen::Matrix3d noise_ = Eigen::Matrix3d::Zero();        ///< Covariance of `score_` by noise.
-  double squares_ = 0.0;   ///< Sum of normalised squares, each bounded.
-  double freedoms_ = 0.0;  ///< Expected value of `squares_`.
+  double squares_ = 0.0;         ///< Sum of normalised squares, each bounded.
+  double freedoms_ = 0.0;        ///< Expected value of `squares_`.
+  int far_in_a_row_ = 0;         ///< Number of last comparisons each far off by itself.
+  double least_in_a_row_ = 0.0;  ///< The least of them, in sigma.
   double sigmas_ = 0.0;
-  bool contradicts_ = false;
+  Eigen::Vector3d turn_rad_ = Eigen::Vector3d::Zero();
+  std::optional<TaiTime> contradicted_;  ///< Last time of a contradiction.
 };
 
 }  // namespace spindrift
