@@ -58,6 +58,7 @@ std::string_view name_of(ReasonCode code) {
       "sensor_gated",
       "sensor_noise",
       "alignment_off",
+      "contradicted",
       "orbit_steps",
       "withheld",
       "computing_failed",

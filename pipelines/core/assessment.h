@@ -93,6 +93,7 @@ enum class ReasonCode {
   SensorGated,          ///< sensor
   SensorNoise,          ///< sensor, factor
   AlignmentOff,         ///< key, sigmas
+  Contradicted,         ///< sensor, with, angle_deg or offset_s, sigmas, since_tai_ns
   OrbitSteps,           ///< t_tai_ns, km, m_s
   Withheld,             ///< table, column
   ComputingFailed,      ///< what

@@ -37,6 +37,7 @@ enum class AlertCode {
   AttitudeDoubtful,
   AttitudeNoAnswer,
   AttitudeDiverged,
+  SensorContradicts,  ///< Per culprit, `unknown` where nothing tells which of two it is.
   ReconstructionLauncher,
   ModelDeparture,  ///< One alert for each channel.
   ArchiveBacklog,
@@ -49,22 +50,17 @@ inline constexpr int kAlertCodes = static_cast<int>(AlertCode::DataOutdated) + 1
 
 constexpr std::string_view name_of(AlertCode code) {
   constexpr std::array<std::string_view, kAlertCodes> kNames = {
-      "link.silent",       "link.late",
-      "link.ahead",        "link.gap",
-      "link.rejected",     "link.repeated",
-      "link.restarted",    "link.contradiction",
-      "service.twice",     "channel.silent",
-      "spin.interference", "spin.period",
-      "spin.rejection",    "spin.ambiguous",
-      "spin.doubtful",     "spin.sigma",
-      "spin.disagree",     "spin.off_target",
-      "spin.nutation",     "spin.rate",
-      "spin.no_answer",    "attitude.lost",
-      "attitude.doubtful", "attitude.no_answer",
-      "attitude.diverged", "reconstruction.launcher",
-      "model.departure",   "archive.backlog",
-      "archive.write",     "archive.disk",
-      "clock.jump",        "data.outdated"};
+      "link.silent",       "link.late",          "link.ahead",
+      "link.gap",          "link.rejected",      "link.repeated",
+      "link.restarted",    "link.contradiction", "service.twice",
+      "channel.silent",    "spin.interference",  "spin.period",
+      "spin.rejection",    "spin.ambiguous",     "spin.doubtful",
+      "spin.sigma",        "spin.disagree",      "spin.off_target",
+      "spin.nutation",     "spin.rate",          "spin.no_answer",
+      "attitude.lost",     "attitude.doubtful",  "attitude.no_answer",
+      "attitude.diverged", "sensor.contradicts", "reconstruction.launcher",
+      "model.departure",   "archive.backlog",    "archive.write",
+      "archive.disk",      "clock.jump",         "data.outdated"};
   return kNames.at(static_cast<std::size_t>(code));
 }
 

@@ -41,6 +41,7 @@ AttitudeConditions::AttitudeConditions(const AlertLimits& limits, std::optional<
       diverged_percent_{limits.diverged_percent},
       diverged_s_{limits.diverged_s},
       kinds_{std::move(orbit), limits.silent_s},
+      sensors_{limits},
       // Noise leaves the 99.9 % band in one window of a thousand, but not in two consecutive ones.
       diverged_{AlertCode::AttitudeDiverged,
                 "% of chi-square",
@@ -67,11 +68,12 @@ void AttitudeConditions::set_limits(const AlertLimits& limits) {
   diverged_.hold({.raise_s = limits.diverged_s, .clear_s = limits.diverged_s});
   doubtful_.hold({.raise_s = limits.attitude_doubtful_s, .clear_s = limits.attitude_doubtful_s});
   presence_.set_limit_s(limits.attitude_no_answer_s);
+  sensors_.set_limits(limits);
   kinds_.set_silent_s(limits.silent_s);
 }
 
 ConditionChanges AttitudeConditions::evaluate(const AttitudeEstimate& estimate) {
-  ConditionChanges changes;
+  ConditionChanges changes = sensors_.evaluate(estimate.t, estimate.contradiction);
   presence_.see_answer(estimate.t);
   add(doubtful_.update(estimate.t, estimate.assessment.quality == Quality::Doubtful), changes);
   add(lost_.update(estimate.t,

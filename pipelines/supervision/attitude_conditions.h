@@ -12,6 +12,7 @@
 #include "pipelines/supervision/condition_watch.h"
 #include "pipelines/supervision/kind_presence.h"
 #include "pipelines/supervision/limits.h"
+#include "pipelines/supervision/sensor_conditions.h"
 #include "pipelines/three_axis/products.h"
 
 namespace spindrift {
@@ -43,6 +44,7 @@ class AttitudeConditions {
   double diverged_percent_;
   double diverged_s_;
   KindPresence kinds_;
+  SensorConditions sensors_;
   struct Recent {
     TaiTime t;
     Innovations innovations;

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "pipelines/core/assessment.h"
 #include "pipelines/supervision/alert_code.h"
 #include "pipelines/time/tai_time.h"
 
@@ -24,6 +25,7 @@ struct Evidence {
   std::optional<double> sigma = {};
   std::vector<std::string> sources = {};  ///< Telemetry sources involved, if several.
   std::optional<double> worst = {};       ///< Since it was raised; empty: `value`.
+  std::vector<NamedValue> more = {};      ///< What else is known, by the name it has in the alert.
 };
 
 /// A renewed condition holds as before, with a value that has moved.

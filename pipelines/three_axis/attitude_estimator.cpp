@@ -28,6 +28,8 @@ constexpr double kAtOnce_s = 1.0;
 constexpr RecordRules kSampleRules{
     .recent = 20.0, .fewest_freedoms = 30.0, .most_freedoms = 900.0, .noise_from_share = 1.0};
 constexpr double kMany = 0.4;
+// The turn of a body whose gyro is wrong is unknown by as much as it turns in this time.
+constexpr double kUnseenTurn_s = 2.0;
 constexpr double kFewestSamples = 5.0;
 
 /// Its trace is the mean square of the rotation angle between two random attitudes.
@@ -76,12 +78,16 @@ AttitudeEstimator::AttitudeEstimator(const ThreeAxisConfig& config)
       alignment_{config.alignment.topLeftCorner<kFilterErrors, kFilterErrors>()},
       gyro_{config.gyro.value_or(GyroSensor{})},
       gyro_unit_{config.gyro.value_or(GyroSensor{}).bias_sigma_rad_s},
+      contradictions_{config},
       carried_{alignment_},
       ledger_{kSampleRules} {}
 
 void AttitudeEstimator::push(const GyroSample& sample, Products& out) {
   if (const auto rejected = judge(sample)) {
     leave_out(*rejected, out);
+    if (rejected->rejected_by == Rejection::Unit) {
+      compare_refused(sample);
+    }
     if (!waits_for_gyro(sample.t)) {
       give_way(sample.t, out);
       give_where_due(out);
@@ -107,6 +113,16 @@ std::optional<RejectedSample> AttitudeEstimator::judge(const GyroSample& sample)
                           .failed = FailedTest{.value = *factor, .limit = 1.0}};
   }
   return gyro_.judge(sample);
+}
+
+/// Compares rates in a wrong unit with the other sensors, although the filter has no use for them.
+void AttitudeEstimator::compare_refused(const GyroSample& sample) {
+  if (const auto before = std::exchange(refused_, sample)) {
+    const double dt_s = elapsed_s(before->t, sample.t);
+    contradictions_.turn(
+        {.dt_s = dt_s, .from_rad_s = before->rate_body_rad_s, .to_rad_s = sample.rate_body_rad_s},
+        std::pow(config_.gyro->noise_rad_s * dt_s, 2));
+  }
 }
 
 void AttitudeEstimator::decide_suspect(const GyroSample& next, Products& out) {
@@ -258,7 +274,12 @@ void AttitudeEstimator::follow(const GyroSample& to, const Interval& interval) {
                   interval.change_rad_s * interval.change_rad_s) *
                  interval.length_s * dt_s / 12.0;
   }
-  turn(to, coasting_ ? coasted_rad2(interval.from, to.t) : turn_rad2);
+  turn_rad2 = coasting_ ? coasted_rad2(interval.from, to.t) : turn_rad2;
+  contradictions_.turn(span_to(to), turn_rad2);
+  if (interval.is_gap || coasting_) {
+    contradictions_.lose_gyro();
+  }
+  turn(to, turn_rad2);
 }
 
 /// Propagates with the last rate. Without any rate nothing is kept but the most recent directions.
@@ -276,6 +297,7 @@ void AttitudeEstimator::coast(TaiTime t, Products& out) {
     t_ = t;
     return;
   }
+  contradictions_.lose_gyro();
   turn({.t = t, .rate_body_rad_s = *rate_rad_s_}, coasted_rad2(gyro_.last()->t, t));
   coasting_ = true;
   lose_where_unknown(out);
@@ -290,13 +312,21 @@ double AttitudeEstimator::coasted_rad2(TaiTime measured, TaiTime t) const {
          gyro_.wander_rad2_s3() * (to_s * to_s * to_s - from_s * from_s * from_s) / 3.0;
 }
 
+RateSpan AttitudeEstimator::span_to(const GyroSample& to) const {
+  return {.dt_s = elapsed_s(*t_, to.t), .from_rad_s = *rate_rad_s_, .to_rad_s = to.rate_body_rad_s};
+}
+
 void AttitudeEstimator::turn(const GyroSample& to, double turn_rad2) {
-  const RateSpan span{
-      .dt_s = elapsed_s(*t_, to.t), .from_rad_s = *rate_rad_s_, .to_rad_s = to.rate_body_rad_s};
+  const RateSpan span = span_to(to);
   t_ = to.t;
   rate_rad_s_ = to.rate_body_rad_s;
   if (span.dt_s == 0.0) {
     return;
+  }
+  const auto& found = contradictions_.found();
+  gyro_was_wrong_ = gyro_was_wrong_ || (found && found->culprit == SampleSource::Gyro);
+  if (gyro_was_wrong_) {
+    turn_rad2 += span.to_rad_s.squaredNorm() * span.dt_s * kUnseenTurn_s;
   }
   const double walk_rad_s = kBiasWalk_sqrt_s * config_.gyro->bias_sigma_rad_s;
   const SpanErrors errors{.turn_rad2 = turn_rad2,
@@ -333,6 +363,7 @@ ObservedAttitude AttitudeEstimator::observed_by(const StarFix& fix) const {
 void AttitudeEstimator::take_in_star(const StarFix& fix, Products& out) {
   const StarTracker& tracker = *config_.star_tracker;
   const ObservedAttitude observed = observed_by(fix);
+  contradictions_.add(fix.t, observed);
   const SensitiveAttitude alone{
       {.q_ref_body = observed.q_icrf_body,
        .covariance_rad2 = tracker.noise_rad * tracker.noise_rad * Matrix3d::Identity()},
@@ -358,6 +389,7 @@ void AttitudeEstimator::take_in_star(const StarFix& fix, Products& out) {
 }
 
 void AttitudeEstimator::take_in_direction(const SeenDirection& seen, Products& out) {
+  contradictions_.add(seen);
   if (filter_) {
     work_in(seen.t, seen.kind, seen, out);
     if (rival_ && rival_->is_proven()) {
@@ -401,6 +433,7 @@ bool AttitudeEstimator::work_in(TaiTime t, SampleKind kind, const Observed& obse
   said.residual.value *= length;
   said.residual.sigma *= length;
   out.emplace_back(SampleObservation{.estimator = AttitudeSource::Mekf, .said = said});
+  rejected_.at(index_of(kind)) = said.rejected_by ? std::optional{t} : std::nullopt;
   if (said.rejected_by) {
     leave_out({.t = t,
                .kind = kind,
@@ -521,6 +554,7 @@ void AttitudeEstimator::start(Products& out) {
   carried_.forget();
   ledger_ = Ledger{kSampleRules};
   since_given_ = {};
+  rejected_.fill(std::nullopt);
   rejected_in_a_row_ = 0;
   checked_.setZero();
   checks_ = 0.0;
@@ -583,7 +617,8 @@ void AttitudeEstimator::give(Products& out) {
       .covariance_rad2 = covariance_rad2,
       .noise_sigma_rad = std::sqrt(excess_noise() * filter_->attitude_noise_rad2().trace()),
       .assessment = assess(std::sqrt(covariance_rad2.trace())),
-      .innovations = std::exchange(since_given_, {})};
+      .innovations = std::exchange(since_given_, {}),
+      .contradiction = contradictions_.found()};
   if (rate_rad_s_ && !gyro_is_out()) {
     estimate.rate_body_rad_s = *rate_rad_s_ - filter_->bias_rad_s();
   }
@@ -631,6 +666,13 @@ bool AttitudeEstimator::is_held() const {
                      });
 }
 
+/// Returns whether the attitude has rejected the last sample of the sensor: one of the two is
+/// wrong.
+bool AttitudeEstimator::is_in_question(SampleKind kind) const {
+  const auto& rejected = rejected_.at(index_of(kind));
+  return rejected && elapsed_s(*rejected, *t_) < kHeld_s;
+}
+
 /// Returns whether the sensor is known to be wrong. For a star tracker, other sensors must confirm
 /// an attitude that its own earlier fixes supported; else it would be one sensor against another.
 bool AttitudeEstimator::is_out(SampleKind kind) const {
@@ -670,7 +712,7 @@ Assessment AttitudeEstimator::assess(double sigma_rad) const {
       known.push_back({ReasonCode::SensorGated, {{"sensor", sensor}}});
     } else if (record.heard() >= kFewestSamples && record.share_left_out() > kMany) {
       reasons.push_back({ReasonCode::SensorGated, {{"sensor", sensor}}});
-    } else if (record.heard() > 0.0 && record.share_left_out() == 1.0) {
+    } else if (record.heard() > 0.0 && (record.share_left_out() == 1.0 || is_in_question(kind))) {
       is_checked = false;
     }
     if (const double excess = record.excess_noise(); excess > 1.0) {
@@ -685,6 +727,10 @@ Assessment AttitudeEstimator::assess(double sigma_rad) const {
     reasons.push_back({ReasonCode::AlignmentOff,
                        {{"key", "three_axis.alignment." + std::string{beyond->key}},
                         {"sigmas", beyond->sigmas}}});
+  }
+  if (const auto& found = contradictions_.found();
+      found && !(found->culprit && is_out(kind_of(*found->culprit)))) {
+    reasons.push_back(reason_of(*found));
   }
   if (sigma_rad > kOpen_rad) {
     reasons.push_back({ReasonCode::AttitudeOpen, {{"deg", degrees(sigma_rad)}}});

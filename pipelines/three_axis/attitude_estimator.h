@@ -21,19 +21,22 @@
 /// The quality of the estimate is
 ///     CONVERGING nothing contradicts the attitude, but since it began fewer than ten star fixes
 ///                (or their equivalent in directions about every axis) have checked it; without a
-///                gyro the filter begins again at each fix
+///                gyro the filter begins again at each fix; or it has rejected the last sample of a
+///                sensor, so that one of the two is wrong
 ///     OK         enough samples have checked the attitude and nothing contradicts it
 ///     DOUBTFUL   samples of one sensor are rejected while those of another agree, and nobody knows
-///                which is wrong; or samples scatter beyond their noise and raise the covariance;
-///                or sensors contradict each other by more than errors of the mission file as
-///                stated explain (alignment_evidence.h); or the gyro is out, or was out and nothing
-///                has yet checked how the body turned meanwhile; or the standard deviation exceeds
-///                10 deg
+///                which is wrong; or sensors compared without the attitude contradict each other
+///                (sensor_contradictions.h); or samples scatter beyond their noise and raise the
+///                covariance; or sensors contradict each other by more than errors of the mission
+///                file as stated explain (alignment_evidence.h); or the gyro is out, or was out and
+///                nothing has yet checked how the body turned meanwhile; or the standard deviation
+///                exceeds 10 deg
 ///     LOST       the attitude may be any, as the covariance states; reported once per loss
 
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cstdint>
 #include <deque>
 #include <optional>
@@ -50,6 +53,7 @@
 #include "pipelines/three_axis/mekf.h"
 #include "pipelines/three_axis/products.h"
 #include "pipelines/three_axis/samples.h"
+#include "pipelines/three_axis/sensor_contradictions.h"
 #include "pipelines/three_axis/sensor_errors.h"
 #include "pipelines/time/tai_time.h"
 
@@ -121,6 +125,7 @@ class AttitudeEstimator {
   using Sample = std::variant<StarFix, SeenDirection>;
 
   std::optional<RejectedSample> judge(const GyroSample& sample);
+  void compare_refused(const GyroSample& sample);
   void take_in_gyro(const GyroSample& sample, Products& out);
   void decide_suspect(const GyroSample& next, Products& out);
   void leave_out_suspect(const GyroDeviation& off, Products& out);
@@ -153,6 +158,7 @@ class AttitudeEstimator {
   void follow(const GyroSample& to, const Interval& interval);
   void coast(TaiTime t, Products& out);
   double coasted_rad2(TaiTime measured, TaiTime t) const;
+  RateSpan span_to(const GyroSample& to) const;
   void turn(const GyroSample& to, double turn_rad2);
 
   Mekf filter_at(const SensitiveAttitude& attitude) const;
@@ -169,6 +175,7 @@ class AttitudeEstimator {
   bool gyro_is_out() const;
   bool is_confirmed() const;
   bool is_held() const;
+  bool is_in_question(SampleKind kind) const;
   bool is_out(SampleKind kind) const;
   Reason why_no_gyro() const;
   Assessment assess(double sigma_rad) const;
@@ -184,8 +191,11 @@ class AttitudeEstimator {
   std::optional<Eigen::Vector3d> rate_rad_s_;  ///< Measured rate at `t_`; empty before the first.
   bool coasting_ = false;  ///< True while `rate_rad_s_` is an older rate that is held.
   std::optional<Mekf> filter_;
-  bool has_fixes_ = false;     ///< True once star fixes support the filter's attitude.
-  CarriedDirections carried_;  ///< Directions collected while there is no filter.
+  bool has_fixes_ = false;  ///< True once star fixes support the filter's attitude.
+  SensorContradictions contradictions_;
+  std::optional<GyroSample> refused_;  ///< Last gyro sample in a wrong unit.
+  bool gyro_was_wrong_ = false;        ///< True once the other sensors have contradicted the gyro.
+  CarriedDirections carried_;          ///< Directions collected while there is no filter.
   std::optional<RivalAttitude> rival_;
 
   /// One watch per sample kind; the gyro's is unused (GyroWatch has its own).
@@ -193,6 +203,8 @@ class AttitudeEstimator {
   SensorHealths sensors_;
   // The following members describe the time since the filter last began.
   Ledger ledger_;
+  /// Time of the last sample of each kind, if it was rejected by its innovation.
+  std::array<std::optional<TaiTime>, kSampleKinds> rejected_;
   int rejected_in_a_row_ = 0;
   Eigen::Matrix3d checked_ = Eigen::Matrix3d::Zero();  ///< Sum of checked-axis projectors, ICRF.
   double checks_ = 0.0;                                ///< Smallest eigenvalue of `checked_`.

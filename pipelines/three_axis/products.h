@@ -15,6 +15,7 @@
 #include "pipelines/core/assessment.h"
 #include "pipelines/observation/normal_equations.h"
 #include "pipelines/observation/observation.h"
+#include "pipelines/observation/sensor_contradiction.h"
 #include "pipelines/time/sample_contradiction.h"
 #include "pipelines/time/tai_time.h"
 
@@ -86,6 +87,8 @@ struct AttitudeEstimate {
   AttitudeSource source = AttitudeSource::Mekf;
   Innovations innovations = {};            ///< Innovations since the previous estimate.
   std::optional<GyroBias> gyro_bias = {};  ///< Present at most once a second.
+  /// Contradiction of the sensors up to `t`, whether it casts doubt on this attitude or not.
+  std::optional<SensorContradiction> contradiction = {};
 
   double sigma_rad() const;  ///< Root of the trace of the covariance.
 };

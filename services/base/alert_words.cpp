@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <variant>
 
 #include "pipelines/core/shown.h"
 #include "pipelines/time/tai_time.h"
@@ -67,6 +68,8 @@ constexpr std::array<Words, kAlertCodes> kWords{{
      "look at rejected_sample, and which sensors give nothing"},
     {AttitudeDiverged, "innovations of the filter outside what its sigma allows, by chi-square",
      "check noise, mounting and bias of the sensors in the mission file"},
+    {SensorContradicts, "a sensor contradicts others beyond what the mission file allows",
+     "check its mounting, signs, units and time tags in the mission file, or exclude it"},
     {ReconstructionLauncher, "attitude at separation away from the launcher's",
      "check [reconstruction.launcher] and the mounting of star tracker and sun sensor"},
     {ModelDeparture, "flight away from the ground model",
@@ -166,6 +169,9 @@ std::string evidence_json(const Evidence& evidence, std::string_view config_sha2
   json["count"] = count;
   if (evidence.sigma) {
     json["sigma"] = *evidence.sigma;
+  }
+  for (const NamedValue& one : evidence.more) {
+    std::visit([&](const auto& value) { json[one.name] = value; }, one.value);
   }
   if (!evidence.sources.empty()) {
     json["sources"] = evidence.sources;

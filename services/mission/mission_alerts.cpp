@@ -70,6 +70,7 @@ AlertLimits alert_limits(const TomlValues& values) {
       .attitude_no_answer_s = number(values, "alerts.attitude.no_answer.seconds"),
       .diverged_percent = number(values, "alerts.attitude.diverged.percent"),
       .diverged_s = number(values, "alerts.attitude.diverged.seconds"),
+      .contradicts_sigmas = number(values, "alerts.sensor.contradicts.sigmas"),
       .launcher_percent = number(values, "alerts.reconstruction.launcher.percent"),
       .departure_sigmas = number(values, "alerts.model.departure.sigmas"),
       .backlog_s = number(values, "alerts.archive.backlog.seconds"),

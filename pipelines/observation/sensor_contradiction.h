@@ -1,0 +1,36 @@
+/// @file
+/// A contradiction between sensors, and the one of them that is wrong.
+
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "pipelines/core/assessment.h"
+#include "pipelines/observation/observation.h"
+#include "pipelines/time/tai_time.h"
+
+namespace spindrift {
+
+struct SensorContradiction {
+  /// The sensor that, left out, makes the others agree; empty if nothing tells which of two it is.
+  std::optional<SampleSource> culprit;
+  /// The sensors that contradict the culprit; without a culprit the two that contradict each other.
+  std::vector<SampleSource> with;
+  NamedValue off;  ///< By how much they differ: `angle_deg` or `offset_s`.
+  double sigmas;   ///< The difference over its total standard deviation.
+  TaiTime since;
+};
+
+/// Returns the name of a sensor in the key of an alert; an orbit state stands for the orbit.
+std::string sensor_name_of(SampleSource source);
+/// Returns the name of the culprit, or `unknown`.
+std::string culprit_name_of(const SensorContradiction& contradiction);
+/// Returns the names of the sensors in `with`.
+std::vector<std::string> opponents_of(const SensorContradiction& contradiction);
+
+Reason reason_of(const SensorContradiction& contradiction);
+
+}  // namespace spindrift

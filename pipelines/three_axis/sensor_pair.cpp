@@ -1,0 +1,123 @@
+#include "pipelines/three_axis/sensor_pair.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+
+#include "pipelines/time/time_span.h"
+
+namespace spindrift {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Vector3d;
+
+// A comparison further off, in sigma, counts as if it were so far off.
+constexpr double kMost = 5.0;
+constexpr int kFewestComparisons = 4;
+constexpr double kLongestSilence_s = 60.0;
+// Chi-square with one more degree of freedom exceeds 5 sigma as rarely if it is larger by this.
+constexpr double kSquarePerFreedom = 3.4;
+
+/// Makes a singular matrix invertible about the axes that nothing measures.
+Matrix3d regular(const Matrix3d& matrix) {
+  return matrix + 1e-9 * matrix.trace() * Matrix3d::Identity();
+}
+
+double square_of(const Vector3d& score, const Matrix3d& covariance) {
+  return score.dot(regular(covariance).llt().solve(score));
+}
+
+/// Returns a normalised square as a number of sigma of one component.
+double sigmas_from(double square, int freedom) {
+  return std::sqrt(std::max(square - kSquarePerFreedom * (freedom - 1), 0.0));
+}
+
+}  // namespace
+
+void SensorPair::add(TaiTime t, const PairComparison& compared, const PairPrior& prior) {
+  forget(t);
+  const Vector3d weighted = compared.information * compared.turn_rad;
+  const double square = compared.turn_rad.dot(weighted);
+  const double share = square > kMost * kMost ? kMost / std::sqrt(square) : 1.0;
+  information_ += share * compared.information;
+  score_ += share * weighted;
+  per_error_ += (share * compared.information).lazyProduct(compared.per_error);
+  noise_ += share * share * compared.information;
+  squares_ += std::min(square, kMost * kMost);
+  freedoms_ += compared.freedom;
+  freedom_ = compared.freedom;
+  ++count_;
+  const double alone = sigmas_alone(compared, prior);
+  least_in_a_row_ = far_in_a_row_ == 0 ? alone : std::min(least_in_a_row_, alone);
+  far_in_a_row_ = alone >= kContradicts ? far_in_a_row_ + 1 : 0;
+  judge(prior);
+  if (far_in_a_row_ >= kFewestComparisons && least_in_a_row_ > sigmas_) {
+    sigmas_ = least_in_a_row_;
+    turn_rad_ = compared.turn_rad;
+  }
+  if (sigmas_ >= kContradicts && count_ >= kFewestComparisons) {
+    contradicted_ = t;
+  }
+}
+
+void SensorPair::forget(TaiTime t) {
+  const double passed_s = last_ ? elapsed_s(*last_, t) : 0.0;
+  if (passed_s > kLongestSilence_s) {
+    *this = {};
+  }
+  last_ = t;
+  const double left = std::exp(-passed_s / kRecent_s);
+  information_ *= left;
+  score_ *= left;
+  per_error_ *= left;
+  noise_ *= left * left;
+  squares_ *= left;
+  freedoms_ *= left;
+}
+
+/// Noise above what is stated counts as noise, unless it is as large as `kMost`.
+Matrix3d SensorPair::noise_covariance() const {
+  return std::max(squares_ / freedoms_, 1.0) * noise_;
+}
+
+Matrix3d SensorPair::covariance(const PairPrior& prior) const {
+  const TurnPerPairError by_prior = per_error_.lazyProduct(prior);
+  return noise_covariance() + by_prior.lazyProduct(per_error_.transpose());
+}
+
+double SensorPair::sigmas_alone(const PairComparison& compared, const PairPrior& prior) const {
+  const Vector3d score = compared.information * compared.turn_rad;
+  const double by_noise = sigmas_from(score.dot(compared.turn_rad), compared.freedom);
+  if (by_noise < kContradicts) {
+    return by_noise;
+  }
+  const TurnPerPairError per_error = compared.information.lazyProduct(compared.per_error);
+  const TurnPerPairError by_prior = per_error.lazyProduct(prior);
+  const Matrix3d covariance = compared.information + by_prior.lazyProduct(per_error.transpose());
+  return sigmas_from(square_of(score, covariance), compared.freedom);
+}
+
+/// The errors of the mission file only make a difference less significant.
+void SensorPair::judge(const PairPrior& prior) {
+  turn_rad_ = regular(information_).llt().solve(score_);
+  sigmas_ = sigmas_from(square_of(score_, noise_covariance()), freedom_);
+  if (sigmas_ > kAgrees) {
+    sigmas_ = sigmas_from(square_of(score_, covariance(prior)), freedom_);
+  }
+}
+
+bool SensorPair::contradicts(TaiTime now) const {
+  return contradicted_ && elapsed_s(*contradicted_, now) <= kRecent_s;
+}
+
+bool SensorPair::is_tested(TaiTime now) const {
+  return count_ >= kFewestComparisons && elapsed_s(*last_, now) <= kLongestSilence_s;
+}
+
+double SensorPair::sigmas_of(const Vector3d& turn_rad, const PairPrior& prior) const {
+  const Vector3d score = information_ * turn_rad;
+  return std::sqrt(square_of(score, covariance(prior)));
+}
+
+}  // namespace spindrift
