@@ -64,7 +64,7 @@ TEST(AnswerInForce, IsTheOneThatIsOkWhereOthersAreNot) {
   expect(after({estimate(Sequential, 600.0, Doubtful, 0.01), estimate(Batch, 599.0, Ok, 0.02)}),
          Batch, Ok);
   // A batch of few edges after a manoeuvre.
-  for (const Quality quality : {Converging, Ambiguous, Doubtful, Lost}) {
+  for (const Quality quality : {Converging, Ambiguous, Doubtful}) {
     expect(
         after({estimate(Sequential, 600.0, Ok, 0.1), estimate(Batch, 600.5, quality, 0.02, 3.0)}),
         Sequential, Ok);
