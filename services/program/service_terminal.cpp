@@ -47,8 +47,8 @@ std::string what_changed(const Alert& alert) {
 }
 
 void log_change(const std::string& spacecraft, const Alert& alert) {
-  if (alert.by.empty() ||
-      (alert.state == AlertState::Cleared && alert.severity == AlertSeverity::Info)) {
+  const bool is_renewed = alert.by.empty() && alert.from == alert.state;
+  if (is_renewed || (alert.state == AlertState::Cleared && alert.severity == AlertSeverity::Info)) {
     return;  // A new message alone is no news, nor is the end of an event.
   }
   const bool is_raised = !alert.from || alert.from == AlertState::Cleared;

@@ -58,6 +58,11 @@ TEST_F(Told, SaysEachChangeOfAnAlertOnce) {
   silence_.note = "over at 2026";
   tell(AlertState::Active, AlertState::Cleared);
   EXPECT_EQ(said(), "info SPINNER: link.silent: over at 2026\n");
+  tell(AlertState::Cleared, AlertState::Active);
+  EXPECT_EQ(said(), "warning SPINNER: link.silent: no telemetry: 5.1 s\n");
+  silence_.by = "";
+  tell(AlertState::Active, AlertState::Active);
+  EXPECT_EQ(said(), "");
 }
 
 TEST_F(Told, DoesNotSayThatAnEventIsOver) {
