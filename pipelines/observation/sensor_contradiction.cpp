@@ -18,10 +18,18 @@ std::vector<std::string> opponents_of(const SensorContradiction& contradiction) 
   return names;
 }
 
+std::string opponents_text(const SensorContradiction& contradiction) {
+  std::string text;
+  for (const std::string& name : opponents_of(contradiction)) {
+    text += (text.empty() ? "" : ", ") + name;
+  }
+  return text;
+}
+
 Reason reason_of(const SensorContradiction& contradiction) {
   return {ReasonCode::Contradicted,
           {{"sensor", culprit_name_of(contradiction)},
-           {"with", opponents_of(contradiction)},
+           {"with", opponents_text(contradiction)},
            contradiction.off,
            {"sigmas", contradiction.sigmas},
            {"since_tai_ns", tai_ns(contradiction.since)}}};

@@ -30,6 +30,8 @@ std::string sensor_name_of(SampleSource source);
 std::string culprit_name_of(const SensorContradiction& contradiction);
 /// Returns the names of the sensors in `with`.
 std::vector<std::string> opponents_of(const SensorContradiction& contradiction);
+/// Returns these names as one text, separated by commas.
+std::string opponents_text(const SensorContradiction& contradiction);
 
 Reason reason_of(const SensorContradiction& contradiction);
 

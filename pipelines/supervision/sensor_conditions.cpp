@@ -1,8 +1,5 @@
 #include "pipelines/supervision/sensor_conditions.h"
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
 #include <utility>
 
 namespace spindrift {
@@ -27,7 +24,7 @@ ConditionChanges SensorConditions::evaluate(TaiTime t,
     const bool is_it = name == culprit;
     auto change = watch.update(t, {.value = is_it ? found->sigmas : 0.0, .limit = limit_sigmas_});
     if (change && is_it) {
-      change->who = fmt::format("{}", fmt::join(opponents_of(*found), ", "));
+      change->who = opponents_text(*found);
       change->evidence.since = found->since;
       change->evidence.more = {
           found->off, {"sigma", found->sigmas}, {"with", opponents_of(*found)}};

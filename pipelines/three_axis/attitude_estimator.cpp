@@ -429,6 +429,8 @@ bool AttitudeEstimator::work_in(TaiTime t, SampleKind kind, const Observed& obse
   if (rival_) {
     ask_rival(observed, !observation_of(rival_->filter, observed).rejected_by, !said.rejected_by);
   }
+  contradicted_rad_ =
+      said.rejected_by ? std::max(contradicted_rad_, said.residual.value.norm()) : 0.0;
   const double length = length_of(observed);
   said.residual.value *= length;
   said.residual.sigma *= length;
@@ -598,6 +600,7 @@ void AttitudeEstimator::lose(Products& out) {
   }
   filter_.reset();
   began_anew_ = true;
+  lost_by_rad_ = std::clamp(contradicted_rad_, lost_by_rad_.value_or(0.0), std::numbers::pi);
 }
 
 void AttitudeEstimator::give_where_due(Products& out) {
@@ -609,14 +612,20 @@ void AttitudeEstimator::give_where_due(Products& out) {
 
 void AttitudeEstimator::give(Products& out) {
   given_ = t_;
-  const Matrix3d covariance_rad2 = filter_->attitude_covariance_rad2(excess_noise());
+  if (is_confirmed_anew()) {
+    lost_by_rad_.reset();
+  }
+  const double lost_by_rad = lost_by_rad_.value_or(0.0);
+  const Matrix3d own_rad2 = filter_->attitude_covariance_rad2(excess_noise());
+  const Matrix3d covariance_rad2 =
+      own_rad2 + lost_by_rad * lost_by_rad / 3.0 * Matrix3d::Identity();
   AttitudeEstimate estimate{
       .t = *t_,
       .q_icrf_body = filter_->q_icrf_body(),
       .rate_body_rad_s = std::nullopt,
       .covariance_rad2 = covariance_rad2,
       .noise_sigma_rad = std::sqrt(excess_noise() * filter_->attitude_noise_rad2().trace()),
-      .assessment = assess(std::sqrt(covariance_rad2.trace())),
+      .assessment = assess(std::sqrt(own_rad2.trace())),
       .innovations = std::exchange(since_given_, {}),
       .contradiction = contradictions_.found()};
   if (rate_rad_s_ && !gyro_is_out()) {
@@ -657,6 +666,17 @@ bool AttitudeEstimator::gyro_is_out() const {
 
 /// Returns whether samples besides the initial fix support the attitude and the gyro is not out.
 bool AttitudeEstimator::is_confirmed() const { return checks_ > 0.5 && !gyro_is_out(); }
+
+/// Returns whether samples of two kinds support the attitude, or samples of one for long.
+bool AttitudeEstimator::is_confirmed_anew() const {
+  const auto supports = [this](SampleKind kind) {
+    const ObservationRecord& record = record_of(kind);
+    return record.heard() * (1.0 - record.share_left_out()) >= RivalAttitude::kEnough;
+  };
+  const int kinds = (supports(SampleKind::Star) ? 1 : 0) + (supports(SampleKind::Sun) ? 1 : 0) +
+                    (supports(SampleKind::Magnetometer) ? 1 : 0);
+  return kinds >= 2 || elapsed_s(*since_, *t_) >= kConfirmedAnew_s;
+}
 
 bool AttitudeEstimator::is_held() const {
   return std::any_of(sensors_.begin() + index_of(SampleKind::Star), sensors_.end(),
@@ -703,7 +723,7 @@ Assessment AttitudeEstimator::assess(double sigma_rad) const {
     reasons.push_back(
         {ReasonCode::GyroGaps, {{"count", unchecked_gaps_}, {"longest_s", longest_gap_s_}}});
   }
-  bool is_checked = checks_ >= kEnoughToCheck;
+  bool is_checked = checks_ >= kEnoughToCheck && !lost_by_rad_;
   for (std::size_t i = 0; i < kSampleKinds; ++i) {
     const auto kind = static_cast<SampleKind>(i);
     const ObservationRecord& record = record_of(kind);

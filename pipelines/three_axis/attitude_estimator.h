@@ -22,7 +22,9 @@
 ///     CONVERGING nothing contradicts the attitude, but since it began fewer than ten star fixes
 ///                (or their equivalent in directions about every axis) have checked it; without a
 ///                gyro the filter begins again at each fix; or it has rejected the last sample of a
-///                sensor, so that one of the two is wrong
+///                sensor, so that one of the two is wrong; or it follows a lost attitude, and
+///                neither a second kind of sensor nor a minute has confirmed it yet. Sigma then
+///                covers what contradicted the lost one
 ///     OK         enough samples have checked the attitude and nothing contradicts it
 ///     DOUBTFUL   samples of one sensor are rejected while those of another agree, and nobody knows
 ///                which is wrong; or sensors compared without the attitude contradict each other
@@ -95,6 +97,8 @@ class AttitudeEstimator {
   /// Number of star fixes, or their equivalent in directions about the least checked axis, that
   /// must have been accepted before the attitude counts as checked.
   static constexpr double kEnoughToCheck = 10.0;
+  /// Time after which an attitude that follows a lost one is confirmed by one kind of sensor alone.
+  static constexpr double kConfirmedAnew_s = 60.0;
 
   explicit AttitudeEstimator(const ThreeAxisConfig& config);
 
@@ -174,6 +178,7 @@ class AttitudeEstimator {
   Eigen::Vector3d rate_body_rad_s() const;
   bool gyro_is_out() const;
   bool is_confirmed() const;
+  bool is_confirmed_anew() const;
   bool is_held() const;
   bool is_in_question(SampleKind kind) const;
   bool is_out(SampleKind kind) const;
@@ -212,6 +217,9 @@ class AttitudeEstimator {
   double longest_gap_s_ = 0.0;       ///< Longest of the unchecked gaps.
   std::optional<TaiTime> since_;
   bool began_anew_ = false;
+  double contradicted_rad_ = 0.0;  ///< Largest innovation since the last sample was accepted.
+  /// Largest innovation of the attitude that was lost, until the one since then is confirmed.
+  std::optional<double> lost_by_rad_;
   std::optional<TaiTime> given_;       ///< Epoch of the last estimate.
   std::optional<TaiTime> bias_given_;  ///< Epoch of the last estimate with a gyro bias.
   Innovations since_given_;            ///< Innovations since the last estimate.

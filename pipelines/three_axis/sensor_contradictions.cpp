@@ -333,7 +333,8 @@ bool SensorContradictions::is_vouched_for(SampleKind kind, const Pair& accused, 
       return false;
     }
     const double rate_to_turn = by_rate && !pair.has(kGyro) ? SensorPair::kRecent_s : 1.0;
-    const double expected = pair.test.sigmas_of(rate_to_turn * accused.test.turn_rad(), prior_);
+    const double expected =
+        pair.test.sigmas_of(rate_to_turn * accused.test.mean_turn_rad(), prior_);
     return expected >= kVouched && pair.test.sigmas() <= kVouchedShare * expected;
   });
 }

@@ -15,6 +15,9 @@ using Eigen::Vector3d;
 // A comparison further off, in sigma, counts as if it were so far off.
 constexpr double kMost = 5.0;
 constexpr int kFewestComparisons = 4;
+// A contradiction is over when so many comparisons in a row have been nearer than this, in sigma.
+constexpr int kEndsAfter = 5;
+constexpr double kNear = 1.0;
 constexpr double kLongestSilence_s = 60.0;
 // Chi-square with one more degree of freedom exceeds 5 sigma as rarely if it is larger by this.
 constexpr double kSquarePerFreedom = 3.4;
@@ -44,6 +47,8 @@ void SensorPair::add(TaiTime t, const PairComparison& compared, const PairPrior&
   score_ += share * weighted;
   per_error_ += (share * compared.information).lazyProduct(compared.per_error);
   noise_ += share * share * compared.information;
+  weighted_squares_ += share * square;
+  weighted_freedoms_ += share * compared.freedom;
   squares_ += std::min(square, kMost * kMost);
   freedoms_ += compared.freedom;
   freedom_ = compared.freedom;
@@ -51,6 +56,11 @@ void SensorPair::add(TaiTime t, const PairComparison& compared, const PairPrior&
   const double alone = sigmas_alone(compared, prior);
   least_in_a_row_ = far_in_a_row_ == 0 ? alone : std::min(least_in_a_row_, alone);
   far_in_a_row_ = alone >= kContradicts ? far_in_a_row_ + 1 : 0;
+  near_in_a_row_ = alone < kNear ? near_in_a_row_ + 1 : 0;
+  if (contradicted_ && near_in_a_row_ >= kEndsAfter) {
+    *this = {};
+    return;
+  }
   judge(prior);
   if (far_in_a_row_ >= kFewestComparisons && least_in_a_row_ > sigmas_) {
     sigmas_ = least_in_a_row_;
@@ -72,13 +82,16 @@ void SensorPair::forget(TaiTime t) {
   score_ *= left;
   per_error_ *= left;
   noise_ *= left * left;
+  weighted_squares_ *= left;
+  weighted_freedoms_ *= left;
   squares_ *= left;
   freedoms_ *= left;
 }
 
-/// Noise above what is stated counts as noise, unless it is as large as `kMost`.
+/// Scatter above the stated noise counts as noise, unless it is as large as `kMost`.
 Matrix3d SensorPair::noise_covariance() const {
-  return std::max(squares_ / freedoms_, 1.0) * noise_;
+  const double about_mean = (weighted_squares_ - score_.dot(mean_turn_rad())) / weighted_freedoms_;
+  return std::max(std::min(squares_ / freedoms_, about_mean), 1.0) * noise_;
 }
 
 Matrix3d SensorPair::covariance(const PairPrior& prior) const {
@@ -100,7 +113,7 @@ double SensorPair::sigmas_alone(const PairComparison& compared, const PairPrior&
 
 /// The errors of the mission file only make a difference less significant.
 void SensorPair::judge(const PairPrior& prior) {
-  turn_rad_ = regular(information_).llt().solve(score_);
+  turn_rad_ = mean_turn_rad();
   sigmas_ = sigmas_from(square_of(score_, noise_covariance()), freedom_);
   if (sigmas_ > kAgrees) {
     sigmas_ = sigmas_from(square_of(score_, covariance(prior)), freedom_);
@@ -114,6 +127,8 @@ bool SensorPair::contradicts(TaiTime now) const {
 bool SensorPair::is_tested(TaiTime now) const {
   return count_ >= kFewestComparisons && elapsed_s(*last_, now) <= kLongestSilence_s;
 }
+
+Vector3d SensorPair::mean_turn_rad() const { return regular(information_).llt().solve(score_); }
 
 double SensorPair::sigmas_of(const Vector3d& turn_rad, const PairPrior& prior) const {
   const Vector3d score = information_ * turn_rad;

@@ -59,6 +59,8 @@ class SensorPair {
   bool agrees(TaiTime now) const { return is_tested(now) && sigmas_ <= kAgrees; }
   /// Returns the difference, least about axes that the pair does not measure.
   const Eigen::Vector3d& turn_rad() const { return turn_rad_; }
+  /// Returns the mean difference, which is less where it changes its sign.
+  Eigen::Vector3d mean_turn_rad() const;
   /// Returns how many sigma a mean difference by this turn would be.
   double sigmas_of(const Eigen::Vector3d& turn_rad, const PairPrior& prior) const;
 
@@ -76,10 +78,13 @@ class SensorPair {
   Eigen::Vector3d score_ = Eigen::Vector3d::Zero();
   TurnPerPairError per_error_ = TurnPerPairError::Zero();  ///< Derivative of `score_`.
   Eigen::Matrix3d noise_ = Eigen::Matrix3d::Zero();        ///< Covariance of `score_` by noise.
+  double weighted_squares_ = 0.0;  ///< Sum of normalised squares, by the weight in the mean.
+  double weighted_freedoms_ = 0.0;
   double squares_ = 0.0;         ///< Sum of normalised squares, each bounded.
   double freedoms_ = 0.0;        ///< Expected value of `squares_`.
   int far_in_a_row_ = 0;         ///< Number of last comparisons each far off by itself.
-  double least_in_a_row_ = 0.0;  ///< The least of them, in sigma.
+  int near_in_a_row_ = 0;        ///< Number of last comparisons that agree.
+  double least_in_a_row_ = 0.0;  ///< The least of those far off, sigma.
   double sigmas_ = 0.0;
   Eigen::Vector3d turn_rad_ = Eigen::Vector3d::Zero();
   std::optional<TaiTime> contradicted_;  ///< Last time of a contradiction.

@@ -95,6 +95,14 @@ TEST(AlertWords, GiveEvidenceToPrograms) {
   EXPECT_EQ(evidence["config_sha256"], "00ff");
 }
 
+TEST(AlertWords, GiveWhatElseIsKnownByItsName) {
+  Evidence evidence = change(AlertCode::SensorContradicts, Change::Raised, 5.0).evidence;
+  evidence.more = {{"angle_deg", 2.0}, {"with", std::vector<std::string>{"sun", "star"}}};
+  const auto json = nlohmann::json::parse(evidence_json(evidence, "00ff"));
+  EXPECT_EQ(json["angle_deg"], 2.0);
+  EXPECT_EQ(json["with"], (std::vector<std::string>{"sun", "star"}));
+}
+
 TEST(AlertWords, AreDocumentedWithTheirKeysAndSeverities) {
   std::istringstream lines{text_of(source_folder() / "schemas/alerts.md")};
   std::map<std::string, std::string> severities;

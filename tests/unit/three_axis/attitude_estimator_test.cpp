@@ -341,6 +341,48 @@ TEST_F(AttitudeEstimatorTest, WhereAllIsRejectedItIsLostAndBeginsAtTheNextFix) {
   EXPECT_LT(error_deg(), 0.03);
 }
 
+/// Loses the attitude to ten fixes that agree with nothing.
+class LostAttitudeTest : public EstimatedAttitude {
+ protected:
+  void lose() {
+    track_stars(20.0);
+    run(20.0, 31.0, [&](double t_s) {
+      StarFix junk = sensors_.star(t_s);
+      junk.q_icrf_sensor = any_attitude(rng_);
+      push(junk);
+    });
+    ASSERT_THAT(qualities(), Contains(Quality::Lost));
+    products_.clear();
+  }
+};
+
+TEST_F(LostAttitudeTest, IsNotOkByTheSameSensorAloneForAMinute) {
+  lose();
+  run(31.0, 85.0, {Star});
+  EXPECT_THAT(qualities(), Not(Contains(Quality::Ok)));
+  EXPECT_GT(sigma_deg(), 30.0);
+  EXPECT_LT(error_deg(), 0.03);
+  run(85.0, 105.0, {Star});
+  EXPECT_EQ(quality(), Quality::Ok);
+  EXPECT_LT(sigma_deg(), 0.1);
+}
+
+TEST_F(LostAttitudeTest, IsOkOnceASecondKindOfSensorConfirmsTheNextOne) {
+  lose();
+  run(31.0, 60.0, {Star, Sun});
+  EXPECT_EQ(quality(), Quality::Ok);
+  EXPECT_LT(sigma_deg(), 0.1);
+}
+
+TEST_F(AttitudeEstimatorTest, AfterARejectedFixItIsNotOkUntilTheNext) {
+  track_stars(20.0);
+  star(20.05, {0.01, 0.0, 0.0});
+  run(20.0, 20.9, [](double) {});
+  EXPECT_EQ(quality(), Quality::Converging);
+  run(20.9, 21.1, {Star});
+  EXPECT_EQ(quality(), Quality::Ok);
+}
+
 TEST_F(AttitudeEstimatorTest, NoiseBeyondTheStatedIsSaidAndInTheSigma) {
   begin();
   ThreeAxisConfig noisy = config_;
