@@ -334,7 +334,8 @@ bool SensorContradictions::is_vouched_for(SampleKind kind, const Pair& accused, 
     }
     const double rate_to_turn = by_rate && !pair.has(kGyro) ? SensorPair::kRecent_s : 1.0;
     const double expected =
-        pair.test.sigmas_of(rate_to_turn * accused.test.mean_turn_rad(), prior_);
+        pair.test.sigmas_if(rate_to_turn * accused.test.mean_turn_rad(),
+                            accused.test.weight(prior_) / squared(rate_to_turn), prior_);
     return expected >= kVouched && pair.test.sigmas() <= kVouchedShare * expected;
   });
 }

@@ -13,7 +13,7 @@ using Eigen::Matrix3d;
 using Eigen::Vector3d;
 
 // A comparison further off, in sigma, counts as if it were so far off.
-constexpr double kMost = 5.0;
+constexpr double kMost = 4.0;
 constexpr int kFewestComparisons = 4;
 // A contradiction is over when so many comparisons in a row have been nearer than this, in sigma.
 constexpr int kEndsAfter = 5;
@@ -46,7 +46,7 @@ void SensorPair::add(TaiTime t, const PairComparison& compared, const PairPrior&
   information_ += share * compared.information;
   score_ += share * weighted;
   per_error_ += (share * compared.information).lazyProduct(compared.per_error);
-  noise_ += share * share * compared.information;
+  noise_ += compared.information;
   weighted_squares_ += share * square;
   weighted_freedoms_ += share * compared.freedom;
   squares_ += std::min(square, kMost * kMost);
@@ -130,9 +130,17 @@ bool SensorPair::is_tested(TaiTime now) const {
 
 Vector3d SensorPair::mean_turn_rad() const { return regular(information_).llt().solve(score_); }
 
-double SensorPair::sigmas_of(const Vector3d& turn_rad, const PairPrior& prior) const {
-  const Vector3d score = information_ * turn_rad;
-  return std::sqrt(square_of(score, covariance(prior)));
+/// The turn is known only as well as its own pair shows it, so that the least that any turn which
+/// this pair admits would be counts: d' A (A + M)^-1 M d with the weights A and M of the pairs.
+double SensorPair::sigmas_if(const Vector3d& turn_rad, const Matrix3d& known,
+                             const PairPrior& prior) const {
+  const Matrix3d own = weight(prior);
+  const Vector3d shared = regular(known + own).llt().solve(own * turn_rad);
+  return std::sqrt(std::max(turn_rad.dot(known * shared), 0.0));
+}
+
+Matrix3d SensorPair::weight(const PairPrior& prior) const {
+  return information_ * regular(covariance(prior)).llt().solve(information_);
 }
 
 }  // namespace spindrift

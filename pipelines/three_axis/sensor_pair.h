@@ -61,8 +61,13 @@ class SensorPair {
   const Eigen::Vector3d& turn_rad() const { return turn_rad_; }
   /// Returns the mean difference, which is less where it changes its sign.
   Eigen::Vector3d mean_turn_rad() const;
-  /// Returns how many sigma a mean difference by this turn would be.
-  double sigmas_of(const Eigen::Vector3d& turn_rad, const PairPrior& prior) const;
+  /// Returns the inverse of the total covariance of the mean difference, 1/rad^2.
+  Eigen::Matrix3d weight(const PairPrior& prior) const;
+  /// Returns how many sigma this pair would be off if its sensor were turned by what another pair
+  /// shows.
+  /// @param known Inverse covariance of the turn, 1/rad^2.
+  double sigmas_if(const Eigen::Vector3d& turn_rad, const Eigen::Matrix3d& known,
+                   const PairPrior& prior) const;
 
  private:
   void forget(TaiTime t);

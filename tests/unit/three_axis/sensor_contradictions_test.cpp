@@ -165,7 +165,7 @@ const std::vector<Fault>& faults() {
     return plus(deg * kRadPerDeg * Vector3d{0.6, -0.48, 0.64});
   };
   static const std::vector<Fault> kFaults{
-      {"star turned by 2 deg", Star, 30.0, tracker_turned(2.0)},
+      {"star turned by 2 deg", Star, 60.0, tracker_turned(2.0)},
       {"star turned by 10 deg", Star, 10.0, tracker_turned(10.0)},
       {"star turned by 40 deg", Star, 10.0, tracker_turned(40.0)},
       {"star of the opposite mounting", Star, 10.0, tracker_turned(180.0)},
