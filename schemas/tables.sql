@@ -420,7 +420,7 @@ CREATE TABLE spin_fix_other (
   PRIMARY KEY (run_id, revolution, candidate)
 ) STRICT, WITHOUT ROWID;
 
--- The axis that a run took, that of its answer in force (view pass_verdict) with the time of that; the best other axis, NULL
+-- The axis that a run took, by `batch` where that has a solution, with the time of that; the best other axis, NULL
 -- where there is none; and what settled it: its edges, or the first accepted fix that was not chosen by the pass's own axis.
 -- delta_chi_square: by how much the edges fit the other axis worse, a state fitted to them near each (where that leads to the
 -- same axis, phase and rate alone): their squared residuals by their noise, of an edge beyond 8 sigmas, or that a body about

@@ -122,11 +122,11 @@ struct ProductKind<SpinFix> {
   }
 };
 
-/// The axis that a pass has selected: that of the answer in force.
+/// The axis that a pass has selected.
 struct AxisChoiceTable {
   static constexpr std::string_view kName = "axis_choice";
   static constexpr std::array<std::string_view, 1> kKey{"run_id"};
-  /// An answer by `batch` is in force before any other.
+  /// Only `batch` compares the fit of the other axis.
   static constexpr std::string_view kReplaces =
       "excluded.estimator = 'batch' OR axis_choice.estimator <> 'batch'";
 

@@ -107,11 +107,14 @@ TEST_F(Residuals, TheChoiceOfARunIsItsAnswerWithWhatSettledItAndHowMuchWorseTheO
     EXPECT_THAT(
         rows_of(
             db_,
-            "SELECT estimator, settled_by, abs(choice.ra_deg - verdict.ra_deg) < 1e-9, "
-            "abs(choice.dec_deg - verdict.dec_deg) < 1e-9, delta_chi_square > 20, delta_chi_square "
-            "<= 64 * (edges + outliers) FROM axis_choice AS choice JOIN pass_verdict AS verdict "
-            "USING (run_id, estimator) JOIN spin_batch USING (run_id, t_tai_ns)"),
-        ElementsAre("batch|geometry|1|1|1|1|"));
+            "SELECT choice.estimator, settled_by, abs(choice.ra_deg - answer.ra_deg) < 1e-9, "
+            "abs(choice.dec_deg - answer.dec_deg) < 1e-9, delta_chi_square > 20, delta_chi_square "
+            "<= 64 * (edges + outliers), abs(choice.dec_deg - verdict.dec_deg) < verdict.sigma_deg "
+            "FROM axis_choice AS choice JOIN pass_answer AS answer ON answer.run_id = "
+            "choice.run_id AND answer.estimator = choice.estimator JOIN pass_verdict AS verdict ON "
+            "verdict.run_id = choice.run_id JOIN spin_batch AS batch ON batch.run_id = "
+            "choice.run_id AND batch.t_tai_ns = choice.t_tai_ns"),
+        ElementsAre("batch|geometry|1|1|1|1|1|"));
   }
 }
 

@@ -20,7 +20,7 @@ TEST(Example, FollowsTheAnswersAndTheHealthOfAPass) {
   ASSERT_EQ(service.replay("0"), 0);
   EXPECT_TRUE(eventually([&] {
     return says("estimate SPINNER sequential t_tai_ns=") && says("health spindrift ") &&
-           says(": OK by batch, sigma_deg=0.0") && says(" against=\"\"\n");
+           says(": OK by sequential, sigma_deg=0.0") && says(" against=\"\"\n");
   })) << follow.out()
       << follow.log();
   ASSERT_EQ(service.stop_when_computed(), 0);

@@ -148,7 +148,8 @@ TEST(DoctorMissions, SaysWhichAlignmentStandsAtItsDefaultAndWhatItCosts) {
         "alignment of SPINNER", Ok, "spin.alignment.time_tag_s = 0"},
        {"no axis to plan with",
         [](auto& f) { f.defaults = {{.key = "spin.alignment.slit_cant_deg", .value = 0.05}}; },
-        "alignment of SPINNER", Warning, "[spin.target] and an orbit would tell"},
+        "alignment of SPINNER", Warning,
+        "([spin.target] or [spin.prior], and an orbit at the time of --from, would tell"},
        {"three axes",
         [](auto& f) {
           f.kind = SpacecraftKind::ThreeAxis;

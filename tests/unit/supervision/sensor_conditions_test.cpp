@@ -47,10 +47,11 @@ TEST(SensorConditions, WaitForTheNameBeforeTheySayThatItIsUnknown) {
 TEST(SensorConditions, EndHalfAMinuteAfterTheContradiction) {
   SensorConditions conditions{AlertLimits{}};
   conditions.evaluate(at_s(0), kStar);
-  EXPECT_THAT(conditions.evaluate(at_s(10), {}), IsEmpty());
-  EXPECT_THAT(conditions.evaluate(at_s(20), kStar), IsEmpty());
-  EXPECT_THAT(conditions.evaluate(at_s(30), {}), IsEmpty());
-  EXPECT_THAT(conditions.evaluate(at_s(59), {}), IsEmpty());
+  const auto is_renewed = Each(Field(&ConditionChange::change, Change::Renewed));
+  EXPECT_THAT(conditions.evaluate(at_s(10), {}), is_renewed);
+  EXPECT_THAT(conditions.evaluate(at_s(20), kStar), is_renewed);
+  EXPECT_THAT(conditions.evaluate(at_s(30), {}), is_renewed);
+  EXPECT_THAT(conditions.evaluate(at_s(59), {}), is_renewed);
   const ConditionChanges over = conditions.evaluate(at_s(60), {});
   ASSERT_THAT(over, SizeIs(1));
   EXPECT_EQ(over[0].change, Change::Cleared);
