@@ -19,7 +19,7 @@ struct SensorContradiction {
   std::optional<SampleSource> culprit;
   /// The sensors that contradict the culprit; without a culprit the two that contradict each other.
   std::vector<SampleSource> with;
-  NamedValue off;  ///< By how much they differ: `angle_deg` or `offset_s`.
+  NamedValue off;  ///< Difference of the sensors: `angle_deg` or `offset_s`.
   double sigmas;   ///< The difference over its total standard deviation.
   TaiTime since;
 };

@@ -18,7 +18,7 @@ struct AxesApart {
   SpinEstimator one;
   SpinEstimator other;
   double apart_rad;
-  double sigmas;  ///< In sigmas of their difference.
+  double sigmas;  ///< Distance in sigmas of the difference.
 };
 
 struct SpinAnswer {

@@ -65,7 +65,7 @@ struct AlertLimits {
 /// An operator's limits for one kind of alert, as the mission file has them under [alerts].
 struct SetLimit {
   std::string key;                       ///< Name of an AlertCode.
-  std::map<std::string, double> limits;  ///< By name, in the unit of the mission file.
+  std::map<std::string, double> limits;  ///< Limits by name, in the unit of the mission file.
 };
 
 /// The planned contact of a pass.

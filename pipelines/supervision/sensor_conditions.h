@@ -23,7 +23,7 @@ class SensorConditions {
 
  private:
   double limit_sigmas_;
-  std::map<std::string, ConditionWatch> watches_;  ///< By the name of the culprit.
+  std::map<std::string, ConditionWatch> watches_;  ///< Watches by the name of the culprit.
 };
 
 }  // namespace spindrift

@@ -105,7 +105,7 @@ class SensorContradictions {
   std::optional<Fix> fix_;
   std::optional<Eigen::Vector3d> star_rate_rad_s_;  ///< Mean rate of the last arc.
   std::optional<Direction> sun_;
-  std::optional<Direction> sun_begin_;  ///< Where the present comparison of Sun and gyro begins.
+  std::optional<Direction> sun_begin_;  ///< Begin of the present comparison of Sun and gyro.
   std::optional<Direction> field_;
   std::optional<SensorContradiction> found_;
 };

@@ -78,7 +78,7 @@ class SensorPair {
 
   std::optional<TaiTime> last_;
   int count_ = 0;
-  int freedom_ = 0;  ///< Of the last comparison.
+  int freedom_ = 0;  ///< Freedom of the last comparison.
   Eigen::Matrix3d information_ = Eigen::Matrix3d::Zero();
   Eigen::Vector3d score_ = Eigen::Vector3d::Zero();
   TurnPerPairError per_error_ = TurnPerPairError::Zero();  ///< Derivative of `score_`.
