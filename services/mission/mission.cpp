@@ -85,6 +85,12 @@ Expected<Mission> parse(const std::filesystem::path& path, std::string text,
   if (auto allowed = allow(*document, only); !allowed) {
     return Unexpected{std::move(allowed.error())};
   }
+  if (kind_of(values) == SpacecraftKind::Spin) {
+    check_estimated_biases(*document);
+  }
+  if (auto sound = soundness(*document); !sound) {
+    return Unexpected{std::move(sound.error())};
+  }
   auto defaults = default_sigmas(*document, kind_of(values));
   auto spacecraft_id = std::get<std::string>(values.at("spacecraft.id"));
   const OrbitEphemeris* const ephemeris = orbit->orbit ? orbit->orbit->ephemeris() : nullptr;

@@ -1,5 +1,8 @@
 #include "services/mission/mission_spin.h"
 
+#include <fmt/format.h>
+
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -29,16 +32,35 @@ std::optional<SpinPrior> prior(const TomlValues& values) {
                    .sigma_rad = radians(values, "spin.prior.sigma_deg")};
 }
 
+std::string batch_key(SensorBias bias) { return fmt::format("spin.batch.{}", prior_of(bias).name); }
+
 SpinBatch batch(const TomlValues& values) {
   SpinBatch batch;
   for (int i = 0; i < kSensorBiases; ++i) {
-    const std::string key = "spin.batch." + std::string{prior_of(static_cast<SensorBias>(i)).name};
-    if (const auto estimated = value_if<bool>(values, key)) {
+    if (const auto estimated = value_if<bool>(values, batch_key(static_cast<SensorBias>(i)))) {
       batch.biases = batch.biases.value_or(BiasSet{}).set(static_cast<std::size_t>(i), *estimated);
     }
   }
   return batch;
 }
+
+/// Names the values of the mission file whose alignment says how far a bias may be off.
+struct StatedBy {
+  SensorBias bias;
+  SpinAlignmentError first;
+  SpinAlignmentError second;  ///< Equal to `first` where one value says it all.
+};
+
+constexpr std::array<StatedBy, 8> kStatedBy = {{
+    {SunAngleBias, SlitCantError, SlitSeparationError},
+    {SlitSeparationBias, SlitSeparationError, SlitSeparationError},
+    {NorthChordBias, NorthAzimuthError, NorthAzimuthError},
+    {SouthChordBias, SouthAzimuthError, SouthAzimuthError},
+    {NorthMountAngleBias, NorthMountAngleError, NorthMountAngleError},
+    {SouthMountAngleBias, SouthMountAngleError, SouthMountAngleError},
+    {DihedralBias, NorthAzimuthError, SouthAzimuthError},
+    {Co2HeightBias, Co2AltitudeError, Co2AltitudeError},
+}};
 
 HorizonModel horizon_model(const std::string& name) {
   return name == "sphere" ? HorizonModel::Sphere : HorizonModel::Ellipsoid;
@@ -65,6 +87,20 @@ SpinConfig spin_config(const TomlValues& values) {
       .prior = prior(values),
       .batch = batch(values),
       .alignment = spin_alignment(values)};
+}
+
+void check_estimated_biases(TomlDocument& document) {
+  const SpinAlignment alignment = spin_alignment(document.values);
+  const BiasSet estimated = batch(document.values).biases.value_or(BiasSet{});
+  for (const auto& [bias, first, second] : kStatedBy) {
+    if (estimated[bias] && alignment(first, first) + alignment(second, second) == 0.0) {
+      const std::string key = batch_key(bias);
+      add_problem(document, key,
+                  fmt::format("{} = true: by the alignment {} is known exactly; state how far it "
+                              "may be off in [spin.alignment], or leave the bias out",
+                              key, kSpinAlignmentKeys.at(first)));
+    }
+  }
 }
 
 }  // namespace spindrift

@@ -15,6 +15,7 @@
 #include "pipelines/frames/uncertain_attitude.h"
 #include "pipelines/spin/batch/after_changepoint.h"
 #include "pipelines/spin/batch/batch_assessment.h"
+#include "pipelines/spin/batch/bias_priors.h"
 #include "pipelines/spin/batch/bias_selection.h"
 #include "pipelines/spin/batch/initial_state.h"
 #include "pipelines/spin/batch/observability.h"
@@ -66,20 +67,26 @@ Error why_diverged(const Solved& solved) {
 }
 
 /// Returns all biases but coning. Those not estimated get one step from the state, taken together.
-std::vector<BiasEstimate> all_biases(const SpinConfig& config, const EvaluatedFit& found) {
+std::vector<BiasEstimate> all_biases(const PassModel& model, const EvaluatedFit& found) {
+  const PulseNoise& noise = model.config().noise;
+  const BiasPriors priors{model, found.fit.state};
   const SensorBiases& now = found.fit.state.biases;
   const BiasSet all = seen_biases(found.information) | found.estimated;
-  const PassInformation beside_all =
-      found.beside(considered_prior(config.noise, alignment_beside(config, all)));
+  PassInformation beside_all = found.beside(considered_prior(noise, priors.alignment_beside(all)));
+  for (int i = 0; i < kSensorBiases; ++i) {
+    if (!found.estimated[static_cast<std::size_t>(i)]) {
+      beside_all.bias_sigmas[i] = priors.stated()[i];
+    }
+  }
   const Observability together{beside_all, all};
   const SensorBiases step = together.bias_step(beside_all, now);
   std::vector<BiasEstimate> biases = together.biases(now + step);
   // Their sigmas have the offsets by elimination, and the alignment by the gains of the solution.
-  const PassInformation beside_offsets = found.beside(considered_prior(config.noise));
+  const PassInformation beside_offsets = found.beside(considered_prior(noise));
   const Observability alone{beside_offsets, found.estimated};
   const Observability::Matrix by_alignment =
       Observability{found.information, found.estimated}.considered(
-          found.information, considered_prior(alignment_beside(config, found.estimated)));
+          found.information, considered_prior(priors.alignment_beside(found.estimated)));
   for (BiasEstimate& bias : biases) {
     bias.estimated = false;
   }
@@ -118,7 +125,8 @@ ConingEstimate coning_of(const EvaluatedFit& found, double excess_noise) {
 std::vector<BatchEdge> said_to(const Solved& solved, const Observability& observed) {
   const EvaluatedFit& best = solved.of.best;
   const PassAtState at = solved.model.at(best.fit.state);
-  const SpinAlignment beside = alignment_beside(solved.model.config(), best.estimated);
+  const SpinAlignment beside =
+      BiasPriors{solved.model, best.fit.state}.alignment_beside(best.estimated);
   const Eigen::Matrix<double, kBatchUnknowns, kSpinAlignmentErrors> taken_up =
       observed.moved(best.information).rightCols<kSpinAlignmentErrors>();
   std::vector<BatchEdge> said;
@@ -140,10 +148,10 @@ std::vector<BatchEdge> said_to(const Solved& solved, const Observability& observ
 
 /// Returns the error of the mission file that explains most of what those stated leave over; empty
 /// where it is exact.
-std::optional<AlignmentExcess> excess_of(const SpinConfig& config, const EvaluatedFit& found) {
-  return is_stated(config.alignment)
-             ? worst_excess(alignment_evidence(config, found), config.alignment)
-             : std::nullopt;
+std::optional<AlignmentExcess> excess_of(const PassModel& model, const EvaluatedFit& found) {
+  const SpinAlignment& alignment = model.config().alignment;
+  return is_stated(alignment) ? worst_excess(alignment_evidence(model, found), alignment)
+                              : std::nullopt;
 }
 
 /// Returns the fit with edges that are so far off that a wrong model explains them, but no stray.
@@ -177,11 +185,11 @@ double as_angle_rad(const PassModel& model, const AlignmentExcess& excess) {
 std::optional<Reason> model_off(const Solved& solved, const EvaluatedFit& unbiased) {
   const SpinConfig& config = solved.model.config();
   const bool added = !config.batch.biases && solved.of.best.estimated.any();
-  const auto beyond = excess_of(config, unbiased);
+  const auto beyond = excess_of(solved.model, unbiased);
   if (!beyond || !(added || beyond->gain > significance_gain())) {
     return std::nullopt;
   }
-  const auto culprit = excess_of(config, with_far_edges(solved, unbiased));
+  const auto culprit = excess_of(solved.model, with_far_edges(solved, unbiased));
   if (!culprit) {
     return std::nullopt;
   }
@@ -203,8 +211,9 @@ BatchSolution solution_of(const Solved& solved, const Eigen::Matrix2d& open_rad2
   const SpinConfig& config = solved.model.config();
   const Observability::Matrix by_offsets =
       observed.considered(information, considered_prior(config.noise));
-  const Observability::Matrix beside_biases =
-      observed.considered(information, considered_prior(alignment_beside(config, best.estimated)));
+  const Observability::Matrix beside_biases = observed.considered(
+      information,
+      considered_prior(BiasPriors{solved.model, best.fit.state}.alignment_beside(best.estimated)));
   // The priors of estimated biases are in the covariance already, but no noise.
   const Observability::Matrix by_alignment =
       observed.considered(information, considered_prior(config.alignment));
@@ -233,7 +242,7 @@ BatchSolution solution_of(const Solved& solved, const Eigen::Matrix2d& open_rad2
       .drift_sigma_rad_s2 = std::hypot(std::sqrt(drift_variance(total, half_s)),
                                        kDriftOfThree * of_grid_rad / (4.0 * half_s * half_s)),
       .bound_rad = std::sqrt(bound_rad2.trace()),
-      .biases = all_biases(config, best),
+      .biases = all_biases(solved.model, best),
       .undetermined = {},
       .singular_values = observed.singular_values(),
       .changed = solved.left_out ? std::optional{solved.left_out->until} : std::nullopt,
@@ -246,7 +255,7 @@ BatchSolution solution_of(const Solved& solved, const Eigen::Matrix2d& open_rad2
       .coning = coning_of(best, excess_noise),
       .said = said_to(solved, observed),
       .choice = {},
-      .equations = normal_equations(config, best)};
+      .equations = normal_equations(solved.model, best)};
   solution.equations.t = solution.estimate.t;
   if (best.nutation && best.nutation->found) {
     solution.nutation->found = as_fitted(*best.nutation->found, solved.model, best.fit.state);

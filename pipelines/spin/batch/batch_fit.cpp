@@ -16,6 +16,7 @@
 #include <utility>
 #include <vector>
 
+#include "pipelines/spin/batch/bias_priors.h"
 #include "pipelines/spin/batch/nutation_stretch.h"
 #include "pipelines/spin/batch/pass_information.h"
 
@@ -215,7 +216,7 @@ ceres::Solver::Summary solve(Fit& fit, std::span<const PassEdge> edges, std::siz
   keeping.disable_all_safety_checks = true;
   keeping.evaluation_callback = &fit;
   std::deque<EdgeCost> costs;  // A deque keeps the addresses that Ceres holds.
-  PriorCost prior{bias_sigmas(fit.model().config())};
+  PriorCost prior{BiasPriors{fit.model(), fit.state()}.of_estimated()};
   ceres::Problem problem{keeping};
   Parameters& at = fit.parameters();
   add_edges(fit, edges, stride, losses, costs, problem);

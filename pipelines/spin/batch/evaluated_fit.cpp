@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "pipelines/spin/batch/bias_priors.h"
 #include "pipelines/spin/batch/observability.h"
 #include "pipelines/spin/batch/pass_nutation.h"
 
@@ -32,12 +33,13 @@ double EvaluatedFit::misfit() const {
 EvaluatedFit evaluated(const PassModel& model, std::span<const PassEdge> edges, BatchFit fit,
                        BiasSet estimated) {
   const SpinConfig& config = model.config();
+  const SpinAlignment alignment = BiasPriors{model, fit.state}.alignment_beside(estimated);
   PassInformation information =
       less_nutation(information_of(model, edges, fit.state), model, edges, fit.state);
   return {.fit = std::move(fit),
           .estimated = estimated,
           .information = std::move(information),
-          .considered = considered_prior(config.noise, alignment_beside(config, estimated)),
+          .considered = considered_prior(config.noise, alignment),
           .nutation = {}};
 }
 

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "pipelines/frames/angle.h"
+#include "pipelines/spin/batch/bias_priors.h"
 #include "pipelines/spin/batch/observability.h"
 
 namespace spindrift {
@@ -38,19 +39,19 @@ std::vector<FileValue> values_of(const SpinConfig& config) {
 }
 
 /// Returns the errors that the estimated biases stand for.
-SpinAlignmentVector estimated_errors(const SpinConfig& config, const EvaluatedFit& found) {
+SpinAlignmentVector estimated_errors(const BiasPriors& priors, const EvaluatedFit& found) {
   SpinAlignmentVector errors = SpinAlignmentVector::Zero();
   for (int i = 0; i < kSensorBiases; ++i) {
     if (found.estimated[static_cast<std::size_t>(i)]) {
-      errors += found.fit.state.biases[i] * errors_of(config, static_cast<SensorBias>(i));
+      errors += found.fit.state.biases[i] * priors.errors_of(static_cast<SensorBias>(i));
     }
   }
   return errors;
 }
 
-BiasSet without_key(const SpinConfig& config, BiasSet estimated) {
+BiasSet without_key(const BiasPriors& priors, BiasSet estimated) {
   for (int i = 0; i < kSensorBiases; ++i) {
-    if (!errors_of(config, static_cast<SensorBias>(i)).isZero()) {
+    if (!priors.errors_of(static_cast<SensorBias>(i)).isZero()) {
       estimated.reset(static_cast<std::size_t>(i));
     }
   }
@@ -59,9 +60,10 @@ BiasSet without_key(const SpinConfig& config, BiasSet estimated) {
 
 }  // namespace
 
-SpinAlignmentEvidence alignment_evidence(const SpinConfig& config, const EvaluatedFit& found) {
+SpinAlignmentEvidence alignment_evidence(const PassModel& model, const EvaluatedFit& found) {
+  const BiasPriors priors{model, found.fit.state};
   const PassInformation& pass = found.information;
-  const Observability others{pass, without_key(config, found.estimated)};
+  const Observability others{pass, without_key(priors, found.estimated)};
   // Other biases are held, with a zero in the step.
   const ConsideredVector score =
       pass.considered.score +
@@ -71,13 +73,13 @@ SpinAlignmentEvidence alignment_evidence(const SpinConfig& config, const Evaluat
   const double noise = found.excess_noise();
   evidence.information /= noise;
   evidence.score /= noise;
-  evidence.score += evidence.information * estimated_errors(config, found);
+  evidence.score += evidence.information * estimated_errors(priors, found);
   return evidence;
 }
 
-NormalEquations normal_equations(const SpinConfig& config, const EvaluatedFit& found) {
-  const SpinAlignmentEvidence evidence = alignment_evidence(config, found);
-  const std::vector<FileValue> values = values_of(config);
+NormalEquations normal_equations(const PassModel& model, const EvaluatedFit& found) {
+  const SpinAlignmentEvidence evidence = alignment_evidence(model, found);
+  const std::vector<FileValue> values = values_of(model.config());
   const auto count = static_cast<Eigen::Index>(values.size());
   NormalEquations equations{.names = {},
                             .b0 = Eigen::VectorXd(count),

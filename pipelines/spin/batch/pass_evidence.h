@@ -12,9 +12,9 @@ namespace spindrift {
 
 /// Returns the evidence about the mission file's values, with motion, the offsets of the channels,
 /// and the estimated biases that no key of the file holds, eliminated.
-SpinAlignmentEvidence alignment_evidence(const SpinConfig& config, const EvaluatedFit& found);
+SpinAlignmentEvidence alignment_evidence(const PassModel& model, const EvaluatedFit& found);
 
 /// Returns the same for a calibration, in the units of the keys, of the sensors that exist.
-NormalEquations normal_equations(const SpinConfig& config, const EvaluatedFit& found);
+NormalEquations normal_equations(const PassModel& model, const EvaluatedFit& found);
 
 }  // namespace spindrift

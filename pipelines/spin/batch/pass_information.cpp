@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "pipelines/spin/batch/bias_priors.h"
 #include "pipelines/statistics/distributions.h"
 
 namespace spindrift {
@@ -57,7 +58,7 @@ PassInformation information_of(const PassModel& model, std::span<const PassEdge>
                                const SpinState& state, double outlier_sigmas) {
   const PassAtState at = model.at(state);
   const SpinConfig& config = model.config();
-  PassInformation sum{.bias_sigmas = bias_sigmas(config)};
+  PassInformation sum{.bias_sigmas = BiasPriors{model, state}.of_estimated()};
   for (const PassEdge& edge : edges) {
     const auto residual = at.residual(edge.pulse);
     const double limit = residual ? outlier_sigmas * residual->sigma(config.alignment) : 0.0;

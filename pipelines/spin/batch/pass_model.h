@@ -24,6 +24,7 @@
 
 #include "pipelines/core/expected.h"
 #include "pipelines/ephemeris/orbit.h"
+#include "pipelines/frames/celestial.h"
 #include "pipelines/spin/batch/nutation_stretch.h"
 #include "pipelines/spin/sensor_model/edge_prediction.h"
 #include "pipelines/spin/types/config.h"
@@ -113,6 +114,10 @@ class PassModel {
 
   const SpinConfig& config() const { return config_; }
   const Sky& sky_at(TaiTime t) const;
+  /// Returns the sun angle that a state has at the middle of the pass.
+  double sun_angle_rad(const SpinState& state) const {
+    return angle_between_rad(state.axis_icrf(), sky_at(middle_).sun_icrf);
+  }
   TaiTime middle() const { return middle_; }
   double half_s() const { return half_s_; }  ///< Half length of the pass, at least 1 s.
 

@@ -23,16 +23,21 @@ double disc_per_mount_angle(double mount_angle_rad, const SeenByAxis& seen) {
 
 }  // namespace
 
+SpinAlignmentVector sun_angle_per_error(const SunSensor& slits, double sun_angle_rad) {
+  SpinAlignmentVector larger = SpinAlignmentVector::Zero();
+  const double tan_cant = std::tan(slits.slit_cant_rad);
+  const double sin_sun = std::sin(sun_angle_rad);
+  const double cos_sun = std::cos(sun_angle_rad);
+  const double sin_lag = std::clamp(tan_cant * cos_sun / sin_sun, -1.0, 1.0);
+  larger[SlitCantError] = -sin_sun * cos_sun * (1.0 + tan_cant * tan_cant) / tan_cant;
+  larger[SlitSeparationError] = -sin_sun * sin_sun * std::sqrt(1.0 - sin_lag * sin_lag) / tan_cant;
+  return larger;
+}
+
 ErrorsOfAlignment errors_of_alignment(const SpinConfig& config, const SeenByAxis& seen) {
   ErrorsOfAlignment errors = ErrorsOfAlignment::Zero();
-  const double tan_cant = std::tan(config.sun_sensor.slit_cant_rad);
-  const double sin_sun = std::sin(seen.sun_angle_rad);
-  const double cos_sun = std::cos(seen.sun_angle_rad);
-  const double sin_lag = std::clamp(tan_cant * cos_sun / sin_sun, -1.0, 1.0);
-  errors(SunAngleError, SlitCantError) =
-      -sin_sun * cos_sun * (1.0 + tan_cant * tan_cant) / tan_cant;
-  errors(SunAngleError, SlitSeparationError) =
-      -sin_sun * sin_sun * std::sqrt(1.0 - sin_lag * sin_lag) / tan_cant;
+  errors.row(SunAngleError) =
+      sun_angle_per_error(config.sun_sensor, seen.sun_angle_rad).transpose();
   const double disc_per_km = -std::tan(seen.disc_rad) / horizon_axes(config.horizon).equatorial_km;
   if (config.north) {
     errors(NorthLimb, NorthMountAngleError) =

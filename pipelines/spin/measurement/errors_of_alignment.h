@@ -19,6 +19,9 @@ struct SeenByAxis {
   double disc_rad;  ///< Half-angle of the Earth's disc.
 };
 
+/// Returns how much larger the sun angle is measured per error of the mission file.
+SpinAlignmentVector sun_angle_per_error(const SunSensor& slits, double sun_angle_rad);
+
 using ErrorsOfAlignment = Eigen::Matrix<double, kModelErrors, kSpinAlignmentErrors>;
 
 /// Returns the model errors per error of the mission file: the model's disc too large, the sun

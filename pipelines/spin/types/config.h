@@ -96,17 +96,4 @@ struct SpinConfig {
   SpinAlignment alignment = SpinAlignment::Zero();
 };
 
-/// Returns the prior sigmas of the biases that `batch` estimates. Those that the mission file names
-/// are known as its alignment states, where it states that; without names a bias is estimated only
-/// where the edges show more than that, and any other is as one that is suspected.
-SensorBiases bias_sigmas(const SpinConfig& config);
-
-/// Returns what is left of the alignment's covariance where biases are estimated, each of which
-/// takes up its own direction of the errors.
-SpinAlignment alignment_beside(const SpinConfig& config, BiasSet estimated);
-
-/// Returns the errors of the mission file that a value of a bias stands for; zero for those of
-/// measured angles and coning, which no key of it holds.
-SpinAlignmentVector errors_of(const SpinConfig& config, SensorBias bias);
-
 }  // namespace spindrift

@@ -160,6 +160,19 @@ TEST(MissionAlignment, OfTheSunSensorIsRefusedAtItsOldPlace) {
                                     "to [three_axis.alignment] sun_sensor_deg")));
 }
 
+TEST(MissionAlignment, OfABiasToEstimateMustNotBeZero) {
+  const std::string asked = contract() + "\n[spin.batch]\nsun_angle = true\ndihedral = true\n";
+  EXPECT_THAT(problems_of(asked), IsEmpty());
+  const auto exact = [](const std::string& toml, const std::string& key) {
+    return replaced(toml, "\n" + key + " = 0.05", "\n" + key + " = 0.0");
+  };
+  const std::string one = exact(asked, "slit_cant_deg");
+  EXPECT_THAT(problems_of(one), IsEmpty());
+  EXPECT_THAT(problems_of(exact(one, "slit_separation_deg")),
+              ElementsAre(HasSubstr(": spin.batch.sun_angle = true: by the alignment "
+                                    "spin.sun_sensor.slit_cant_deg is known exactly; ")));
+}
+
 struct BadCalibration {
   std::string_view names;
   std::string_view covariance;

@@ -5,6 +5,8 @@
 #include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
 #include "pipelines/spin/batch/batch_estimator.h"
+#include "pipelines/spin/batch/bias_priors.h"
+#include "pipelines/spin/measurement/errors_of_alignment.h"
 #include "services/base/assessment_words.h"
 #include "tests/support/batch_pass.h"
 #include "tests/support/misaligned.h"
@@ -82,18 +84,27 @@ TEST_F(BatchAlignment, AnErrorWithinItIsOkAndOneBeyondNamesTheKey) {
 TEST_F(BatchAlignment, ABiasToEstimateHasItsPriorFromIt) {
   SpinConfig config = said(SpinAlignmentVector::Zero(), usual_alignment());
   config.batch.biases = BiasSet{}.set(NorthMountAngleBias).set(DihedralBias).set(NorthChordBias);
-  const SensorBiases sigmas = bias_sigmas(config);
+  config.batch.biases->set(SunAngleBias);
+  const double sun_angle_rad = 1.1;
+  const BiasPriors priors{config, sun_angle_rad};
+  const SensorBiases sigmas = priors.of_estimated();
   EXPECT_DOUBLE_EQ(sigmas[NorthMountAngleBias], kSigma_rad);
   EXPECT_DOUBLE_EQ(sigmas[DihedralBias], kSigma_rad / std::sqrt(2.0));
-  EXPECT_EQ(sigmas[NorthChordBias], prior_of(NorthChordBias).sigma);
-  const SpinAlignment left = alignment_beside(config, *config.batch.biases);
+  EXPECT_DOUBLE_EQ(sigmas[NorthChordBias], 2.0 * kSigma_rad);
+  const SpinAlignmentVector larger = sun_angle_per_error(config.sun_sensor, sun_angle_rad);
+  EXPECT_DOUBLE_EQ(sigmas[SunAngleBias], kSigma_rad * larger.norm());
+  const SpinAlignment left = priors.alignment_beside(*config.batch.biases);
+  // Of the slits only what leaves the sun angle alone is left.
+  EXPECT_NEAR(larger.dot(left * larger), 0.0, 1e-20);
+  EXPECT_NEAR((left.topLeftCorner<2, 2>().trace()), kSigma_rad * kSigma_rad, 1e-15);
+  EXPECT_NEAR(larger.dot(priors.errors_of(SunAngleBias)), 1.0, 1e-12);
   EXPECT_NEAR(left(NorthMountAngleError, NorthMountAngleError), 0.0, 1e-20);
   // The difference of the azimuths is left.
   EXPECT_NEAR(left(NorthAzimuthError, NorthAzimuthError), 0.5 * kSigma_rad * kSigma_rad, 1e-15);
   EXPECT_NEAR(left(NorthAzimuthError, SouthAzimuthError), -0.5 * kSigma_rad * kSigma_rad, 1e-15);
   EXPECT_EQ(left(SouthMountAngleError, SouthMountAngleError), kSigma_rad * kSigma_rad);
   config.alignment.setZero();
-  EXPECT_EQ(bias_sigmas(config), suspected_sigmas());
+  EXPECT_EQ(BiasPriors(config, sun_angle_rad).of_estimated(), suspected_sigmas());
 }
 
 TEST_F(BatchAlignment, NormalEquationsShowAnErrorOfTheFile) {
