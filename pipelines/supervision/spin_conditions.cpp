@@ -42,6 +42,7 @@ SpinConditions::SpinConditions(const SpinConfig& config, Orbit orbit, const Aler
     : limits_{limits},
       target_{std::move(target)},
       channels_{config, std::move(orbit), limits.silent_revolutions},
+      sensors_{limits},
       irrational_{limits.period.revolutions, 1},
       left_out_{limits.rejection.revolutions, kPulseChannels},
       interference_{AlertCode::SpinInterference, "s", {.raise_s = 0.0, .clear_s = 60.0}},
@@ -66,6 +67,7 @@ void SpinConditions::set_limits(const AlertLimits& limits) {
     left_out_ = TurnShare{limits.rejection.revolutions, kPulseChannels};
   }
   channels_.set_silent_revolutions(limits.silent_revolutions);
+  sensors_.set_limits(limits);
   ambiguous_.hold(as_long_again(limits.ambiguous_s));
   doubtful_.hold(as_long_again(limits.doubtful_s));
   presence_.set_limit_s(limits.spin_no_answer_s);

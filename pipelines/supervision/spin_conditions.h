@@ -19,6 +19,7 @@
 #include "pipelines/supervision/channel_presence.h"
 #include "pipelines/supervision/condition_watch.h"
 #include "pipelines/supervision/limits.h"
+#include "pipelines/supervision/sensor_conditions.h"
 
 namespace spindrift {
 
@@ -49,6 +50,9 @@ class SpinConditions {
   ConditionChanges evaluate(const SpinMeasurement& measurement);
   ConditionChanges evaluate(const SpinEstimate& estimate);
   ConditionChanges evaluate(const BatchSolution& solution);
+  ConditionChanges evaluate(const SensorsCompared& sensors) {
+    return sensors_.evaluate(sensors.t, sensors.contradiction);
+  }
 
   /// Settles the conditions of the answer by the final one, without hold. To be called once, when
   /// the run has ended.
@@ -64,6 +68,7 @@ class SpinConditions {
   std::optional<SpinTarget> target_;
   std::multimap<TaiTime, Eigen::Vector3d> targets_;  ///< Future target axes, ICRF.
   ChannelPresence channels_;
+  SensorConditions sensors_;
   TurnShare irrational_;
   TurnShare left_out_;
   ConditionWatch interference_;

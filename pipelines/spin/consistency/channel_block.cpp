@@ -1,0 +1,97 @@
+#include "pipelines/spin/consistency/channel_block.h"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+#include <utility>
+
+#include "pipelines/frames/angle.h"
+#include "pipelines/statistics/median.h"
+#include "pipelines/statistics/significance.h"
+#include "pipelines/time/time_span.h"
+
+namespace spindrift {
+namespace {
+
+constexpr double kBlock_s = 5.0;
+constexpr std::size_t kFewestRevolutions = 3;
+// Ratio of the standard deviation of a median to that of a mean.
+constexpr double kOfMedian = 1.2533;
+
+/// Returns whether an edge tells where its channel is: also where that is not its usual place.
+bool counts(const Revolution& revolution, PulseChannel channel) {
+  const auto& rejected_by = revolution.edge_rejections.at(index_of(channel));
+  return revolution.edge(channel) && (!rejected_by || rejected_by == Rejection::Phase);
+}
+
+/// Returns how far the edges of a channel are from the start of the middle revolution, less whole
+/// turns in between.
+std::vector<double> delays_s(std::span<const Revolution> revolutions, const Revolution& middle,
+                             PulseChannel channel) {
+  const double period_s = middle.period.period_s;
+  std::vector<double> all;
+  for (const Revolution& one : revolutions) {
+    if (counts(one, channel)) {
+      const double turns = static_cast<double>(one.number - middle.number);
+      const double delay_s = seconds_between(middle.t_start, *one.edge(channel)) - turns * period_s;
+      const double first_s = all.empty() ? delay_s : all.front();
+      all.push_back(delay_s - period_s * std::round((delay_s - first_s) / period_s));
+    }
+  }
+  return all;
+}
+
+/// The median ignores strays; the motion of the Earth is the same before and behind the middle.
+std::optional<ChannelPoint> point_of(std::span<const Revolution> revolutions,
+                                     const Revolution& middle, const PulseNoise& noise,
+                                     PulseChannel channel) {
+  std::vector<double> delays = delays_s(revolutions, middle, channel);
+  if (2 * delays.size() <= revolutions.size()) {
+    return std::nullopt;
+  }
+  const double delay_s = upper_median(delays);
+  const auto count = static_cast<double>(delays.size());
+  for (double& value : delays) {
+    value = std::abs(value - delay_s);
+  }
+  const double each_s = std::max(edge_sigma_s(noise, channel), kSigmaPerMad * upper_median(delays));
+  return ChannelPoint{
+      .edge = {.t = later_by_s(middle.t_start, delay_s), .channel = channel},
+      .sigma_s = std::hypot(kOfMedian * each_s / std::sqrt(count), grid_sigma_s(noise))};
+}
+
+bool is_shifted(std::span<const Revolution> revolutions, PulseChannel channel) {
+  const auto shifted =
+      std::count_if(revolutions.begin(), revolutions.end(), [channel](const Revolution& one) {
+        return one.edge_rejections.at(index_of(channel)) == Rejection::Phase;
+      });
+  return 2 * shifted > std::ssize(revolutions);
+}
+
+ChannelBlock block_of(std::span<const Revolution> revolutions, const PulseNoise& noise) {
+  const Revolution& middle = revolutions[revolutions.size() / 2];
+  ChannelBlock block{
+      .t = middle.t_start, .rate_rad_s = middle.rate_rad_s(middle.t_start), .points = {}};
+  for (std::size_t i = 0; i < kPulseChannels; ++i) {
+    const auto channel = static_cast<PulseChannel>(i);
+    if (const auto point = point_of(revolutions, middle, noise, channel)) {
+      block.points.push_back(*point);
+    }
+    block.has_shifted = block.has_shifted || is_shifted(revolutions, channel);
+  }
+  return block;
+}
+
+}  // namespace
+
+std::optional<ChannelBlock> BlockCollector::add(const PulseNoise& noise,
+                                                const Revolution& revolution) {
+  revolutions_.push_back(revolution);
+  if (revolutions_.size() < kFewestRevolutions ||
+      seconds_between(revolutions_.front().t_start, revolution.t_start) < kBlock_s) {
+    return std::nullopt;
+  }
+  return block_of(std::exchange(revolutions_, {}), noise);
+}
+
+}  // namespace spindrift
