@@ -27,7 +27,7 @@ using Slopes = Eigen::Matrix<double, 1, kUnknowns>;
 using Unknowns = Eigen::Matrix<double, kUnknowns, 1>;
 using Normal = Eigen::Matrix<double, kUnknowns, kUnknowns>;
 
-constexpr int kMostSteps = 12;
+constexpr int kMostSteps = 20;
 constexpr double kLongestStep_rad = 0.2;
 // After a step this short the equations are linear to a fraction of the noise.
 constexpr double kLastStep_rad = 3e-5;
@@ -50,8 +50,8 @@ struct ComparedPoint {
 class AxisState {
  public:
   AxisState(const SpinConfig& config, const OmittedSensors& omitted, const Eigen::Vector3d& axis)
-      : config_{config},
-        omitted_{omitted},
+      : config_{&config},
+        omitted_{&omitted},
         sensors_{config, SensorBiases::Zero()},
         alignment_root_{root_of(config.alignment)},
         q_icrf_spin_{frame_about(axis)} {}
@@ -81,7 +81,7 @@ class AxisState {
     for (const ChannelPoint& point : seen.block.points) {
       if (const auto edge = predict_edge(sensors_, sky, R_spin_icrf, point.edge)) {
         all.push_back(compared(seen.block, point, *edge));
-      } else if (!omitted_.channels[index_of(point.edge.channel)]) {
+      } else if (!omitted_->channels[index_of(point.edge.channel)]) {
         without.push_back(&point);
       }
     }
@@ -89,7 +89,7 @@ class AxisState {
     const double phase_rad = phase_of(all);
     for (const ChannelPoint* const point : without) {
       const double sigma_rad = seen.block.rate_rad_s * point->sigma_s;
-      const auto edge = linearise_by_depth(config_, sky, R_spin_icrf, point->edge,
+      const auto edge = linearise_by_depth(*config_, sky, R_spin_icrf, point->edge,
                                            measured_rad(seen.block, *point) + phase_rad, sigma_rad);
       if (edge) {
         all.push_back(compared(seen.block, *point, *edge));
@@ -109,12 +109,12 @@ class AxisState {
   ComparedPoint compared(const ChannelBlock& block, const ChannelPoint& point,
                          const PredictedEdge& edge) const {
     ComparedPoint one{.channel = point.edge.channel,
-                      .counts = !omitted_.channels[index_of(point.edge.channel)],
+                      .counts = !omitted_->channels[index_of(point.edge.channel)],
                       .off_rad = measured_rad(block, point) - edge.phase_rad,
                       .sigma_rad = block.rate_rad_s * point.sigma_s,
                       .slopes = Slopes::Zero()};
     one.slopes.head<kTilts>() = -edge.phase_per_rotation.head<kTilts>().transpose();
-    one.slopes[kLate] = omitted_.orbit ? -edge.phase_per_alignment[TimeTagError] : 0.0;
+    one.slopes[kLate] = omitted_->orbit ? -edge.phase_per_alignment[TimeTagError] : 0.0;
     one.slopes.tail<kSpinAlignmentErrors>() = -edge.phase_per_alignment * alignment_root_;
     return one;
   }
@@ -144,8 +144,8 @@ class AxisState {
     return weights > 0.0 ? sum_rad / weights : 0.0;
   }
 
-  const SpinConfig& config_;
-  const OmittedSensors& omitted_;
+  const SpinConfig* config_;
+  const OmittedSensors* omitted_;
   PlacedSensors sensors_;
   SpinAlignment alignment_root_;
   Eigen::Quaterniond q_icrf_spin_;
@@ -183,6 +183,37 @@ struct Equations {
     }
   }
 };
+
+Equations equations(const AxisState& state, std::span<const BlockUnderSky> blocks) {
+  Equations sum;
+  for (const BlockUnderSky& block : blocks) {
+    sum.add(state.compare(block, sum.squares));
+  }
+  return sum;
+}
+
+struct Solved {
+  Unknowns step;        ///< Step to the best state.
+  Unknowns errors;      ///< Errors of the mission file that fit best at this state.
+  double squares_here;  ///< Chi-square with them.
+};
+
+Solved solve(const Equations& sum) {
+  Unknowns prior = Unknowns::Ones();
+  prior[kLate] = 1.0 / square(kLate_s);
+  const Normal normal = sum.normal + Normal{prior.asDiagonal()};
+  Solved solved{.step = -Eigen::LDLT<Normal>{normal}.solve(sum.score),
+                .errors = Unknowns::Zero(),
+                .squares_here = sum.squares};
+  using Errors = Eigen::Matrix<double, kSpinAlignmentErrors, kSpinAlignmentErrors>;
+  const auto score = sum.score.tail<kSpinAlignmentErrors>();
+  solved.errors.tail<kSpinAlignmentErrors>() =
+      -Eigen::LDLT<Errors>{
+          Errors{normal.bottomRightCorner<kSpinAlignmentErrors, kSpinAlignmentErrors>()}}
+           .solve(score);
+  solved.squares_here += score.dot(solved.errors.tail<kSpinAlignmentErrors>());
+  return solved;
+}
 
 /// Returns the mean azimuth of each channel behind its expected one.
 std::array<double, kPulseChannels> mean_off_rad(const AxisState& state,
@@ -236,31 +267,37 @@ Eigen::Vector3d place_on_spiral(int i) {
 std::optional<BlockFit> fit_axis(const SpinConfig& config, std::span<const BlockUnderSky> blocks,
                                  const OmittedSensors& omitted, const Eigen::Vector3d& start_icrf) {
   AxisState state{config, omitted, start_icrf};
+  AxisState next = state;
+  std::optional<BlockFit> best;
+  Unknowns step = Unknowns::Zero();
   for (int i = 0; i < kMostSteps; ++i) {
-    Equations sum;
-    double missing = 0.0;
-    for (const BlockUnderSky& block : blocks) {
-      sum.add(state.compare(block, missing));
-    }
+    const Equations sum = equations(next, blocks);
     const int freedom = sum.freedom - kTilts - (omitted.orbit ? 1 : 0);
     if (freedom < 0) {
       return std::nullopt;
     }
-    Unknowns prior = Unknowns::Ones();
-    prior[kLate] = 1.0 / square(kLate_s);
-    const Eigen::LDLT<Normal> solver{Normal{sum.normal + Normal{prior.asDiagonal()}}};
-    const Unknowns step = -solver.solve(sum.score);
-    const double length_rad = step.head<kTilts>().norm();
-    if (length_rad < kLastStep_rad) {
-      return BlockFit{.axis_icrf = state.axis_icrf(),
-                      .squares = missing + sum.squares + sum.score.dot(step),
+    const Solved solved = solve(sum);
+    if (!best || solved.squares_here < best->squares) {
+      state = next;
+      step = solved.step;
+      best = BlockFit{.axis_icrf = state.axis_icrf(),
+                      .squares = solved.squares_here,
                       .freedom = freedom,
                       .late_s = state.late_s(),
-                      .off_rad = mean_off_rad(state, blocks, step)};
+                      .off_rad = {}};
+    } else {
+      step *= 0.3;
     }
-    state.move(step * std::min(1.0, kLongestStep_rad / length_rad));
+    const double length_rad = step.head<kTilts>().norm();
+    if (length_rad < kLastStep_rad) {
+      break;
+    }
+    step *= std::min(1.0, kLongestStep_rad / length_rad);
+    next = state;
+    next.move(step);
   }
-  return std::nullopt;
+  best->off_rad = mean_off_rad(state, blocks, solve(equations(state, blocks)).errors);
+  return best;
 }
 
 SkyOfAxes::SkyOfAxes(const SpinConfig& config, const BlockUnderSky& seen) {

@@ -17,6 +17,8 @@ constexpr double kBlock_s = 5.0;
 constexpr std::size_t kFewestRevolutions = 3;
 // Ratio of the standard deviation of a median to that of a mean.
 constexpr double kOfMedian = 1.2533;
+// Ratio to the stated noise that a few edges show only if there is more of it.
+constexpr double kLoud = 4.0;
 
 /// Returns whether an edge tells where its channel is: also where that is not its usual place.
 bool counts(const Revolution& revolution, PulseChannel channel) {
@@ -54,7 +56,9 @@ std::optional<ChannelPoint> point_of(std::span<const Revolution> revolutions,
   for (double& value : delays) {
     value = std::abs(value - delay_s);
   }
-  const double each_s = std::max(edge_sigma_s(noise, channel), kSigmaPerMad * upper_median(delays));
+  const double stated_s = edge_sigma_s(noise, channel);
+  const double observed_s = kSigmaPerMad * upper_median(delays);
+  const double each_s = observed_s > kLoud * stated_s ? observed_s : stated_s;
   return ChannelPoint{
       .edge = {.t = later_by_s(middle.t_start, delay_s), .channel = channel},
       .sigma_s = std::hypot(kOfMedian * each_s / std::sqrt(count), grid_sigma_s(noise))};

@@ -22,9 +22,11 @@ constexpr double kLongestBetween_s = 20.0;
 constexpr std::size_t kMostBlocks = 24;
 // Chi-square by which leaving out the one must explain more than leaving out the other.
 constexpr double kClearly = 16.0;
-constexpr double kLeastGain = kContradictionSigmas * kContradictionSigmas;
-// Two ends within this angle are the same axis.
-constexpr double kSameAxis_rad = kRadPerDeg;
+// Chance of a misfit by noise from which on a culprit is searched.
+constexpr double kUnlikely = 1e-2;
+// Chance by noise at which a contradiction ends.
+constexpr double kLikely = 1e-3;
+constexpr std::size_t kMostKept = 3;
 
 using Blocks = std::vector<BlockUnderSky>;
 
@@ -35,12 +37,22 @@ struct Suspect {
   std::optional<BlockFit> fit = {};
 };
 
+/// Returns whether noise explains the misfit.
+bool fits(const BlockFit& fit, double noise) {
+  return fit.freedom == 0 || fit.squares / noise < chi_square_beyond(kUnlikely, fit.freedom);
+}
+
 /// Finds the best axis from known ones and from all over the sky.
 class AxisFinder {
  public:
+  /// @param search_sky Whether to try axes all over the sky, too.
   AxisFinder(const SpinConfig& config, std::vector<Eigen::Vector3d> known_icrf,
-             const BlockUnderSky& last)
-      : config_{config}, known_icrf_{std::move(known_icrf)}, sky_{config, last} {}
+             const BlockUnderSky& last, bool search_sky)
+      : config_{config}, known_icrf_{std::move(known_icrf)} {
+    if (search_sky || known_icrf_.empty()) {
+      sky_.emplace(config, last);
+    }
+  }
 
   std::optional<BlockFit> best(const Blocks& blocks, const OmittedSensors& omitted) const {
     std::optional<BlockFit> best;
@@ -51,21 +63,17 @@ class AxisFinder {
       }
     };
     std::for_each(known_icrf_.begin(), known_icrf_.end(), try_from);
-    if (!best || !agrees(*best)) {
-      const std::vector<Eigen::Vector3d> far = sky_.best(omitted);
+    if (sky_ && (!best || !fits(*best, 1.0))) {
+      const std::vector<Eigen::Vector3d> far = sky_->best(omitted);
       std::for_each(far.begin(), far.end(), try_from);
     }
     return best;
   }
 
-  static bool agrees(const BlockFit& fit) {
-    return fit.freedom == 0 || fit.squares < chi_square_beyond(kContradictionChance, fit.freedom);
-  }
-
  private:
   const SpinConfig& config_;
   std::vector<Eigen::Vector3d> known_icrf_;
-  SkyOfAxes sky_;
+  std::optional<SkyOfAxes> sky_;
 };
 
 std::bitset<kPulseChannels> channels_in(const Blocks& blocks) {
@@ -106,11 +114,27 @@ std::vector<Suspect> suspects_in(const Blocks& blocks) {
   return suspects;
 }
 
+/// Returns the chi-square beyond what noise makes.
+double excess(const BlockFit& fit, double noise) { return fit.squares / noise - fit.freedom; }
+
+/// Returns the suspects with their fits, the likeliest first.
+std::vector<Suspect> examined(const AxisFinder& finder, const Blocks& blocks) {
+  std::vector<Suspect> suspects = suspects_in(blocks);
+  for (Suspect& one : suspects) {
+    one.fit = finder.best(blocks, one.omitted);
+  }
+  std::erase_if(suspects, [](const Suspect& one) { return !one.fit; });
+  std::stable_sort(suspects.begin(), suspects.end(), [](const Suspect& one, const Suspect& other) {
+    return excess(*one.fit, 1.0) < excess(*other.fit, 1.0);
+  });
+  return suspects;
+}
+
 /// Returns the suspects without which the rest agrees as well as without the best of them. A beam
 /// is none where one of its channels suffices.
 std::vector<Suspect> remaining(std::vector<Suspect> suspects, double least, double noise) {
   std::erase_if(suspects, [&](const Suspect& one) {
-    return !one.fit || one.fit->squares > least + kClearly * noise;
+    return (excess(*one.fit, noise) > least + kClearly && !fits(*one.fit, noise));
   });
   std::vector<Suspect> few;
   std::copy_if(suspects.begin(), suspects.end(), std::back_inserter(few), [&](const Suspect& one) {
@@ -152,25 +176,21 @@ std::vector<SampleSource> others_than(const Suspect& culprit, const std::vector<
 }
 
 /// Returns what contradicts what; empty if no single sensor explains it.
-/// @param together Fit with all sensors.
+/// @param together Fit with all sensors. @param chance Chance by which noise may explain it.
+/// @param suspects The likeliest first.
 std::optional<SensorContradiction> judge(const std::vector<Suspect>& suspects,
-                                         const BlockFit& together, TaiTime since) {
-  const Suspect* best = nullptr;
-  for (const Suspect& one : suspects) {
-    if (one.fit && (best == nullptr || one.fit->squares < best->fit->squares)) {
-      best = &one;
-    }
-  }
-  if (best == nullptr) {
+                                         const BlockFit& together, double chance, TaiTime since) {
+  if (suspects.empty()) {
     return std::nullopt;
   }
-  const double least = best->fit->squares;
+  const Suspect* const best = &suspects.front();
   // What no single sensor explains counts as noise.
-  const double noise = std::max(1.0, least / std::max(best->fit->freedom, 1));
-  const double gain = (together.squares - least) / noise;
-  if (!(gain > kLeastGain)) {
+  const double noise = std::max(1.0, best->fit->squares / std::max(best->fit->freedom, 1));
+  const double gain = (together.squares - best->fit->squares) / noise;
+  if (!(gain > chi_square_beyond(chance, std::max(together.freedom - best->fit->freedom, 1)))) {
     return std::nullopt;
   }
+  const double least = excess(*best->fit, noise);
   const std::vector<Suspect> left = remaining(suspects, least, noise);
   SensorContradiction found{.culprit = {},
                             .with = {},
@@ -225,34 +245,60 @@ void ChannelContradictions::compare(const SpinConfig& config,
   compared_ = now;
   std::vector<Eigen::Vector3d> starts{known_icrf.begin(), known_icrf.end()};
   starts.insert(starts.end(), last_icrf_.begin(), last_icrf_.end());
-  const AxisFinder finder{config, std::move(starts), blocks_.back()};
-  const Blocks all{blocks_.begin(), blocks_.end()};
-  Blocks recent;
-  std::copy_if(all.begin(), all.end(), std::back_inserter(recent),
-               [&](const BlockUnderSky& one) { return one.block.t >= now - kRecent; });
-  const auto of_recent = finder.best(recent, {});
-  if (!of_recent || AxisFinder::agrees(*of_recent)) {
-    since_.reset();
-    found_.reset();
-    last_icrf_.clear();
+  const AxisFinder finder{config, std::move(starts), blocks_.back(), search_sky(now)};
+  const auto agreeing = finder.best(without(accused_, now - kRecent), {});
+  if (!agreeing || fits(*agreeing, 1.0)) {
+    end();
     return;
   }
-  const auto together = recent.size() == all.size() ? of_recent : finder.best(all, {});
-  std::vector<Suspect> suspects = suspects_in(all);
+  const Blocks all{blocks_.begin(), blocks_.end()};
+  const auto together = finder.best(all, {});
+  const std::vector<Suspect> suspects = examined(finder, all);
+  since_ = since_.value_or(now);
+  found_ = judge(suspects, *together, found_ ? kLikely : kContradictionChance, *since_);
+  if (!found_) {
+    end();
+    return;
+  }
+  accused_ = suspects.front().omitted;
   last_icrf_.clear();
-  for (Suspect& one : suspects) {
-    one.fit = finder.best(all, one.omitted);
-    if (one.fit && std::none_of(last_icrf_.begin(), last_icrf_.end(), [&](const auto& other) {
-          return angle_between_rad(other, one.fit->axis_icrf) < kSameAxis_rad;
-        })) {
-      last_icrf_.push_back(one.fit->axis_icrf);
+  for (std::size_t i = 0; i < std::min(suspects.size(), kMostKept); ++i) {
+    last_icrf_.push_back(suspects[i].fit->axis_icrf);
+  }
+}
+
+/// Returns the blocks where the sensors that were wrong up to `recent` do not count until then: if
+/// all agree in them, these sensors are right again.
+std::vector<BlockUnderSky> ChannelContradictions::without(const OmittedSensors& accused,
+                                                          TaiTime recent) const {
+  Blocks blocks{blocks_.begin(), blocks_.end()};
+  for (BlockUnderSky& one : blocks) {
+    if (one.block.t < recent) {
+      std::erase_if(one.block.points, [&](const ChannelPoint& point) {
+        const PulseChannel channel = point.edge.channel;
+        return accused.channels[index_of(channel)] || (accused.orbit && !sees_the_sun(channel));
+      });
     }
   }
-  since_ = since_.value_or(now);
-  found_ = judge(suspects, together.value_or(*of_recent), *since_);
-  if (!found_) {
-    since_.reset();
+  return blocks;
+}
+
+/// Returns whether to search the whole sky, which is slow: again and again before a contradiction
+/// is found, then whenever its span has doubled.
+bool ChannelContradictions::search_sky(TaiTime now) {
+  const bool is_due = !since_ || !searched_ || now - *since_ >= 2 * (*searched_ - *since_);
+  if (is_due) {
+    searched_ = now;
   }
+  return is_due;
+}
+
+void ChannelContradictions::end() {
+  since_.reset();
+  found_.reset();
+  searched_.reset();
+  last_icrf_.clear();
+  accused_ = {};
 }
 
 }  // namespace spindrift

@@ -35,11 +35,16 @@ class ChannelContradictions {
 
  private:
   void forget_old();
+  std::vector<BlockUnderSky> without(const OmittedSensors& accused, TaiTime recent) const;
+  bool search_sky(TaiTime now);
+  void end();
 
   std::deque<BlockUnderSky> blocks_;        ///< In order of time.
   std::optional<TaiTime> since_;            ///< Time since when they contradict each other.
   std::optional<TaiTime> compared_;         ///< Time of the last comparison.
-  std::vector<Eigen::Vector3d> last_icrf_;  ///< Axes of the last comparison.
+  std::optional<TaiTime> searched_;         ///< Time of the last search of the whole sky.
+  std::vector<Eigen::Vector3d> last_icrf_;  ///< Likeliest axes of the last comparison.
+  OmittedSensors accused_;                  ///< The likeliest culprit of the last comparison.
   std::optional<SensorContradiction> found_;
 };
 
