@@ -10,6 +10,8 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <span>
+#include <vector>
 
 #include "pipelines/spin/batch/batch_solution.h"
 #include "pipelines/spin/types/products.h"
@@ -48,6 +50,7 @@ class SpinConditions {
   ConditionChanges evaluate(const PulseUse& use);
   ConditionChanges evaluate(const RevolutionProduct& revolution);
   ConditionChanges evaluate(const SpinMeasurement& measurement);
+  ConditionChanges evaluate(const SpinFix& fix);
   ConditionChanges evaluate(const SpinEstimate& estimate);
   ConditionChanges evaluate(const BatchSolution& solution);
   ConditionChanges evaluate(const SensorsCompared& sensors) {
@@ -59,6 +62,7 @@ class SpinConditions {
   ConditionChanges settle();
 
  private:
+  std::span<const AxisSeen> axes_in_question();
   void evaluate_in_force(TaiTime t, const SpinAnswer& answer, ConditionChanges& changes);
   void evaluate_target(TaiTime t, const SpinEstimate& estimate, ConditionChanges& changes);
   void evaluate_disagreement(TaiTime t, ConditionChanges& changes);
@@ -69,6 +73,8 @@ class SpinConditions {
   std::multimap<TaiTime, Eigen::Vector3d> targets_;  ///< Future target axes, ICRF.
   ChannelPresence channels_;
   SensorConditions sensors_;
+  std::vector<AxisSeen> of_last_fix_;  ///< Axes that the last fix leaves possible.
+  std::vector<AxisSeen> in_question_;  ///< Axis of an answer that nothing opposes.
   TurnShare irrational_;
   TurnShare left_out_;
   ConditionWatch interference_;

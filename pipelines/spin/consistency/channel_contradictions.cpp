@@ -27,6 +27,8 @@ constexpr double kUnlikely = 1e-2;
 // Chance by noise at which a contradiction ends.
 constexpr double kLikely = 1e-3;
 constexpr std::size_t kMostKept = 3;
+// Ratio of the misfit to noise up to which the rest may be said to agree.
+constexpr double kMostNoise = 4.0;
 
 using Blocks = std::vector<BlockUnderSky>;
 
@@ -172,6 +174,7 @@ std::vector<SampleSource> others_than(const Suspect& culprit, const std::vector<
       others.push_back(source);
     }
   }
+  std::sort(others.begin(), others.end());
   return others;
 }
 
@@ -191,7 +194,12 @@ std::optional<SensorContradiction> judge(const std::vector<Suspect>& suspects,
     return std::nullopt;
   }
   const double least = excess(*best->fit, noise);
-  const std::vector<Suspect> left = remaining(suspects, least, noise);
+  // Where no single sensor explains most of the misfit, the two that explain most of it are named.
+  const std::vector<Suspect> left =
+      noise > kMostNoise
+          ? std::vector(suspects.begin(),
+                        suspects.begin() + std::min<std::ptrdiff_t>(2, std::ssize(suspects)))
+          : remaining(suspects, least, noise);
   SensorContradiction found{.culprit = {},
                             .with = {},
                             .off = off_of(left.front()),
@@ -204,6 +212,7 @@ std::optional<SensorContradiction> judge(const std::vector<Suspect>& suspects,
     for (const Suspect& one : left) {
       found.with.push_back(one.sources.front());
     }
+    std::sort(found.with.begin(), found.with.end());
   }
   return found;
 }
