@@ -57,11 +57,10 @@ std::string with_late(const std::string& channel, std::int64_t late_ns) {
   std::istringstream lines{nominal()};
   std::string altered;
   for (std::string line; std::getline(lines, line);) {
-    const auto comma = line.find(',');
-    altered += line.substr(comma) == "," + channel
-                   ? std::to_string(std::stoll(line.substr(0, comma)) + late_ns) + "," + channel
-                   : line;
-    altered += "\n";
+    if (const auto comma = line.find(',' + channel); comma != std::string::npos) {
+      line.replace(0, comma, std::to_string(std::stoll(line) + late_ns));
+    }
+    altered += line + "\n";
   }
   return altered;
 }
@@ -80,14 +79,13 @@ TEST(Alerts, NameTheChannelOfASpinnerThatContradictsTheOthers) {
 }
 
 TEST(Alerts, NameABeamThatIsDeadFromTheStart) {
-  const PassCopy pass{"nominal"};
-  process_with(pass, without_channel("north", nominal()));
-  EXPECT_THAT(rows_of(pass.db, "SELECT key FROM alert WHERE key LIKE 'channel.%' ORDER BY key"),
-              ElementsAre("channel.silent:north_in|", "channel.silent:north_out|"));
+  EXPECT_THAT(rows_of(Processed{"north-only"}.db,
+                      "SELECT key FROM alert WHERE severity <> 'info' ORDER BY key"),
+              ElementsAre("channel.silent:south_in|", "channel.silent:south_out|"));
 }
 
 TEST(Alerts, AreNotRaisedByRecordedPassesThatAreWell) {
-  for (const std::string pass : {"nominal", "north-only", "gms5", "coded"}) {
+  for (const std::string pass : {"nominal", "gms5", "coded"}) {
     EXPECT_THAT(rows_of(Processed{pass}.db, "SELECT key FROM alert WHERE severity <> 'info'"),
                 IsEmpty())
         << pass;
