@@ -17,6 +17,11 @@ namespace {
 constexpr double kToSpare_rad = 1.0 * kRadPerDeg;
 constexpr double kSigmasToSpare = 3.0;
 
+/// Returns the other slit, or the other end of the chord.
+PulseChannel partner_of(PulseChannel channel) {
+  return static_cast<PulseChannel>(index_of(channel) ^ 1U);
+}
+
 /// Slit 1 reaches to the spin axis; slit 2 ends at its cant angle from the axis.
 bool slit_sees(PulseChannel channel, const SunSensor& sensor, double sun_angle_rad,
                double to_spare_rad) {
@@ -45,19 +50,18 @@ ChannelPresence::ChannelPresence(SpinConfig config, Orbit orbit, int silent_revo
   }
 }
 
-ConditionChanges ChannelPresence::evaluate(const Pulse& edge, const std::optional<AxisSeen>& axis) {
+ConditionChanges ChannelPresence::evaluate(const Pulse& edge, std::span<const AxisSeen> axes) {
   ConditionChanges changes;
   for (std::size_t i = 0; i < kPulseChannels; ++i) {
     const auto channel = static_cast<PulseChannel>(i);
     Channel& one = channels_[i];
     if (channel == edge.channel) {
-      ++one.edges;
       one.was_in_view = true;
       one.of_others = {};
     } else {
       ++one.of_others.at(index_of(edge.channel));
     }
-    if (channel == edge.channel || (axis && is_silent(channel, edge.t, *axis))) {
+    if (channel == edge.channel || is_silent(channel, edge.t, axes)) {
       if (auto change = one.watch.update(edge.t, {.value = missed(channel), .limit = limit_})) {
         changes.push_back(std::move(*change));
       }
@@ -66,13 +70,25 @@ ConditionChanges ChannelPresence::evaluate(const Pulse& edge, const std::optiona
   return changes;
 }
 
-/// Restarts the count when a channel comes into view.
-bool ChannelPresence::is_silent(PulseChannel channel, TaiTime t, const AxisSeen& axis) {
-  if (missed(channel) <= limit_) {
+/// Restarts the count when a channel comes into view. An axis that hides the other slit or the
+/// other end of the chord, which comes, is not the true one.
+bool ChannelPresence::is_silent(PulseChannel channel, TaiTime t, std::span<const AxisSeen> axes) {
+  if (axes.empty() || missed(channel) <= limit_) {
     return false;
   }
   Channel& one = channels_[index_of(channel)];
-  const bool in_view = works(channel) && is_in_view(channel, t, axis);
+  const PulseChannel partner = partner_of(channel);
+  const bool partner_comes = missed(partner) <= 0.5 * limit_;
+  bool in_view = false;
+  for (const AxisSeen& axis : axes) {
+    if (partner_comes && !is_in_view(partner, t, axis)) {
+      continue;
+    }
+    in_view = is_in_view(channel, t, axis);
+    if (!in_view) {
+      break;
+    }
+  }
   const bool is_silent = std::exchange(one.was_in_view, in_view) && in_view;
   if (!is_silent) {
     one.of_others = {};
@@ -85,22 +101,9 @@ double ChannelPresence::missed(PulseChannel channel) const {
   return *std::max_element(others.begin(), others.end());
 }
 
-bool ChannelPresence::works(PulseChannel channel) const {
-  if (sees_the_sun(channel)) {
-    return true;
-  }
-  const Side side = side_of(channel);
-  const auto& beam = sensor_of(config_, side);
-  const auto has_come = [this](PulseChannel one) {
-    return channels_[index_of(one)].edges > limit_;
-  };
-  return beam && (beam->healthy || has_come(kInChannels.at(index_of(side))) ||
-                  has_come(kOutChannels.at(index_of(side))));
-}
-
 bool ChannelPresence::is_in_view(PulseChannel channel, TaiTime t, const AxisSeen& axis) const {
   const auto state = orbit_.at(t);
-  if (!state) {
+  if (!state || (!sees_the_sun(channel) && !sensor_of(config_, side_of(channel)))) {
     return false;
   }
   const Eigen::Vector3d earth_icrf = -state->position_icrf_km.normalized();

@@ -8,7 +8,7 @@
 
 #include <Eigen/Core>
 #include <array>
-#include <optional>
+#include <span>
 #include <vector>
 
 #include "pipelines/ephemeris/orbit.h"
@@ -18,33 +18,30 @@
 
 namespace spindrift {
 
-/// Holds the spin axis of the answer in force.
+/// Holds a spin axis that may be true.
 struct AxisSeen {
   Eigen::Vector3d axis_icrf;  ///< Unit vector.
   double sigma_rad;
 };
 
 /// Watches all channels. A channel is silent if it gives no edge during a number of edges of
-/// another channel, while by the axis in force it should cross the Earth's disc or see the Sun,
-/// with a margin of one degree and three sigma. A beam not marked healthy in the mission file is
-/// watched once that many edges of one of its channels have come.
+/// another channel, be it from the start, while by every axis that may be true it should cross the
+/// Earth's disc or see the Sun, with a margin of one degree and three sigma.
 class ChannelPresence {
  public:
   ChannelPresence(SpinConfig config, Orbit orbit, int silent_revolutions);
 
   void set_silent_revolutions(int revolutions) { limit_ = revolutions; }
 
-  ConditionChanges evaluate(const Pulse& edge, const std::optional<AxisSeen>& axis);
+  ConditionChanges evaluate(const Pulse& edge, std::span<const AxisSeen> axes);
 
  private:
-  bool is_silent(PulseChannel channel, TaiTime t, const AxisSeen& axis);
+  bool is_silent(PulseChannel channel, TaiTime t, std::span<const AxisSeen> axes);
   bool is_in_view(PulseChannel channel, TaiTime t, const AxisSeen& axis) const;
-  bool works(PulseChannel channel) const;
   double missed(PulseChannel channel) const;
 
   struct Channel {
     ConditionWatch watch;
-    int edges = 0;
     bool was_in_view = false;  ///< The channel was in view at its last edge or at the last check.
     std::array<int, kPulseChannels> of_others = {};  ///< Edges of each other channel since then.
   };

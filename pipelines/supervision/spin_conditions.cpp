@@ -42,6 +42,7 @@ SpinConditions::SpinConditions(const SpinConfig& config, Orbit orbit, const Aler
     : limits_{limits},
       target_{std::move(target)},
       channels_{config, std::move(orbit), limits.silent_revolutions},
+      sensors_{limits},
       irrational_{limits.period.revolutions, 1},
       left_out_{limits.rejection.revolutions, kPulseChannels},
       interference_{AlertCode::SpinInterference, "s", {.raise_s = 0.0, .clear_s = 60.0}},
@@ -66,6 +67,7 @@ void SpinConditions::set_limits(const AlertLimits& limits) {
     left_out_ = TurnShare{limits.rejection.revolutions, kPulseChannels};
   }
   channels_.set_silent_revolutions(limits.silent_revolutions);
+  sensors_.set_limits(limits);
   ambiguous_.hold(as_long_again(limits.ambiguous_s));
   doubtful_.hold(as_long_again(limits.doubtful_s));
   presence_.set_limit_s(limits.spin_no_answer_s);
@@ -77,14 +79,10 @@ void SpinConditions::set_target(TaiTime t, const Eigen::Vector3d& axis_icrf) {
 }
 
 ConditionChanges SpinConditions::evaluate(const PulseUse& use) {
-  std::optional<AxisSeen> axis;
-  if (const auto& answer = answers_.in_force(); answer && is_unopposed(answer->quality)) {
-    axis = AxisSeen{.axis_icrf = answer->estimate.axis_icrf,
-                    .sigma_rad = std::sqrt(answer->estimate.covariance_rad2.trace())};
-  }
   // A copy is not a further edge of its channel.
   const bool is_copy = use.rejected_by == Rejection::Copy;
-  ConditionChanges changes = is_copy ? ConditionChanges{} : channels_.evaluate(use.pulse, axis);
+  ConditionChanges changes =
+      is_copy ? ConditionChanges{} : channels_.evaluate(use.pulse, axes_in_question());
   if (is_usable(use)) {
     add(presence_.see_sample(use.pulse.t), changes);
   }
@@ -96,6 +94,35 @@ ConditionChanges SpinConditions::evaluate(const PulseUse& use) {
     }
   }
   return changes;
+}
+
+/// Returns the axis of an answer that nothing opposes. Without one, or where it is AMBIGUOUS, the
+/// true axis is among those of a fix; where it is DOUBTFUL or LOST it may be anywhere.
+std::span<const AxisSeen> SpinConditions::axes_in_question() {
+  const auto& answer = answers_.in_force();
+  if (!answer || answer->quality == Quality::Ambiguous) {
+    return of_last_fix_;
+  }
+  in_question_.clear();
+  if (is_unopposed(answer->quality)) {
+    in_question_.push_back({.axis_icrf = answer->estimate.axis_icrf,
+                            .sigma_rad = std::sqrt(answer->estimate.covariance_rad2.trace())});
+  }
+  return in_question_;
+}
+
+/// A near-tangent fix may lack the true axis.
+ConditionChanges SpinConditions::evaluate(const SpinFix& fix) {
+  of_last_fix_.clear();
+  if (!fix.near_tangent) {
+    of_last_fix_.push_back(
+        {.axis_icrf = fix.axis_icrf, .sigma_rad = std::sqrt(fix.covariance_rad2.trace())});
+    for (const SpinAlternate& other : fix.alternates) {
+      of_last_fix_.push_back(
+          {.axis_icrf = other.axis_icrf, .sigma_rad = std::sqrt(other.covariance_rad2.trace())});
+    }
+  }
+  return {};
 }
 
 ConditionChanges SpinConditions::evaluate(const RevolutionProduct& revolution) {

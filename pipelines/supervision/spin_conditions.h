@@ -10,6 +10,8 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <span>
+#include <vector>
 
 #include "pipelines/spin/batch/batch_solution.h"
 #include "pipelines/spin/types/products.h"
@@ -19,6 +21,7 @@
 #include "pipelines/supervision/channel_presence.h"
 #include "pipelines/supervision/condition_watch.h"
 #include "pipelines/supervision/limits.h"
+#include "pipelines/supervision/sensor_conditions.h"
 
 namespace spindrift {
 
@@ -47,14 +50,19 @@ class SpinConditions {
   ConditionChanges evaluate(const PulseUse& use);
   ConditionChanges evaluate(const RevolutionProduct& revolution);
   ConditionChanges evaluate(const SpinMeasurement& measurement);
+  ConditionChanges evaluate(const SpinFix& fix);
   ConditionChanges evaluate(const SpinEstimate& estimate);
   ConditionChanges evaluate(const BatchSolution& solution);
+  ConditionChanges evaluate(const SensorsCompared& sensors) {
+    return sensors_.evaluate(sensors.t, sensors.contradiction);
+  }
 
   /// Settles the conditions of the answer by the final one, without hold. To be called once, when
   /// the run has ended.
   ConditionChanges settle();
 
  private:
+  std::span<const AxisSeen> axes_in_question();
   void evaluate_in_force(TaiTime t, const SpinAnswer& answer, ConditionChanges& changes);
   void evaluate_target(TaiTime t, const SpinEstimate& estimate, ConditionChanges& changes);
   void evaluate_disagreement(TaiTime t, ConditionChanges& changes);
@@ -64,6 +72,9 @@ class SpinConditions {
   std::optional<SpinTarget> target_;
   std::multimap<TaiTime, Eigen::Vector3d> targets_;  ///< Future target axes, ICRF.
   ChannelPresence channels_;
+  SensorConditions sensors_;
+  std::vector<AxisSeen> of_last_fix_;  ///< Axes that the last fix leaves possible.
+  std::vector<AxisSeen> in_question_;  ///< Axis of an answer that nothing opposes.
   TurnShare irrational_;
   TurnShare left_out_;
   ConditionWatch interference_;

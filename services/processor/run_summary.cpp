@@ -26,6 +26,7 @@ struct Count {
   }
   void operator()(const SampleContradiction& /*contradiction*/) const {}
   void operator()(const AxisChoice& /*choice*/) const {}
+  void operator()(const SensorsCompared& /*sensors*/) const {}
   void operator()(const SpinFix& fix) const {
     forget_ambiguous(fix.revolution);
     if (fix.resolution == Resolution::Ambiguous) {

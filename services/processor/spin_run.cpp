@@ -23,9 +23,13 @@ Expected<BatchSolution> solve_edges(SpinConfig config, const Orbit& orbit, PassE
   StartingAxes starts = edges.starts(known.prior);
   starts.of_pass = known.choice;
   const bool noise_chose = edges.noise_chose_among_copies();
+  const auto contradiction = edges.contradiction();
   auto solution = spindrift::solve_batch(config, orbit, std::move(edges).edges(), starts);
   if (solution && noise_chose) {
     doubt(solution->estimate.assessment, {ReasonCode::CopiesInNoise});
+  }
+  if (solution && contradiction) {
+    doubt(solution->estimate.assessment, reason_of(*contradiction));
   }
   return solution;
 }

@@ -24,6 +24,7 @@
 #include "services/products/run_notice.h"
 #include "services/products/sample_contradiction.h"
 #include "services/products/sample_residual.h"
+#include "services/products/sensors_compared.h"
 #include "services/products/spin_answer.h"
 #include "services/products/spin_estimate.h"
 #include "services/products/spin_fix.h"
@@ -35,7 +36,7 @@ using Product =
     std::variant<PulseUse, RevolutionProduct, SpinMeasurement, SpinFix, SpinEstimate, BatchProduct,
                  RunFault, RejectedSample, AttitudeEstimate, SampleObservation,
                  ReconstructionProduct, ChannelComparison, SampleContradiction, Alert, RunNotice,
-                 AxisChoice, NormalEquations, SpinAnswer>;
+                 AxisChoice, NormalEquations, SpinAnswer, SensorsCompared>;
 
 /// Index of a kind in Product.
 template <class Kind>

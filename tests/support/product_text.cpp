@@ -103,6 +103,15 @@ Line line_of(const AxisChoice& choice) {
   return line;
 }
 
+Line line_of(const SensorsCompared& sensors) {
+  Line line;
+  line << "sensors" << sensors.t;
+  if (const auto& found = sensors.contradiction) {
+    line << culprit_name_of(*found) << opponents_text(*found) << found->sigmas << found->since;
+  }
+  return line;
+}
+
 template <class Sample>
 SpinOutput run_whole(SpinPass pass, const std::vector<Sample>& arrivals) {
   SpinOutput all;

@@ -46,6 +46,9 @@ class PassEdges {
   /// Returns whether another estimator reported CopiesInNoise.
   bool noise_chose_among_copies() const { return noise_chose_among_copies_; }
 
+  /// Returns the contradiction that the sensors showed last; empty if they did not.
+  const std::optional<SensorContradiction>& contradiction() const { return contradiction_; }
+
   /// Returns whether more than `kMost` edges came.
   bool forgot_some() const { return forgot_some_; }
 
@@ -60,6 +63,7 @@ class PassEdges {
  private:
   void keep(const PulseUse& use);
   void keep(const SpinFix& fix) { last_fix_ = fix; }
+  void keep(const SensorsCompared& sensors) { contradiction_ = sensors.contradiction; }
   void keep(const SpinEstimate& estimate);
   template <class Other>
   void keep(const Other& /*product*/) {}
@@ -72,6 +76,7 @@ class PassEdges {
   std::int64_t last_revolution_ = 0;
   bool forgot_some_ = false;
   bool noise_chose_among_copies_ = false;
+  std::optional<SensorContradiction> contradiction_;
   std::optional<SpinEstimate> mean_;
   std::optional<SpinEstimate> sequential_;
   std::optional<SpinFix> last_fix_;

@@ -273,6 +273,7 @@ void SpinPass::hear(const Revolution& revolution) {
 void SpinPass::consider(const Revolution& revolution, SpinOutput& out) {
   notices_.counted_on(revolution);
   hear(revolution);
+  compare_sensors(revolution, out);
   Candidate candidate{.revolution = revolution,
                       .measured = measure(config_, revolution),
                       .sun_earth = {},
@@ -300,6 +301,44 @@ void SpinPass::consider(const Revolution& revolution, SpinOutput& out) {
     recent_.pop_front();
   }
   predict_anew_where_better_known();
+}
+
+/// Compares the sensors where an answer is missing or opposed, and until they agree again.
+void SpinPass::compare_sensors(const Revolution& revolution, SpinOutput& out) {
+  const auto block = blocks_.add(config_.noise, revolution);
+  if (!block) {
+    return;
+  }
+  const auto sky = sun_earth_.sky(block->t);
+  if (!sky) {
+    return;
+  }
+  contradictions_.add({.block = *block, .sky = *sky});
+  const bool is_answered = answer_ && is_unopposed(answer_->assessment.quality);
+  if (!is_answered || block->has_shifted || contradictions_.found()) {
+    contradictions_.compare(config_, axes_to_try_icrf());
+    out.products.emplace_back(
+        SensorsCompared{.t = revolution.t_start, .contradiction = contradictions_.found()});
+  }
+}
+
+std::vector<Eigen::Vector3d> SpinPass::axes_to_try_icrf() const {
+  std::vector<Eigen::Vector3d> axes_icrf;
+  if (answer_) {
+    axes_icrf.push_back(answer_->axis_icrf);
+    if (const auto other = other_axis_icrf(answer_->axis_icrf)) {
+      axes_icrf.push_back(*other);
+    }
+  } else if (config_.prior) {
+    axes_icrf.push_back(config_.prior->axis_icrf);
+  }
+  return axes_icrf;
+}
+
+void SpinPass::doubt_where_sensors_contradict(SpinEstimate& estimate) const {
+  if (const auto& found = contradictions_.found()) {
+    doubt(estimate.assessment, reason_of(*found));
+  }
 }
 
 /// Ignores the silence of a beam that an operator has excluded.
@@ -493,6 +532,7 @@ void SpinPass::announce_axis(Candidate& candidate, SpinOutput& out) {
     SpinEstimate mean = mean_.estimate(revolution);
     doubt_copies(mean.assessment);
     doubt_where_orbit_steps(mean);
+    doubt_where_sensors_contradict(mean);
     if (!sequential_.has_begun()) {
       answer_ = mean;
     }
@@ -502,6 +542,7 @@ void SpinPass::announce_axis(Candidate& candidate, SpinOutput& out) {
   if (sequential) {
     doubt_copies(sequential->assessment);
     doubt_where_orbit_steps(*sequential);
+    doubt_where_sensors_contradict(*sequential);
     notices_.estimated(*sequential);
     answer_ = *sequential;
     out.products.emplace_back(std::move(*sequential));
@@ -632,6 +673,8 @@ void SpinPass::apply(TaiTime t, const MarkManoeuvre& /*action*/) {
   on_orbit_since_ = t;
   sequential_ = SequentialEstimator{config_};
   restarts_handled_ = 0;
+  blocks_ = {};
+  contradictions_ = {};
 }
 
 void SpinPass::forget_prior(TaiTime t) {

@@ -29,6 +29,8 @@
 #include "pipelines/ephemeris/orbit_steps.h"
 #include "pipelines/exclusions/exclusions.h"
 #include "pipelines/spin/association/association.h"
+#include "pipelines/spin/consistency/channel_block.h"
+#include "pipelines/spin/consistency/channel_contradictions.h"
 #include "pipelines/spin/disambiguation/disambiguation.h"
 #include "pipelines/spin/fix/axis_candidates.h"
 #include "pipelines/spin/mean/mean_axis.h"
@@ -104,6 +106,9 @@ class SpinPass {
   void collect(Association association, SpinOutput& out);
   void hear(const Revolution& revolution);
   void consider(const Revolution& revolution, SpinOutput& out);
+  void compare_sensors(const Revolution& revolution, SpinOutput& out);
+  std::vector<Eigen::Vector3d> axes_to_try_icrf() const;
+  void doubt_where_sensors_contradict(SpinEstimate& estimate) const;
   void settle_first(SpinOutput& out);
   void settle(Candidate& candidate, SpinOutput& out);
   void predict_anew_where_better_known();
@@ -165,6 +170,8 @@ class SpinPass {
   RecentMean inconsistent_share_;  ///< Share of contradicting revolutions lately.
   SequentialEstimator sequential_;
   int restarts_handled_ = 0;
+  BlockCollector blocks_;
+  ChannelContradictions contradictions_;
   std::optional<SpinEstimate> answer_;  ///< Last estimate of `sequential`, else of `mean`.
   /// First accepted fix since the pass began or began anew that the pass's own axis did not settle.
   std::optional<SpinFix> settling_fix_;

@@ -14,6 +14,7 @@
 
 #include "pipelines/core/assessment.h"
 #include "pipelines/observation/observation.h"
+#include "pipelines/observation/sensor_contradiction.h"
 #include "pipelines/spin/types/alignment.h"
 #include "pipelines/spin/types/pulse.h"
 #include "pipelines/time/sample_contradiction.h"
@@ -170,8 +171,14 @@ double noise_sigma_rad(const Axis& axis) {
   return std::sqrt(std::max((axis.covariance_rad2 - axis.alignment_rad2).trace(), 0.0));
 }
 
+/// Says whether the sensors contradict each other, judged by the edges up to `t`.
+struct SensorsCompared {
+  TaiTime t;
+  std::optional<SensorContradiction> contradiction;  ///< Empty: they do not.
+};
+
 using SpinProduct = std::variant<PulseUse, RevolutionProduct, SpinMeasurement, SpinFix,
-                                 SpinEstimate, SampleContradiction, AxisChoice>;
+                                 SpinEstimate, SampleContradiction, AxisChoice, SensorsCompared>;
 
 /// An axis that is known beforehand, or from what the pass has shown so far.
 struct KnownAxis {

@@ -274,7 +274,7 @@ TEST_F(SpinConditionsTest, RaiseAChannelThatIsDeadFromTheStart) {
   }
 }
 
-TEST_F(SpinConditionsTest, ExpectABeamThatHasNeverComeWhereTheMissionCallsItHealthy) {
+TEST_F(SpinConditionsTest, ExpectABeamThatHasNeverComeWhateverTheMissionSaysOfItsHealth) {
   for (const bool healthy : {false, true}) {
     SpinConfig mission = config();
     mission.south = InfraredSensor{
@@ -282,8 +282,40 @@ TEST_F(SpinConditionsTest, ExpectABeamThatHasNeverComeWhereTheMissionCallsItHeal
     Supervised pass{std::nullopt, mission};
     pass.evaluate(estimate(0.0, Quality::Ok));
     EXPECT_EQ(give_turns(pass, 0, 30),
-              healthy ? Keys({"channel.silent:south_in", "channel.silent:south_out"}) : Keys{});
+              Keys({"channel.silent:south_in", "channel.silent:south_out"}))
+        << healthy;
   }
+}
+
+/// The other axis is 70 deg off, where the beam misses the Earth.
+TEST_F(SpinConditionsTest, ExpectWithoutAnAnswerWhatTheAxesOfTheLastFixMustSee) {
+  SpinFix fix{.revolution = 0,
+              .t = at(0.0),
+              .geometry_case = 2,
+              .axis_icrf = kAxis,
+              .covariance_rad2 = 1e-6 * Eigen::Matrix2d::Identity(),
+              .alternates = {{.axis_icrf = kAxis}},
+              .resolution = Resolution::Ambiguous,
+              .norm = 1.0,
+              .accepted = false};
+  const auto silent_of = [](const SpinFix& last, PulseChannel dead) {
+    Supervised pass;
+    pass.evaluate(last);
+    return give_turns(pass, 0, 30, dead);
+  };
+  EXPECT_EQ(silent_of(fix, NorthOut), Keys{"channel.silent:north_out"});
+  fix.alternates.front().axis_icrf =
+      Eigen::AngleAxisd{70.0 * kRadPerDeg, Eigen::Vector3d::UnitY()} * kAxis;
+  EXPECT_EQ(silent_of(fix, NorthOut), Keys{"channel.silent:north_out"})
+      << "the other end of the chord comes, so the other axis is not the true one";
+  fix.near_tangent = true;
+  EXPECT_EQ(silent_of(fix, NorthOut), Keys{}) << "the true axis may be missing";
+
+  Supervised doubted;
+  fix.near_tangent = false;
+  doubted.evaluate(fix);
+  doubted.evaluate(estimate(0.0, Quality::Doubtful));
+  EXPECT_EQ(give_turns(doubted, 0, 29, NorthOut), Keys{});
 }
 
 /// Slit 2 ends 46 deg from the axis; the Sun is 32 or 110 deg from the axis.
