@@ -16,4 +16,11 @@ inline constexpr std::size_t kMostShown = 200;  ///< Longest text that is shown,
 /// characters, with "..." for the rest.
 std::string shown(std::string_view text);
 
+/// Returns whether a text from a person is shown as it is.
+inline bool is_plain(std::string_view text) { return shown(text) == text; }
+/// What a text from a person must be.
+inline constexpr std::string_view kPlainText =
+    "must be at most 200 characters, none of them a control character";
+static_assert(kMostShown == 200, "kPlainText states it");
+
 }  // namespace spindrift

@@ -102,13 +102,16 @@ void ServiceConditions::see_data(const ServiceState& state, ConditionChanges& ch
   add(clock_.update(state.t,
                     {.value = std::abs(state.clock_step_s), .limit = limits_.clock_jump_s}),
       changes);
-  for (const auto& [what, until] : state.data_until) {
+  for (const auto& [what, end] : state.data_ends) {
     ConditionWatch& watch =
         outdated_.try_emplace(what, ConditionWatch{AlertCode::DataOutdated, "h", {}, what})
             .first->second;
-    add(watch.see_least(state.t,
-                        {.value = elapsed_s(state.pass_t, until) / 3600.0, .limit = kDay_h}),
-        changes);
+    auto change = watch.see_least(
+        state.t, {.value = elapsed_s(state.pass_t, end.until) / 3600.0, .limit = kDay_h});
+    if (change) {
+      change->severity = end.severity;
+    }
+    add(std::move(change), changes);
   }
 }
 

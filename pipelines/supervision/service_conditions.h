@@ -23,6 +23,12 @@ struct SourceRecord {
   std::int64_t repeated = 0;  ///< Samples older than the session that delivered them.
 };
 
+/// The end of validity of data, and how bad it is that they end.
+struct DataEnd {
+  TaiTime until;
+  AlertSeverity severity = AlertSeverity::Warning;
+};
+
 /// Holds the state of the service at one moment, once telemetry of the spacecraft has come.
 struct ServiceState {
   TaiTime t;                            ///< Wall-clock time, later than in the previous state.
@@ -38,7 +44,7 @@ struct ServiceState {
   bool write_failed = false;
   std::optional<double> free_gib = {};  ///< Free space of the archive; empty if unknown.
   double clock_step_s = 0.0;            ///< Step of the wall clock since the previous state.
-  std::map<std::string, TaiTime> data_until = {};  ///< End of validity by item, such as "orbit".
+  std::map<std::string, DataEnd> data_ends = {};  ///< By item, such as "orbit".
 };
 
 /// Watches one spacecraft; conditions of the whole service are raised for each spacecraft.

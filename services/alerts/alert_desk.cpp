@@ -12,6 +12,7 @@
 #include <utility>
 #include <variant>
 
+#include "pipelines/core/shown.h"
 #include "pipelines/three_axis/sample_kind.h"
 #include "services/archive/archive.h"
 #include "services/base/alert_words.h"
@@ -19,6 +20,8 @@
 
 namespace spindrift {
 namespace {
+
+constexpr std::chrono::seconds kPatience{5};  ///< Time that a person waits for a word to be stored.
 
 /// Returns the changes by a product; none for a type that the conditions do not use.
 template <class Conditions>
@@ -452,10 +455,24 @@ Expected<ArchiveBatch> take_word(const OperatorWord& word, AlertDesk& desk, Arch
   if (word.by.empty()) {
     return Unexpected{{ErrorCode::InvalidInput, "by: must be a text, not empty: who says so"}};
   }
+  for (const auto& [key, text] : {std::pair{"by", word.by}, std::pair{"note", word.note}}) {
+    if (!is_plain(text)) {
+      return Unexpected{
+          {ErrorCode::InvalidInput, fmt::format("{}: '{}': {}", key, shown(text), kPlainText)}};
+    }
+  }
+  const auto until = std::chrono::steady_clock::now() + kPatience;
   return desk.obey(word, tai_now()).and_then([&](const ArchiveBatch& changed) {
-    return archive.submit(changed).and_then([&] { return archive.flush(); }).map([&] {
-      return changed;
-    });
+    return archive.submit(changed, until)
+        .and_then([&] { return archive.flush(until); })
+        .map([&] { return changed; })
+        .map_error([&](Error error) {
+          error.message = fmt::format(
+              "not stored within {} s: it is in force, and stored as soon as the archive stores "
+              "again; do not say it twice: {}",
+              kPatience.count(), error.message);
+          return error;
+        });
   });
 }
 

@@ -139,7 +139,8 @@ class AlertDesk {
 };
 
 /// Applies an operator's word to an alert of `desk` from now on. @return What was stored and
-/// announced; the errors of AlertDesk::obey; the archive's error.
+/// announced; InvalidInput for a name or note that is no plain text; the errors of AlertDesk::obey;
+/// Unavailable when it is in force but not stored within 5 s.
 Expected<ArchiveBatch> take_word(const OperatorWord& word, AlertDesk& desk, Archive& archive);
 
 }  // namespace spindrift

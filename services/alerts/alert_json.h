@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "services/base/parsed_json.h"
 #include "services/products/alert.h"
 #include "services/products/to_json.h"
 
@@ -17,7 +18,7 @@ inline nlohmann::json alert_json(const std::string& spacecraft, const std::strin
   nlohmann::json object = json_of(alert);
   object["spacecraft_id"] = spacecraft;
   object["run_id"] = run_id;
-  object["evidence"] = nlohmann::json::parse(alert.evidence, nullptr, false);
+  object["evidence"] = parsed_json(alert.evidence);
   return object;
 }
 

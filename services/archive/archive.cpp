@@ -89,11 +89,15 @@ Archive::Archive(std::string path, WriteLock lock, std::unique_ptr<Store> store,
 // A caller that needs to know what was not stored calls close() before.
 Archive::~Archive() { static_cast<void>(close()); }
 
-Expected<void> Archive::submit(ArchiveBatch batch) {
+Expected<void> Archive::submit(ArchiveBatch batch, Instant until) {
   {
     std::unique_lock lock{mutex_};
-    changed_.wait(lock, [this] { return state_ != State::Accepting || !failure_; });
-    if (state_ != State::Accepting) {
+    const bool can_end = changed_.wait_until(
+        lock, until, [this] { return state_ != State::Accepting || !failure_; });
+    if (!can_end || state_ != State::Accepting) {
+      lock.unlock();
+      options_.on_refused(batch);
+      lock.lock();
       return refusal();
     }
   }
@@ -102,7 +106,7 @@ Expected<void> Archive::submit(ArchiveBatch batch) {
     const std::lock_guard lock{mutex_};
     ++submitted_batches_;
   }
-  if (!queue_.push(std::move(batch))) {
+  if (!queue_.push(std::move(batch), until)) {
     // NOLINTNEXTLINE(bugprone-use-after-move): a queue that refuses leaves it as it was.
     options_.on_refused(batch);
     const std::lock_guard lock{mutex_};
@@ -112,10 +116,10 @@ Expected<void> Archive::submit(ArchiveBatch batch) {
   return {};
 }
 
-Expected<void> Archive::flush() {
+Expected<void> Archive::flush(Instant until) {
   std::unique_lock lock{mutex_};
   const auto is_done = [this] { return committed_batches_ == submitted_batches_; };
-  changed_.wait(lock, [&] { return state_ != State::Accepting || is_done(); });
+  changed_.wait_until(lock, until, [&] { return state_ != State::Accepting || is_done(); });
   if (!is_done()) {
     return refusal();
   }
@@ -353,7 +357,11 @@ Unexpected Archive::refusal() const {
   if (failure_) {
     return Unexpected{*failure_};
   }
-  return Unexpected{{ErrorCode::Unavailable, fmt::format("archive {} is closed", path_)}};
+  return Unexpected{{ErrorCode::Unavailable,
+                     fmt::format("archive {} is {}", path_,
+                                 state_ == State::Accepting
+                                     ? "busy: another program holds it locked, or it cannot keep up"
+                                     : "closed")}};
 }
 
 }  // namespace spindrift

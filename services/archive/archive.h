@@ -40,7 +40,7 @@ struct ArchiveOptions {
   std::size_t queue_rows = 65536;  ///< Limit for the rows of samples, and again for products.
   /// Called with each batch before it is queued, on the submitting thread; may add products to it.
   std::function<void(ArchiveBatch&)> on_submit = [](auto& /*batch*/) {};
-  /// Called with each batch that on_submit saw and that is not queued because the archive closes.
+  /// Called with each batch that `submit` refuses.
   std::function<void(const ArchiveBatch&)> on_refused = [](const auto& /*batch*/) {};
   /// Called after each commit with the batches it stored.
   std::function<void(std::span<const ArchiveBatch>)> on_committed = [](const auto& /*stored*/) {};
@@ -81,12 +81,14 @@ class Archive {
   Archive& operator=(Archive&&) = delete;
   ~Archive();
 
+  using Instant = BatchQueue::Instant;
+
   /// Takes over `batch`. Waits while the queue is full and, with Retry, while writing fails.
-  /// @return The failure that stopped the archive, or Unavailable after `close`.
-  Expected<void> submit(ArchiveBatch batch);
+  /// @return The failure that stopped the archive; Unavailable after `close` or at `until`.
+  Expected<void> submit(ArchiveBatch batch, Instant until = Instant::max());
 
   /// Waits until everything submitted is committed and announced. @return Errors as `submit`.
-  Expected<void> flush();
+  Expected<void> flush(Instant until = Instant::max());
 
   /// Stores what is still queued, with one more attempt for what failed, and releases the file.
   /// @return Unavailable with the number of accepted rows that could not be stored, or with the

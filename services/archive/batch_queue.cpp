@@ -43,15 +43,15 @@ bool has_details_only(const ArchiveBatch& batch) {
 
 }  // namespace
 
-bool BatchQueue::push(ArchiveBatch&& batch) {
+bool BatchQueue::push(ArchiveBatch&& batch, Instant until) {
   const bool are_details = has_details_only(batch);
   const bool are_products = waits_as_product(batch);
   std::unique_lock lock{mutex_};
-  room_.wait(lock, [&] {
+  const bool has_room = room_.wait_until(lock, until, [&] {
     return closed_ ||
            capacity_rows_ > (are_products ? products_.rows + details_.rows() : samples_.rows);
   });
-  if (closed_) {
+  if (closed_ || !has_room) {
     return false;
   }
   // Waiting details do not wake the writer before they are due; samples and results do.

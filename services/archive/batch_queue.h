@@ -28,8 +28,8 @@ class BatchQueue {
   explicit BatchQueue(std::size_t capacity_rows) : capacity_rows_{capacity_rows} {}
 
   /// Waits for room, then queues `batch`.
-  /// @return False when the queue is closed; `batch` is then unchanged.
-  bool push(ArchiveBatch&& batch);
+  /// @return False when the queue is closed, or full at `until`; `batch` is then unchanged.
+  bool push(ArchiveBatch&& batch, Instant until = Instant::max());
 
   /// Waits for at least one batch, and with samples only for a moment more, since each commit costs
   /// a sync and products wait behind it. Takes all samples; of the products many, or a small share

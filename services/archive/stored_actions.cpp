@@ -5,6 +5,7 @@
 
 #include "services/archive/connection.h"
 #include "services/archive/stored_pass.h"
+#include "services/base/parsed_json.h"
 #include "services/operator/parse_action.h"
 
 namespace spindrift {
@@ -28,7 +29,7 @@ std::vector<OperatorAction> read_all(SQLite::Statement& query, SpacecraftKind ki
                           .does = {},
                           .arrival = {query.getColumn(8).getInt64()}};
     auto does =
-        what_it_does(kind, action.action, nlohmann::json::parse(action.arguments, nullptr, false));
+        what_it_does(kind, action.action, parsed_json(action.arguments));
     if (does) {
       action.does = *std::move(does);
       actions.push_back(std::move(action));

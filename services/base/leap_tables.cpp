@@ -48,6 +48,7 @@ LeapTable erfa_table() {
   const LeapSecond last = leap_seconds().back();
   const int release = erfa_release_year(std::chrono::year_month_day{day_of(last.start)}.year());
   return {.tai_minus_utc_s = last.tai_minus_utc_s,
+          .since = day_of(last.start),
           .complete_until = sys_days{year{release} / 12 / 31}};
 }
 
@@ -55,6 +56,7 @@ LeapTable erfa_table() {
 
 std::optional<LeapTable> machine_table(std::string_view text) {
   std::optional<std::int64_t> expires;
+  std::optional<std::int64_t> since;
   std::optional<std::int64_t> offset;
   while (!text.empty()) {
     const std::string_view line = text.substr(0, text.find('\n'));
@@ -63,14 +65,25 @@ std::optional<LeapTable> machine_table(std::string_view text) {
       expires = number(line);
     } else if (const std::size_t gap = line.find_first_of(" \t");
                !line.starts_with('#') && gap != std::string_view::npos) {
+      since = number(line);
       offset = number(line.substr(gap));
     }
   }
-  if (!expires || !offset) {
+  if (!expires || !since || !offset) {
     return std::nullopt;
   }
+  const auto day = [](std::int64_t from_1900_s) {
+    return floor<days>(sys_seconds{seconds{from_1900_s} - kFrom1900To1970});
+  };
   return LeapTable{.tai_minus_utc_s = static_cast<int>(*offset),
-                   .complete_until = floor<days>(sys_seconds{seconds{*expires} - kFrom1900To1970})};
+                   .since = day(*since),
+                   .complete_until = day(*expires)};
+}
+
+std::optional<sys_days> lacking_from(const LeapFacts& facts) {
+  return facts.machine && facts.machine->since > facts.erfa.since
+             ? std::optional{facts.machine->since}
+             : std::nullopt;
 }
 
 LeapFacts leap_facts(TaiTime t) {

@@ -14,6 +14,7 @@ namespace spindrift {
 /// A table of leap seconds: its last offset and the day until which it is known to be complete.
 struct LeapTable {
   int tai_minus_utc_s;
+  std::chrono::sys_days since;  ///< Day from which the offset holds.
   std::chrono::sys_days complete_until;
 };
 
@@ -25,6 +26,10 @@ struct LeapFacts {
 
 /// Parses leap-seconds.list, whose times are seconds since 1900. Returns empty for any other text.
 std::optional<LeapTable> machine_table(std::string_view text);
+
+/// Returns the day from which UTC is wrong, as the machine's table has a leap second that the
+/// program's lacks.
+std::optional<std::chrono::sys_days> lacking_from(const LeapFacts& facts);
 
 /// @param t Time for which the leap seconds must be known.
 LeapFacts leap_facts(TaiTime t);

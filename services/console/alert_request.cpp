@@ -2,6 +2,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "services/base/parsed_json.h"
+
 namespace spindrift {
 namespace {
 
@@ -25,7 +27,7 @@ std::optional<AlertPath> alert_path(std::string_view path) {
 }
 
 Expected<OperatorWord> operator_word(const AlertPath& path, std::string_view body) {
-  const auto json = nlohmann::json::parse(body, nullptr, false);
+  const auto json = parsed_json(body);
   if (!json.is_object()) {
     return bad(R"(the body must be a JSON object: {"by":"...","note":"...","minutes":N})");
   }

@@ -13,6 +13,7 @@
 
 #include "pipelines/core/shown.h"
 #include "services/alerts/alert_json.h"
+#include "services/base/parsed_json.h"
 #include "services/console/page_files.h"
 #include "services/console/token_file.h"
 
@@ -264,7 +265,7 @@ Answer ConsoleAnswers::act(const HttpRequest& request) const {
   if (!has_token(request)) {
     return unauthorized();
   }
-  auto action = nlohmann::json::parse(request.body().text, nullptr, false);
+  auto action = parsed_json(request.body().text);
   if (!action.is_object()) {
     return refusal(http::status::bad_request,
                    "the body must be a JSON object with spacecraft, by, action and its arguments");

@@ -12,6 +12,7 @@
 #include "pipelines/frames/celestial.h"
 #include "pipelines/time/utc.h"
 #include "services/base/degrees.h"
+#include "services/base/parsed_json.h"
 #include "services/base/reasons_json.h"
 #include "services/products/separation_json.h"
 #include "services/products/to_json.h"
@@ -50,7 +51,7 @@ nlohmann::json action_json(const OperatorAction& action) {
                      {"made_utc", action.made_utc},
                      {"by", action.by},
                      {"action", action.action},
-                     {"arguments", nlohmann::json::parse(action.arguments, nullptr, false)},
+                     {"arguments", parsed_json(action.arguments)},
                      {"note", action.note}};
   if (action.t) {
     row["t_tai_ns"] = tai_ns(*action.t);

@@ -89,8 +89,7 @@ Check check_leap_seconds(const LeapFacts& facts) {
   const auto known_until =
       std::max(facts.erfa.complete_until,
                facts.machine ? facts.machine->complete_until : facts.erfa.complete_until);
-  if (facts.machine && facts.machine->complete_until > facts.erfa.complete_until &&
-      facts.machine->tai_minus_utc_s != facts.erfa.tai_minus_utc_s) {
+  if (lacking_from(facts)) {
     return failure(name, found,
                    "UTC will be wrong by the difference: install a newer liberfa1; Debian 12 has "
                    "none, a later Debian has");

@@ -91,9 +91,8 @@ std::string SaidValues::text(const char* key) {
     return {};
   }
   auto text = value->get<std::string>();
-  if (shown(text) != text) {
-    wrong(fmt::format("{}: {}: must be at most {} characters, none of them a control character",
-                      key, said(*value), kMostShown));
+  if (!is_plain(text)) {
+    wrong(fmt::format("{}: {}: {}", key, said(*value), kPlainText));
   }
   return text;
 }

@@ -1,29 +1,46 @@
 #include "services/operator/request_server.h"
 
+#include <fmt/format.h>
 #include <poll.h>
 #include <sys/eventfd.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
 #include <sys/time.h>
 
+#include <algorithm>
 #include <array>
+#include <cerrno>
+#include <cstdint>
 #include <exception>
+#include <iterator>
 #include <stop_token>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "services/base/json_line.h"
+#include "services/base/parsed_json.h"
 #include "services/base/warning.h"
 
 namespace spindrift {
 namespace {
 
+using std::chrono::steady_clock;
+
 constexpr std::size_t kLongestRequest = 1 << 20;
 constexpr timeval kUntilAsked{.tv_sec = 5, .tv_usec = 0};
-constexpr int kCallersWaiting = 16;
+constexpr std::size_t kCallersWaiting = 16;
+const nlohmann::json kTooMany = {{"error", "too many ask at once: ask again"}};
+
+/// Returns the milliseconds until a time, rounded up; 0 when it has passed.
+int left_ms(steady_clock::time_point until) {
+  const auto left = std::chrono::ceil<std::chrono::milliseconds>(until - steady_clock::now());
+  return static_cast<int>(std::max<std::int64_t>(left.count(), 0));
+}
 
 void reply(const Descriptor& caller, const nlohmann::json& answer) {
-  const auto sent = send_all(caller, json_line(answer));
+  const auto sent = send_all(caller, json_line(answer),
+                             steady_clock::now() + std::chrono::seconds{kUntilAsked.tv_sec});
   if (!sent) {
     warn("answered_to_nobody", {{"why", sent.error().message}},
          "a request was answered to nobody: " + sent.error().message);
@@ -59,7 +76,7 @@ RequestServer::Counter::~Counter() {
 
 void RequestServer::Counter::queue(Asked asked) {
   if (waiting_.size() >= kCallersWaiting) {
-    reply(asked.caller, {{"error", "too many ask for this at once: ask again"}});
+    reply(asked.caller, kTooMany);
   } else {
     waiting_.push(std::move(asked));
   }
@@ -83,7 +100,7 @@ Expected<std::unique_ptr<RequestServer>> RequestServer::start(const std::filesys
   if (!socket.is_open() || !stop.is_open() || ::fchmod(socket.number(), S_IRUSR | S_IWUSR) != 0 ||
       ::bind(socket.number(), reinterpret_cast<const sockaddr*>(&address->name),
              sizeof(address->name)) != 0 ||
-      ::listen(socket.number(), kCallersWaiting) != 0) {
+      ::listen(socket.number(), static_cast<int>(kCallersWaiting)) != 0) {
     return socket_failure("listening at", path);
   }
   return std::unique_ptr<RequestServer>{
@@ -107,33 +124,76 @@ RequestServer::~RequestServer() {
 }
 
 void RequestServer::run() {
+  std::list<Caller> callers;  // In the order in which their time runs out.
   while (true) {
-    std::array<pollfd, 2> waiting{{{.fd = stop_.number(), .events = POLLIN, .revents = 0},
-                                   {.fd = socket_.number(), .events = POLLIN, .revents = 0}}};
-    if (::poll(waiting.data(), waiting.size(), -1) < 0) {
+    std::vector<pollfd> waiting{{.fd = stop_.number(), .events = POLLIN, .revents = 0},
+                                {.fd = socket_.number(), .events = POLLIN, .revents = 0}};
+    for (const Caller& caller : callers) {
+      waiting.push_back({.fd = caller.socket.number(), .events = POLLIN, .revents = 0});
+    }
+    if (::poll(waiting.data(), waiting.size(),
+               callers.empty() ? -1 : left_ms(callers.front().until)) < 0) {
       continue;
     }
     if (waiting[0].revents != 0) {
       return;
     }
-    Descriptor caller{::accept4(socket_.number(), nullptr, nullptr, SOCK_CLOEXEC)};
-    if (caller.is_open()) {
-      ::setsockopt(caller.number(), SOL_SOCKET, SO_RCVTIMEO, &kUntilAsked, sizeof(kUntilAsked));
-      ::setsockopt(caller.number(), SOL_SOCKET, SO_SNDTIMEO, &kUntilAsked, sizeof(kUntilAsked));
-      serve(std::move(caller));
+    auto polled = std::next(waiting.begin(), 2);
+    std::erase_if(callers,
+                  [&](Caller& caller) { return (polled++)->revents != 0 && hear(caller); });
+    while (!callers.empty() && left_ms(callers.front().until) == 0) {
+      reply(callers.front().socket,
+            {{"error", fmt::format("no request within {} s", kUntilAsked.tv_sec)}});
+      callers.pop_front();
+    }
+    if (waiting[1].revents != 0) {
+      accept(callers);
     }
   }
 }
 
-void RequestServer::serve(Descriptor caller) {
-  const auto line = receive_line(caller, kLongestRequest);
-  if (!line) {
-    reply(caller, {{"error", line.error().message}});
+void RequestServer::accept(std::list<Caller>& callers) {
+  Descriptor caller{::accept4(socket_.number(), nullptr, nullptr, SOCK_CLOEXEC)};
+  if (!caller.is_open()) {
     return;
   }
-  auto request = nlohmann::json::parse(*line, nullptr, false);
+  ::setsockopt(caller.number(), SOL_SOCKET, SO_SNDTIMEO, &kUntilAsked, sizeof(kUntilAsked));
+  if (callers.size() >= kCallersWaiting) {
+    reply(caller, kTooMany);
+    return;
+  }
+  callers.push_back({.socket = std::move(caller),
+                     .until = steady_clock::now() + std::chrono::seconds{kUntilAsked.tv_sec}});
+}
+
+/// Takes what a caller has sent. @return Whether it is done with: asked, or gone.
+bool RequestServer::hear(Caller& caller) {
+  std::array<char, 4096> part{};
+  const ssize_t now = ::recv(caller.socket.number(), part.data(), part.size(), MSG_DONTWAIT);
+  if (now < 0) {
+    return errno != EAGAIN && errno != EINTR;
+  }
+  caller.line.append(part.data(), static_cast<std::size_t>(now));
+  if (const auto end = caller.line.find('\n'); end != std::string::npos) {
+    caller.line.resize(end);
+    serve(caller);
+    return true;
+  }
+  if (caller.line.size() > kLongestRequest) {
+    reply(caller.socket, {{"error", fmt::format("a request may have {} bytes", kLongestRequest)}});
+    return true;
+  }
+  return now == 0;
+}
+
+void RequestServer::serve(Caller& asked) {
+  const Descriptor& caller = asked.socket;
+  auto request = parsed_json(asked.line);
   if (!request.is_object()) {
-    reply(caller, {{"error", "a request must be a JSON object on one line"}});
+    reply(caller,
+          {{"error",
+            fmt::format("a request must be a JSON object on one line, nested at most {} deep",
+                        kDeepestJson)}});
     return;
   }
   const auto what = request.find("do");
@@ -148,7 +208,7 @@ void RequestServer::serve(Descriptor caller) {
     reply(caller, {{"error", "not known here: do = " + known + " are"}});
     return;
   }
-  counter->second.queue({.caller = std::move(caller), .request = std::move(request)});
+  counter->second.queue({.caller = std::move(asked.socket), .request = std::move(request)});
 }
 
 }  // namespace spindrift

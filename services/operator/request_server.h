@@ -2,13 +2,15 @@
 /// Answers requests of other programs to the holder of an archive.
 ///
 /// The socket stands beside the archive as ARCHIVE.sock and only its user may open it. A caller is
-/// refused when 16 others wait, and disconnected when it sends nothing for five seconds or more
-/// than a mebibyte.
+/// refused when 16 others wait, and disconnected when its request has not come within five seconds
+/// or is longer than a mebibyte. No caller holds up another one or the end of the server.
 
 #pragma once
 
+#include <chrono>
 #include <filesystem>
 #include <functional>
+#include <list>
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -66,8 +68,16 @@ class RequestServer {
 
   RequestServer(std::filesystem::path path, Descriptor socket, Descriptor stop,
                 const Answers& answers);
+  /// A caller whose request has not come as a whole.
+  struct Caller {
+    Descriptor socket;
+    std::chrono::steady_clock::time_point until;
+    std::string line = {};
+  };
   void run();
-  void serve(Descriptor caller);
+  void accept(std::list<Caller>& callers);
+  bool hear(Caller& caller);
+  void serve(Caller& caller);
 
   std::filesystem::path path_;
   Descriptor socket_;

@@ -14,6 +14,7 @@
 
 #include "pipelines/core/shown.h"
 #include "services/base/json_line.h"
+#include "services/base/parsed_json.h"
 
 namespace spindrift {
 
@@ -58,8 +59,12 @@ Expected<SocketAddress> address_of(const std::filesystem::path& socket) {
   return address;
 }
 
-Expected<void> send_all(const Descriptor& to, std::string_view text) {
+Expected<void> send_all(const Descriptor& to, std::string_view text,
+                        std::chrono::steady_clock::time_point until) {
   while (!text.empty()) {
+    if (std::chrono::steady_clock::now() > until) {
+      return Unexpected{{ErrorCode::Unavailable, "local socket: the caller reads too slowly"}};
+    }
     const ssize_t sent = ::send(to.number(), text.data(), text.size(), MSG_NOSIGNAL);
     if (sent < 0 && errno != EINTR) {
       return socket_failure("sending over", "local socket");
@@ -69,10 +74,10 @@ Expected<void> send_all(const Descriptor& to, std::string_view text) {
   return {};
 }
 
-Expected<std::string> receive_line(const Descriptor& from, std::size_t most) {
+Expected<std::string> receive_line(const Descriptor& from) {
   std::string line;
   std::array<char, 4096> part{};
-  while (most == 0 || line.size() <= most) {
+  while (true) {
     const ssize_t now = ::recv(from.number(), part.data(), part.size(), 0);
     if (now < 0 && errno == EINTR) {
       continue;
@@ -89,8 +94,6 @@ Expected<std::string> receive_line(const Descriptor& from, std::size_t most) {
       return Unexpected{{ErrorCode::Unavailable, "local socket: closed before an end of line"}};
     }
   }
-  return Unexpected{
-      {ErrorCode::Unavailable, fmt::format("local socket: more than {} bytes", most)}};
 }
 
 Unexpected socket_failure(std::string_view what, const std::filesystem::path& socket) {
@@ -118,9 +121,9 @@ Expected<std::optional<nlohmann::json>> ask_holder(const std::filesystem::path& 
     return socket_failure("connecting to", path);
   }
   return send_all(socket, json_line(request))
-      .and_then([&] { return receive_line(socket, 0); })
+      .and_then([&] { return receive_line(socket); })
       .and_then([](const std::string& line) -> Expected<std::optional<nlohmann::json>> {
-        auto answer = nlohmann::json::parse(line, nullptr, false);
+        auto answer = parsed_json(line);
         if (answer.is_discarded()) {
           return Unexpected{{ErrorCode::Unavailable, "local socket: no JSON"}};
         }

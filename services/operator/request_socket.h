@@ -9,6 +9,7 @@
 
 #include <sys/un.h>
 
+#include <chrono>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -48,11 +49,13 @@ struct SocketAddress {
 ///         not exist.
 Expected<SocketAddress> address_of(const std::filesystem::path& socket);
 
-/// @return Unavailable when the other side has closed.
-Expected<void> send_all(const Descriptor& to, std::string_view text);
-/// Returns a line without its end. @param most Limit in bytes; 0 means none. @return Unavailable
-/// when the other side has closed, is silent for too long (SO_RCVTIMEO), or exceeds `most`.
-Expected<std::string> receive_line(const Descriptor& from, std::size_t most);
+/// @param until Time after which no further part is sent. @return Unavailable when the other side
+/// has closed or takes too long.
+Expected<void> send_all(
+    const Descriptor& to, std::string_view text,
+    std::chrono::steady_clock::time_point until = std::chrono::steady_clock::time_point::max());
+/// Returns a line without its end. @return Unavailable when the other side has closed.
+Expected<std::string> receive_line(const Descriptor& from);
 
 /// Makes an error with the text for errno.
 Unexpected socket_failure(std::string_view what, const std::filesystem::path& socket);

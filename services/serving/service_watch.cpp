@@ -17,14 +17,19 @@ namespace {
 
 constexpr double kBytesPerGib = 1024.0 * 1024.0 * 1024.0;
 
-std::optional<TaiTime> leap_seconds_until() {
+/// A table that has merely expired says nothing against UTC: leap seconds are announced half a year
+/// before, and none may have been.
+std::optional<DataEnd> leap_seconds_end() {
   const LeapFacts facts = leap_facts(tai_now());
-  const std::chrono::sys_days until =
+  const auto lacking = lacking_from(facts);
+  const std::chrono::sys_days until = lacking.value_or(
       facts.machine ? std::max(facts.machine->complete_until, facts.erfa.complete_until)
-                    : facts.erfa.complete_until;
+                    : facts.erfa.complete_until);
   const auto t = parse_utc(fmt::format("{:%Y-%m-%dT%H:%M:%S}Z",
                                        fmt::gmtime(std::chrono::system_clock::to_time_t(until))));
-  return t ? std::optional{*t} : std::nullopt;
+  return t ? std::optional{DataEnd{
+                 .until = *t, .severity = lacking ? AlertSeverity::Warning : AlertSeverity::Info}}
+           : std::nullopt;
 }
 
 std::optional<double> free_gib(const std::filesystem::path& db) {
@@ -38,17 +43,17 @@ std::optional<double> free_gib(const std::filesystem::path& db) {
 
 ServiceWatch::ServiceWatch(const ServiceParts& parts, const Heard& heard)
     : parts_{parts}, heard_{heard} {
-  const auto leap_seconds = leap_seconds_until();
+  const auto leap_seconds = leap_seconds_end();
   for (const Mission& mission : parts.missions) {
-    auto& until = data_until_[mission.spacecraft_id];
+    auto& ends = data_ends_[mission.spacecraft_id];
     if (leap_seconds) {
-      until.emplace("leap_seconds", *leap_seconds);
+      ends.emplace("leap_seconds", *leap_seconds);
     }
     if (mission.orbit && mission.orbit->ephemeris() != nullptr) {
-      until.emplace("orbit", mission.orbit->ephemeris()->usable_to());
+      ends.emplace("orbit", DataEnd{.until = mission.orbit->ephemeris()->usable_to()});
     }
     if (const auto end = field_end(mission)) {
-      until.emplace("field_coefficients", *end);
+      ends.emplace("field_coefficients", DataEnd{.until = *end});
     }
   }
 }
@@ -125,7 +130,7 @@ void ServiceWatch::note_link(const SpacecraftHealth& link, ServiceState& state) 
     const auto offset = rehearsal.value_or(std::chrono::nanoseconds{0});
     state.late_s = elapsed_s(heard, later_by(wall_, -offset));
     state.pass_t = later_by(t_, -offset);
-    state.data_until = data_until_.at(link.spacecraft);
+    state.data_ends = data_ends_.at(link.spacecraft);
   } else {
     state.pass_t = heard;
   }

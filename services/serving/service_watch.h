@@ -69,7 +69,7 @@ class ServiceWatch {
   const Heard& heard_;
   BacklogWatch backlog_;
   /// End of validity of auxiliary data, by spacecraft and kind of data.
-  std::map<std::string, std::map<std::string, TaiTime>> data_until_;
+  std::map<std::string, std::map<std::string, DataEnd>> data_ends_;
   std::optional<Instant> last_;
   TaiTime wall_ = {};
   TaiTime t_ = {};

@@ -171,6 +171,36 @@ TEST_F(ArchiveFailure, RetryHoldsSubmittersAndStoresEverythingOnceThereIsRoom) {
   EXPECT_TRUE(archive->close());
 }
 
+TEST_F(ArchiveFailure, NobodyNeedsToWaitForEverBehindALockedOrFullArchive) {
+  std::promise<Error> failed;
+  int refused = 0;
+  const auto archive = open({.on_write_failure = OnWriteFailure::Retry,
+                             .queue_rows = kPulsesPerBatch,
+                             .on_refused = [&](const auto& /*batch*/) { ++refused; },
+                             .on_failure = first_into(failed)});
+  commit(*archive, start_of("run-1"));
+  const auto soon = [] {
+    return std::chrono::steady_clock::now() + std::chrono::milliseconds{50};
+  };
+  {
+    SQLite::Database other{path().string(), SQLite::OPEN_READWRITE};
+    other.exec("BEGIN IMMEDIATE");
+    ASSERT_TRUE(archive->submit(pulses_from(0)));
+    EXPECT_THAT(archive->flush(soon()), IsRefused(ErrorCode::Unavailable, HasSubstr("locked")));
+    while (archive->submit(pulses_from(0), soon())) {
+    }
+    EXPECT_EQ(refused, 1);
+    other.exec("ROLLBACK");
+  }
+  EXPECT_TRUE(archive->flush());
+  const FileSizeLimit full_disk{little_room()};
+  while (archive->submit(pulses_from(kPulsesPerBatch * refused), soon())) {
+    ++refused;
+  }
+  EXPECT_THAT(archive->flush(soon()),
+              IsRefused(ErrorCode::Unavailable, HasSubstr(path().string())));
+}
+
 TEST_F(ArchiveFailure, RowThatBreaksTheSchemaStopsEvenRetryAndCostsOnlyItsOwnBatch) {
   std::promise<Error> failed;
   std::promise<void> all_queued;

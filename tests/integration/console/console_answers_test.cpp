@@ -152,6 +152,16 @@ TEST_F(ConsoleAnswers, AnAcknowledgementOnceItIsStoredAndTold) {
             400U);  // The alert is already acknowledged.
 }
 
+TEST_F(ConsoleAnswers, NoNameOrNoteThatIsNoPlainTextAndNothingNestedDeep) {
+  for (const std::string& body :
+       {std::string{R"({"by":"a\nb"})"}, R"({"by":"a","note":")" + std::string(201, 'x') + "\"}",
+        R"({"by":)" + std::string(8'000, '[') + "0" + std::string(8'000, ']') + "}"}) {
+    const HttpReply reply = client_->post(kAck, body, token());
+    EXPECT_EQ(reply.result_int(), 400U) << reply.body();
+  }
+  EXPECT_EQ(client_->get_json("/api/v1/state")["alerts"][0]["state"], "active");
+}
+
 /// What the state says for and against acting, with the ids of its alerts left out.
 TEST_F(ConsoleAnswers, GoWithAWarningThatAnOperatorHasAcceptedAndWithNoneThatBearsOnTheAnswer) {
   Alert old_table = alert();

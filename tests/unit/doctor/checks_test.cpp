@@ -56,6 +56,7 @@ TEST(DoctorLeapSeconds, ReadsTheTableOfTheMachine) {
   ASSERT_TRUE(table);
   EXPECT_EQ(table->tai_minus_utc_s, 37);
   EXPECT_EQ(table->complete_until, std::chrono::sys_days{2026y / 6 / 28});
+  EXPECT_EQ(table->since, std::chrono::sys_days{2017y / 1 / 1});
   EXPECT_FALSE(machine_table(""));
   EXPECT_FALSE(machine_table("nonsense"));
   EXPECT_FALSE(machine_table("3692217600\t37\n"));
@@ -69,9 +70,11 @@ TEST(DoctorLeapSeconds, KnowsTheTableOfErfa) {
 }
 
 LeapFacts leaps(std::chrono::sys_days day) {
-  return {.day = day,
-          .erfa = {.tai_minus_utc_s = 37, .complete_until = 2021y / 12 / 31},
-          .machine = LeapTable{.tai_minus_utc_s = 37, .complete_until = 2026y / 6 / 28}};
+  return {
+      .day = day,
+      .erfa = {.tai_minus_utc_s = 37, .since = 2017y / 1 / 1, .complete_until = 2021y / 12 / 31},
+      .machine = LeapTable{
+          .tai_minus_utc_s = 37, .since = 2017y / 1 / 1, .complete_until = 2026y / 6 / 28}};
 }
 
 TEST(DoctorLeapSeconds, WarnsWhenNoTableReachesTodayAndFailsWhenTheProgramMissesOne) {
@@ -86,11 +89,16 @@ TEST(DoctorLeapSeconds, WarnsWhenNoTableReachesTodayAndFailsWhenTheProgramMisses
           f.machine.reset();
         },
         "leap seconds", Warning},
-       {"program misses one", [](auto& f) { f.machine->tai_minus_utc_s = 38; }, "leap seconds",
-        Failure},
+       {"program misses one",
+        [](auto& f) {
+          f.machine->tai_minus_utc_s = 38;
+          f.machine->since = 2026y / 1 / 1;
+        },
+        "leap seconds", Failure},
        {"program has a newer table than the machine",
         [](auto& f) {
-          f.machine = LeapTable{.tai_minus_utc_s = 36, .complete_until = 2016y / 12 / 28};
+          f.machine = LeapTable{
+              .tai_minus_utc_s = 36, .since = 2015y / 7 / 1, .complete_until = 2016y / 12 / 28};
           f.day = 2021y / 6 / 1;
         },
         "leap seconds", Ok}});

@@ -5,7 +5,9 @@
 #include <filesystem>
 #include <future>
 #include <stdexcept>
+#include <stop_token>
 #include <string>
+#include <thread>
 
 #include "services/operator/request_server.h"
 #include "services/operator/request_socket.h"
@@ -27,6 +29,15 @@ const RequestServer::Answers kAnswers{{"twice", twice}};
 class Requests : public ::testing::Test {
  protected:
   std::filesystem::path archive() const { return folder_.path() / "pass.db"; }
+
+  Descriptor connected() const {
+    const auto address = address_of(socket_of(archive())).value();
+    Descriptor caller{::socket(AF_UNIX, SOCK_STREAM, 0)};
+    EXPECT_EQ(::connect(caller.number(), reinterpret_cast<const sockaddr*>(&address.name),
+                        sizeof(address.name)),
+              0);
+    return caller;
+  }
 
   TemporaryFolder folder_;
 };
@@ -100,6 +111,30 @@ TEST_F(Requests, ThoseOfAnotherKindAreNotWaitedFor) {
   EXPECT_TRUE((*acting.get().value())["stored"]);
 }
 
+TEST_F(Requests, ASlowCallerHoldsUpNeitherOthersNorTheEnd) {
+  auto server = RequestServer::start(archive(), kAnswers).value();
+  const Descriptor slow = connected();
+  const std::jthread sender{[&](const std::stop_token& stop) {
+    while (!stop.stop_requested() && send_all(slow, " ")) {
+      std::this_thread::sleep_for(std::chrono::milliseconds{50});
+    }
+  }};
+  EXPECT_EQ((*ask_holder(archive(), {{"do", "twice"}, {"text", "a"}}).value())["text"], "aa");
+  server.reset();
+  EXPECT_FALSE(receive_line(slow));
+}
+
+TEST_F(Requests, OneThatDoesNotComeInTimeIsRefusedHoweverOftenAByteComes) {
+  const auto server = RequestServer::start(archive(), kAnswers).value();
+  const Descriptor slow = connected();
+  const std::jthread sender{[&](const std::stop_token& stop) {
+    while (!stop.stop_requested() && send_all(slow, " ")) {
+      std::this_thread::sleep_for(std::chrono::milliseconds{500});
+    }
+  }};
+  EXPECT_EQ(receive_line(slow).value(), R"({"error":"no request within 5 s"})");
+}
+
 TEST_F(Requests, WhatNobodyKnowsIsRefused) {
   const auto server = RequestServer::start(archive(), kAnswers).value();
   for (const json& request : {json{{"do", "thrice"}}, json{{"do", 3}}, json::object()}) {
@@ -109,17 +144,14 @@ TEST_F(Requests, WhatNobodyKnowsIsRefused) {
 
 TEST_F(Requests, OneThatIsNoJsonOrTooLongIsRefused) {
   const auto server = RequestServer::start(archive(), kAnswers).value();
-  const auto address = address_of(socket_of(archive())).value();
-  for (const std::string& line : {std::string{"what?"}, std::string(1'100'000, 'x')}) {
-    const Descriptor caller{::socket(AF_UNIX, SOCK_STREAM, 0)};
-    ASSERT_EQ(::connect(caller.number(), reinterpret_cast<const sockaddr*>(&address.name),
-                        sizeof(address.name)),
-              0);
+  for (const std::string& line :
+       {std::string{"what?"}, std::string(100'000, '['), std::string(1'100'000, 'x')}) {
+    const Descriptor caller = connected();
     // The server may close the connection before the end of an oversized request.
     static_cast<void>(send_all(caller, line + "\n"));
-    const auto answer = receive_line(caller, 0);
+    const auto answer = receive_line(caller);
     EXPECT_TRUE(!answer || answer->find("error") != std::string::npos) << *answer;
-    EXPECT_EQ(answer.has_value() || line.size() > 1000, true);
+    EXPECT_EQ(answer.has_value() || line.size() > 1'000'000, true);
   }
   EXPECT_TRUE(ask_holder(archive(), {{"do", "twice"}, {"text", "a"}}).value());
 }

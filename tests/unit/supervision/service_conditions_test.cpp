@@ -20,7 +20,7 @@ ServiceState state(double t_s) {
           .sources = {{"front-end", {}}},
           .received = static_cast<std::int64_t>(6.0 * t_s),
           .free_gib = 20.0,
-          .data_until = {{"orbit", at(1e6)}}};
+          .data_ends = {{"orbit", {at(1e6)}}}};
 }
 
 /// Checks the conditions once a second and holds the severity of each active key.
@@ -130,16 +130,17 @@ TEST_F(ServiceConditionsTest, RaiseWhatIsWrongWithTheServiceAndItsHost) {
     one.write_failed = true;
     one.free_gib = 0.5;
     one.clock_step_s = -3600.0;
-    one.data_until = {{"orbit", at(3600.0)}, {"leap_seconds", at(0.0)}};
+    one.data_ends = {{"orbit", {at(3600.0)}}, {"leap_seconds", {at(0.0), AlertSeverity::Info}}};
   });
   EXPECT_EQ(service_.raised, (Raised{{"archive.backlog", "warning"},
                                      {"archive.disk", "warning"},
                                      {"archive.write", "critical"},
                                      {"clock.jump", "warning"},
-                                     {"data.outdated:leap_seconds", "warning"},
+                                     {"data.outdated:leap_seconds", "info"},
                                      {"data.outdated:orbit", "warning"},
                                      {"service.twice", "warning"}}));
-  service_.evaluate(1, 2, [](auto& one, int /*t_s*/) { one.data_until["leap_seconds"] = at(1e6); });
+  service_.evaluate(1, 2,
+                    [](auto& one, int /*t_s*/) { one.data_ends["leap_seconds"] = {at(1e6)}; });
   EXPECT_EQ(service_.raised, (Raised{{"clock.jump", "warning"}}));
   EXPECT_EQ(service_.evaluate(2, 63, kWell), Raised{});
 }
