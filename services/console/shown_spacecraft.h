@@ -41,7 +41,10 @@ class ShownSpacecraft {
   void take_details(const ArchiveBatch& stored);
 
   void show(const SpacecraftHealth& health) { health_ = health; }
-  void show(const PassVerdict& verdict) { verdict_ = verdict; }
+  /// Returns whether it differs from the verdict of before.
+  bool show(const PassVerdict& verdict) {
+    return std::exchange(verdict_, verdict) != std::optional{verdict};
+  }
   void show(const SpinTarget& target) { target_ = target; }
 
   /// Returns the spacecraft's part of /api/v1/state, without the go/no-go decision.

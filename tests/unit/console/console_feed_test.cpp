@@ -187,6 +187,22 @@ TEST_F(Feed, IsGoWhenNothingStandsAgainstIt) {
   EXPECT_EQ(shown()["go"]["against"][0]["code"], "service");
 }
 
+TEST_F(Feed, HasNewsFromAChangeOfFixAnswerOrAlertUntilTheStateIsTold) {
+  const auto is_news = [&](const auto& told) {
+    feed_->tell_state();
+    put(told);
+    return feed_->has_news();
+  };
+  PassVerdict verdict{.quality = Quality::Ok, .t = kT, .against = ""};
+  EXPECT_FALSE(is_news(estimate_at(kT, SpinEstimator::Mean)));
+  EXPECT_TRUE(is_news(verdict));
+  EXPECT_FALSE(is_news(verdict));
+  verdict.t = kT + 1s;
+  EXPECT_TRUE(is_news(verdict));
+  EXPECT_TRUE(is_news(SpinFix{.t = kT, .axis_icrf = axis_icrf_from(100.0, -55.0)}));
+  EXPECT_TRUE(is_news(Alert{.alert_id = "00ff", .raised = kT, .evidence = "{}"}));
+}
+
 TEST_F(Feed, TellsTheLastActionsOfTheRun) {
   std::vector<OperatorAction> actions;
   for (int i = 1; i <= 6; ++i) {
