@@ -615,6 +615,7 @@ void SpinPass::apply(TaiTime t, const SetPrior& action) {
       (shown && angle_between_rad(shown->axis_icrf, prior.axis_icrf) >
                     kContradictionSigmas * std::hypot(shown->sigma_rad, prior.sigma_rad));
   config_.prior = told_prior_ = prior;
+  sequential_.expect(prior);
   notices_.prior_set(prior);
   root_to_choose_.reset();
   if (contradicted) {

@@ -335,6 +335,39 @@ TEST(SpinPass, SaysInTheEndWhyThereIsNoMeanAndWhyThePriorDoesNotSettleTheAxis) {
   EXPECT_TRUE(testing::has(output.notices, NoticeCode::AmbiguousPriorNoHelp));
 }
 
+/// Without north beam and sun2 all fixes graze the limb, and two axes stay open for minutes.
+TEST(SpinPass, WhatAnOperatorKnowsOfTheAxisSettlesItUnlessTheEdgesOverruleIt) {
+  RecordedPass pass = recorded_pass("nominal");
+  const TaiTime acted = shifted(pass.pulses.front().t, 60.0);
+  std::erase_if(pass.pulses, [&](const Pulse& pulse) {
+    using enum PulseChannel;
+    return pulse.channel == Sun2 || pulse.channel == NorthIn || pulse.channel == NorthOut ||
+           seconds_between(acted, pulse.t) > 120.0;
+  });
+  const auto run_with = [&](const std::optional<SpinAction>& action) {
+    SpinPass spin{pass.config, pass.orbit};
+    if (action) {
+      spin.act(acted, *action);
+    }
+    return run(std::move(spin), pass.pulses);
+  };
+  EXPECT_EQ(sequential_of(run_with(std::nullopt)).assessment.quality, Quality::Ambiguous);
+  for (const SpinAction& action :
+       {SpinAction{ChooseRoot{pass.true_axis_icrf}},
+        SpinAction{SetPrior{{.axis_icrf = pass.true_axis_icrf, .sigma_rad = kRadPerDeg}}}}) {
+    const SpinEstimate settled = sequential_of(run_with(action));
+    EXPECT_EQ(settled.assessment.quality, Quality::Ok);
+    EXPECT_LT(error_rad(pass, settled), 3.0 * sigma_rad(settled));
+  }
+  const Eigen::Vector3d wrong_icrf =
+      Eigen::AngleAxisd{0.3, pass.true_axis_icrf.unitOrthogonal()} * pass.true_axis_icrf;
+  const SpinOutput overruled = run_with(ChooseRoot{wrong_icrf});
+  EXPECT_TRUE(testing::has(overruled.notices, NoticeCode::PriorContradicted));
+  const SpinEstimate left = sequential_of(overruled);
+  EXPECT_EQ(left.assessment.quality, Quality::Ambiguous);
+  EXPECT_LT(error_rad(pass, left), 3.0 * sigma_rad(left));
+}
+
 /// Expects doubt about the orbit in estimates from `from` on.
 void expect_doubts_of_orbit(const SpinOutput& output, TaiTime from) {
   for (const SpinEstimate& estimate : all_of<SpinEstimate>(output)) {
