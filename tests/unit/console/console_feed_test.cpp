@@ -228,6 +228,32 @@ TEST_F(Feed, TellsTheLastActionsOfTheRun) {
   EXPECT_EQ(shown()["actions"].size(), 0U);
 }
 
+TEST_F(Feed, TellsWhatAnActionHasDoneOnceTheRunSaysSo) {
+  put(estimate_at(kT, SpinEstimator::Mean));
+  const auto said = [](const std::string& id, const std::string& action) {
+    return OperatorAction{.action_id = id,
+                          .spacecraft = "SPINNER",
+                          .t = kT,
+                          .made_utc = {},
+                          .by = "shift",
+                          .action = action,
+                          .arguments = "{}",
+                          .note = {},
+                          .does = {}};
+  };
+  feed_->put_details({.run_id = "run",
+                      .spacecraft_id = "SPINNER",
+                      .actions = {said("1", "exclude_segment"), said("2", "choose_root")}});
+  EXPECT_FALSE(shown()["actions"][0].contains("effect"));
+  put_details({RunNotice{.code = "batch_leaves_out",
+                         .arguments = R"({"action":"exclude_segment","edges":412})",
+                         .says = "batch leaves out 412 edges"},
+               RunNotice{.code = "root_far_from_all", .arguments = "{}", .says = "no candidate"},
+               RunNotice{.code = "late_edges", .arguments = "{}", .says = "late"}});
+  EXPECT_EQ(shown()["actions"][0]["effect"], "batch leaves out 412 edges");
+  EXPECT_EQ(shown()["actions"][1]["effect"], "no candidate");
+}
+
 TEST_F(Feed, TellsEveryExclusionThatIsInForce) {
   put(estimate_at(kT, SpinEstimator::Mean));
   const auto say = [&](const std::string& id, const SpinAction& does) {

@@ -368,6 +368,22 @@ TEST(SpinPass, WhatAnOperatorKnowsOfTheAxisSettlesItUnlessTheEdgesOverruleIt) {
   EXPECT_LT(error_rad(pass, left), 3.0 * sigma_rad(left));
 }
 
+TEST(SpinPass, ARootFarFromAllCandidatesIsNotTakenAndTheNearestIsNamed) {
+  RecordedPass pass = recorded_pass("north-only");
+  std::erase_if(pass.pulses,
+                [](const Pulse& pulse) { return pulse.channel == PulseChannel::Sun2; });
+  SpinPass spin{pass.config, pass.orbit};
+  const TaiTime acted = shifted(pass.pulses.front().t, 60.0);
+  const Eigen::Vector3d elsewhere_icrf =
+      Eigen::AngleAxisd{1.0, pass.true_axis_icrf.unitOrthogonal()} * pass.true_axis_icrf;
+  spin.act(acted, ChooseRoot{elsewhere_icrf});
+  const SpinOutput output = run(std::move(spin), pass.pulses);
+  const auto said = std::ranges::find(output.notices, NoticeCode::RootFarFromAll, &Notice::code);
+  ASSERT_NE(said, output.notices.end());
+  EXPECT_EQ(said->values.back().name, "deg");
+  EXPECT_GT(std::get<double>(said->values.back().value), 5.0);
+}
+
 /// Expects doubt about the orbit in estimates from `from` on.
 void expect_doubts_of_orbit(const SpinOutput& output, TaiTime from) {
   for (const SpinEstimate& estimate : all_of<SpinEstimate>(output)) {
