@@ -37,6 +37,8 @@ enum class NoticeCode {
   FixContradictsItself,    ///< -
   HealthyBeamSilent,       ///< beam
   PriorContradicted,       ///< t_tai_ns
+  RootFarFromAll,          ///< t_tai_ns, limit_deg, ra_deg, dec_deg, deg (of the nearest candidate)
+  BatchLeavesOut,          ///< t_tai_ns, edges, action
   PriorFar,                ///< t_tai_ns, deg, sigmas
   AxisMoved,               ///< t_tai_ns, deg
   MeanNeverBegan,          ///< fixes, near_tangent, ambiguous, not_accepted

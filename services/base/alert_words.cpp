@@ -17,6 +17,8 @@
 namespace spindrift {
 namespace {
 
+constexpr double kLong_s = 60.0;
+
 struct Words {
   AlertCode code;
   std::string_view what;
@@ -102,6 +104,11 @@ const Ending* ending_of(AlertCode code, std::string_view about) {
   return code == DataOutdated && found != kEndings.end() ? found : nullptr;
 }
 
+/// Returns three digits, or of a minute and more a duration.
+std::string digits_of(double value, std::string_view unit) {
+  return unit == "s" && value >= kLong_s ? duration_text(value) : fmt::format("{:.3g}", value);
+}
+
 std::string value_text(const ConditionChange& change) {
   const Evidence& evidence = change.evidence;
   if (const Ending* const ending = ending_of(change.code, change.about)) {
@@ -115,10 +122,12 @@ std::string value_text(const ConditionChange& change) {
   const std::string sigma =
       evidence.sigma ? fmt::format(" (sigma {:.3g})", *evidence.sigma) : std::string{};
   const std::string worst = evidence.worst && *evidence.worst != evidence.value
-                                ? fmt::format(", worst {:.3g}", *evidence.worst)
+                                ? ", worst " + digits_of(*evidence.worst, evidence.unit)
                                 : std::string{};
-  return fmt::format(": {:.3g} {}{}{}, limit {:.3g}", evidence.value, evidence.unit, sigma, worst,
-                     evidence.limit);
+  const bool has_unit = evidence.unit != "s" || evidence.value < kLong_s;
+  return fmt::format(": {}{}{}{}, limit {}", digits_of(evidence.value, evidence.unit),
+                     has_unit ? fmt::format(" {}", evidence.unit) : "", sigma, worst,
+                     digits_of(evidence.limit, evidence.unit));
 }
 
 std::string_view what_to_do(const ConditionChange& change) {

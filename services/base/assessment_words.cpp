@@ -35,7 +35,7 @@ constexpr std::array<Pattern<ReasonCode>, kReasonCodes> kReasonPatterns{{
     {RestartedByFixes, "restarted by fixes"},
     {OtherAxis, "or ra {ra_deg:.2f} dec {dec_deg:.2f} deg"},
     {MoreAxes, "or {count} more"},
-    {FixesNearTangent, "or none: near-tangent"},
+    {FixesNearTangent, "or another axis: all fixes graze the limb"},
     {NothingSettled, "no fix has settled it"},
     {Edges, "{count} edge{s}"},
     {Outliers, "{count} outlier{s}"},

@@ -119,6 +119,10 @@ constexpr std::array<NoticePattern, kNoticeCodes> kNoticePatterns{{
     {PriorContradicted, "prior_contradicted",
      "{t_tai_ns}: the edges contradict the prior of the mission: the axis is another one, the "
      "mean begins anew"},
+    {RootFarFromAll, "root_far_from_all",
+     "{t_tai_ns}: no candidate lies within {limit_deg:.0f} deg of the chosen axis: the nearest is "
+     "ra {ra_deg:.2f} dec {dec_deg:.2f} deg, {deg:.1f} deg away; the choice waits for one"},
+    {BatchLeavesOut, "batch_leaves_out", "{t_tai_ns}: batch leaves out {edges} edges by {action}"},
     {PriorFar, "prior_far",
      "{t_tai_ns}: the axis is {deg:.1f} deg from the prior of the mission (spin.prior), "
      "{sigmas:.0f} times the sigma of both: the edges decide without it"},

@@ -68,6 +68,7 @@ void ConsoleFeed::put(const std::string& spacecraft, const std::string& run_id,
   const std::lock_guard lock{mutex_};
   if (const auto* const alert = std::get_if<Alert>(&product)) {
     ring_.append("alert", put_alert(spacecraft, run_id, *alert));
+    has_news_ = true;
     return;
   }
   const auto shown = shown_.find(spacecraft);
@@ -78,6 +79,7 @@ void ConsoleFeed::put(const std::string& spacecraft, const std::string& run_id,
   std::visit(
       [&]<class Kind>(const Kind& is) {
         if constexpr (!kEvent<Kind>.empty()) {
+          has_news_ = has_news_ || std::is_same_v<Kind, SpinFix>;
           nlohmann::json row = shown->second.show(is);
           row["spacecraft"] = spacecraft;
           ring_.append(kEvent<Kind>, row);
@@ -152,7 +154,7 @@ void ConsoleFeed::put(const std::string& spacecraft, const std::string& run_id,
                       const PassVerdict& verdict) {
   const std::lock_guard lock{mutex_};
   if (ShownSpacecraft& shown = shown_.at(spacecraft); shown.run_id() == run_id) {
-    shown.show(verdict);
+    has_news_ = shown.show(verdict) || has_news_;
   }
 }
 
@@ -164,6 +166,12 @@ void ConsoleFeed::put(const std::string& spacecraft, const SpinTarget& target) {
 void ConsoleFeed::tell_state() {
   const std::lock_guard lock{mutex_};
   ring_.append("state", state_now());
+  has_news_ = false;
+}
+
+bool ConsoleFeed::has_news() const {
+  const std::lock_guard lock{mutex_};
+  return has_news_;
 }
 
 void ConsoleFeed::tell_pulses() {

@@ -55,6 +55,8 @@ class ConsoleFeed {
   void tell_state();
   void tell_pulses();
 
+  /// Returns whether an answer, a fix or an alert has changed since viewers were sent a state.
+  bool has_news() const;
   nlohmann::json state();
   DurationHistogram latencies() const;
   /// Returns why the service takes or stores nothing; empty when it does.
@@ -77,6 +79,7 @@ class ConsoleFeed {
 
   mutable std::mutex mutex_;
   nlohmann::json service_;
+  bool has_news_ = false;
   std::int64_t samples_rejected_ = 0;
   std::map<std::string, SpacecraftKind> kinds_;
   std::map<std::string, ShownSpacecraft> shown_;

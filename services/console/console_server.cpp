@@ -34,6 +34,7 @@ constexpr std::chrono::seconds kPatience{10};
 constexpr std::chrono::milliseconds kLook{125};
 constexpr int kLooksAPulseBatch = 2;
 constexpr int kLooksAState = 8;
+constexpr int kLooksAStateWithNews = 2;  // At least so many.
 // Enough for twenty browsers that load the page at the same time.
 constexpr int kMostConnections = 128;
 // Connections above this are closed without an answer.
@@ -261,8 +262,11 @@ class ConsoleServer::Loop {
       if (++looks_ % kLooksAPulseBatch == 0) {
         feed_.tell_pulses();
       }
-      if (looks_ % kLooksAState == 0) {
+      ++looks_since_state_;
+      if (looks_since_state_ >= kLooksAState ||
+          (looks_since_state_ >= kLooksAStateWithNews && feed_.has_news())) {
         feed_.tell_state();
+        looks_since_state_ = 0;
       }
       for (const Shared& viewer : std::set<Shared>{viewers_}) {
         tell(viewer);
@@ -276,6 +280,7 @@ class ConsoleServer::Loop {
   ConsoleAnswers answers_;
   int open_ = 0;  // Outlives the context, which holds the sessions.
   int looks_ = 0;
+  int looks_since_state_ = 0;
   std::uint64_t dropped_ = 0;
   asio::io_context context_{1};
   tcp::acceptor acceptor_;

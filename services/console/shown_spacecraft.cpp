@@ -12,6 +12,7 @@
 #include "pipelines/frames/celestial.h"
 #include "pipelines/time/utc.h"
 #include "services/base/degrees.h"
+#include "services/base/notice_words.h"
 #include "services/base/parsed_json.h"
 #include "services/base/reasons_json.h"
 #include "services/products/separation_json.h"
@@ -130,6 +131,16 @@ SaysOfUse use_by(const OperatorAction& action) {
       action.does);
 }
 
+/// Returns whether a notice tells the effect of such an action.
+bool may_have_effect(const std::string& action, const RunNotice& notice) {
+  if (notice.code == name_of(NoticeCode::BatchLeavesOut)) {
+    return notice.arguments.find('"' + action + '"') != std::string::npos;
+  }
+  const bool of_root = notice.code == name_of(NoticeCode::RootFarFromAll);
+  const bool of_prior = notice.code == name_of(NoticeCode::PriorContradicted);
+  return ((of_root || of_prior) && action == "choose_root") || (of_prior && action == "set_prior");
+}
+
 /// Keeps the last actions, and all exclusions in force.
 void keep_last_and_exclusions(std::size_t most, std::deque<OperatorAction>& actions) {
   for (auto action = actions.begin(); actions.size() > most && action != actions.end();) {
@@ -169,6 +180,7 @@ void ShownSpacecraft::switch_to(const std::string& run_id) {
     failed_.clear();
     ledger_ = Ledger{kShownRules};
     actions_.clear();
+    effects_.clear();
     priors_.clear();
     bound_deg_.reset();
   }
@@ -234,6 +246,8 @@ void ShownSpacecraft::take_details(const ArchiveBatch& stored) {
       ledger_.add({&sample->said, 1});
     } else if (const auto* const measured = std::get_if<SpinMeasurement>(&product)) {
       remember(*measured);
+    } else if (const auto* const notice = std::get_if<RunNotice>(&product)) {
+      show_effect(*notice);
     } else if (const auto* const turn = std::get_if<RevolutionProduct>(&product)) {
       periods_s_.insert_or_assign(turn->t_sun1, turn->period_s);
     } else if (const auto* const batch = std::get_if<BatchProduct>(&product)) {
@@ -310,6 +324,16 @@ void ShownSpacecraft::show(const OperatorAction& action) {
   }
 }
 
+/// Notes what the service says of the last action that may have such an effect.
+void ShownSpacecraft::show_effect(const RunNotice& notice) {
+  const auto told = std::find_if(actions_.rbegin(), actions_.rend(), [&](const auto& action) {
+    return may_have_effect(action.action, notice);
+  });
+  if (told != actions_.rend()) {
+    effects_[told->action_id] = notice.says;
+  }
+}
+
 const AlertLimits& ShownSpacecraft::limits() {
   if (health_.last_sample) {
     limits_ = limits_to_come_.advance(*health_.last_sample).value_or(limits_);
@@ -358,6 +382,9 @@ nlohmann::json ShownSpacecraft::state() {
   state["actions"] = nlohmann::json::array();
   for (const OperatorAction& action : actions_) {
     state["actions"].push_back(action_json(action));
+    if (const auto effect = effects_.find(action.action_id); effect != effects_.end()) {
+      state["actions"].back()["effect"] = effect->second;
+    }
   }
   add_sky(state);
   add(state, "to_target_deg", to_target_deg());

@@ -41,7 +41,10 @@ class ShownSpacecraft {
   void take_details(const ArchiveBatch& stored);
 
   void show(const SpacecraftHealth& health) { health_ = health; }
-  void show(const PassVerdict& verdict) { verdict_ = verdict; }
+  /// Returns whether it differs from the verdict of before.
+  bool show(const PassVerdict& verdict) {
+    return std::exchange(verdict_, verdict) != std::optional{verdict};
+  }
   void show(const SpinTarget& target) { target_ = target; }
 
   /// Returns the spacecraft's part of /api/v1/state, without the go/no-go decision.
@@ -55,6 +58,7 @@ class ShownSpacecraft {
 
  private:
   void show(const OperatorAction& action);
+  void show_effect(const RunNotice& notice);
   void remember(const SpinMeasurement& measurement);
   nlohmann::json held_against(const PulseUse& edge) const;
   nlohmann::json residuals() const;
@@ -74,7 +78,8 @@ class ShownSpacecraft {
   /// Latest measurements that failed their test.
   std::map<std::pair<std::int64_t, SpinQuantity>, SpinMeasurement> failed_;
   Ledger ledger_;  ///< Residuals of edges in `sequential`, or of samples in the filter.
-  std::deque<OperatorAction> actions_;  ///< The latest actions.
+  std::deque<OperatorAction> actions_;          ///< The latest actions.
+  std::map<std::string, std::string> effects_;  ///< What actions have done, by action_id.
   LimitsInForce limits_to_come_{mission_.alert_values};
   AlertLimits limits_ = mission_.alerts;
   std::map<TaiTime, SpinPrior> priors_;                  ///< Set by actions, by start time.

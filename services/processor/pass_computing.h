@@ -164,9 +164,10 @@ class PassComputing {
     }
   }
 
-  /// An action gives no products itself; it only affects the samples after it.
+  /// An action gives no products itself, but for notices of its effect on what came before; else it
+  /// affects the samples after it.
   template <class Note>
-  void process(const Placed<OperatorAction>& placed, const Note& note, Computed& /*computed*/) {
+  void process(const Placed<OperatorAction>& placed, const Note& note, Computed& computed) {
     const OperatorAction& action = placed.value;
     std::visit(
         [&](const auto& does) {
@@ -176,7 +177,7 @@ class PassComputing {
         },
         action.does);
     if constexpr (requires { note(action); }) {
-      note(action);
+      keep({}, told(spacecraft_id_, note(action)), std::nullopt, computed);
     }
   }
 

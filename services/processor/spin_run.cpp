@@ -154,10 +154,17 @@ void SpinRun::note(const SpinOutput& output) {
   }
 }
 
-void SpinRun::note(const OperatorAction& action) {
-  if (const auto* const does = std::get_if<SpinAction>(&action.does)) {
-    edges_.act(action.t.value(), *does);
+/// Returns what the action does to edges that have come already.
+std::vector<Notice> SpinRun::note(const OperatorAction& action) {
+  const auto* const does = std::get_if<SpinAction>(&action.does);
+  const std::size_t dropped = does == nullptr ? 0 : edges_.act(action.t.value(), *does);
+  if (dropped == 0) {
+    return {};
   }
+  return {{NoticeCode::BatchLeavesOut,
+           {{"t_tai_ns", tai_ns(*action.t)},
+            {"edges", static_cast<std::int64_t>(dropped)},
+            {"action", action.action}}}};
 }
 
 }  // namespace spindrift

@@ -39,14 +39,14 @@ class SpinRun : public PassRun<SpinRun, SpinPass> {
 
   void forget();
   auto noting() {
-    return [this](const auto& made) { note(made); };
+    return [this](const auto& made) { return note(made); };
   }
   void settle(std::vector<Product>& products);
   std::optional<BackgroundTask> last_solution();
   bool expects_solution() const;
 
   void note(const SpinOutput& output);
-  void note(const OperatorAction& action);
+  std::vector<Notice> note(const OperatorAction& action);
   void note(FellSilent silence);
   void note_time(TaiTime t);
   void make_batch_due();

@@ -19,6 +19,8 @@ struct SeparationVerdict {
   double sigma_deg;
   std::string why;   ///< Sentence.
   std::string says;  ///< All of it but `why`, as a sentence.
+
+  friend bool operator==(const SeparationVerdict&, const SeparationVerdict&) = default;
 };
 
 /// The default values describe a run without an answer and a run that does not exist.
@@ -43,6 +45,8 @@ struct PassVerdict {
   std::optional<SeparationVerdict> separation = {};  ///< Empty without a reconstruction.
   std::string why = "no estimate";                   ///< Sentence, objections first.
   std::string against = "no estimate";               ///< Objections; empty when there are none.
+
+  friend bool operator==(const PassVerdict&, const PassVerdict&) = default;
 };
 
 }  // namespace spindrift

@@ -31,10 +31,12 @@ bool is_estimate(const Product& product) {
 }  // namespace
 
 Announcer::Announcer(const ResultPublisher& publisher, ConsoleFeed* feed, ServiceTerminal& terminal,
-                     ThreadFailures& failures)
-    : publisher_{publisher}, feed_{feed}, terminal_{terminal}, thread_{[this, &failures] {
-        failures.report(contained("announcing", [this] { run(); }));
-      }} {}
+                     Bell& new_answers, ThreadFailures& failures)
+    : publisher_{publisher},
+      feed_{feed},
+      terminal_{terminal},
+      new_answers_{new_answers},
+      thread_{[this, &failures] { failures.report(contained("announcing", [this] { run(); })); }} {}
 
 Announcer::~Announcer() {
   waiting_.close();
@@ -88,6 +90,7 @@ void Announcer::run() {
     for (const auto& [spacecraft, estimate] : latest) {
       say(spacecraft, *estimate);
     }
+    new_answers_.ring();
   }
 }
 

@@ -16,6 +16,7 @@
 
 #include "services/archive/records.h"
 #include "services/archive/stored_results.h"
+#include "services/base/bell.h"
 #include "services/console/console_feed.h"
 #include "services/program/service_terminal.h"
 #include "services/publisher/announcements.h"
@@ -27,8 +28,9 @@ namespace spindrift {
 class Announcer {
  public:
   /// The arguments outlive the announcer. @param feed Null when there is no console.
+  /// @param new_answers Rung when results have been announced, answers among them.
   Announcer(const ResultPublisher& publisher, ConsoleFeed* feed, ServiceTerminal& terminal,
-            ThreadFailures& failures);
+            Bell& new_answers, ThreadFailures& failures);
   ~Announcer();
   Announcer(const Announcer&) = delete;
   Announcer& operator=(const Announcer&) = delete;
@@ -55,6 +57,7 @@ class Announcer {
   const ResultPublisher& publisher_;
   ConsoleFeed* feed_;
   ServiceTerminal& terminal_;
+  Bell& new_answers_;
   Announcements waiting_;
   std::map<std::string, StoredResults> announced_before_;              ///< Results by run.
   std::set<std::string> unannounced_;                                  ///< Runs of other commands.

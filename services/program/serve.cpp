@@ -359,9 +359,10 @@ Expected<void> serve(const ServeOptions& options) {
   }
   ThreadFailures failures;
   Problems problems;
+  Bell new_answers;
   const auto feed = make_console_feed(options, *missions, service_name());
   ServiceTerminal terminal{*missions, tell_as};
-  Announcer announcer{*publisher, feed.get(), terminal, failures};
+  Announcer announcer{*publisher, feed.get(), terminal, new_answers, failures};
   AlertDesk desk{*missions, mode_of(options), *models};
   const auto webhook = start_webhook(options, desk);
   if (!webhook) {
@@ -392,6 +393,7 @@ Expected<void> serve(const ServeOptions& options) {
       .problems = problems,
       .stop_signal = stop_signal,
       .failures = failures,
+      .new_answers = new_answers,
       .announce = [&](const ArchiveBatch& batch) { announcer.announce(batch); },
       .on_health = [&](const Health& health) { show(health, terminal, feed.get()); },
       .on_verdict =

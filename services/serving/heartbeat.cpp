@@ -65,8 +65,9 @@ Heartbeat::Heartbeat(const ServiceParts& parts, const Heard& heard,
       work_{work},
       outbox_{parts},
       service_{parts, heard},
-      verdicts_{parts.db, parts.processor.spacecraft(), parts.desk, parts.on_verdict,
-                parts.failures},
+      verdicts_{parts.db,         parts.processor.spacecraft(),
+                parts.desk,       parts.new_answers,
+                parts.on_verdict, parts.failures},
       thread_{[this](const std::stop_token& stop) {
         parts_.failures.report(contained("heartbeat", [&] { run(stop); }));
       }} {}

@@ -10,6 +10,7 @@
 #include "pipelines/core/expected.h"
 #include "services/alerts/alert_desk.h"
 #include "services/archive/archive.h"
+#include "services/base/bell.h"
 #include "services/base/bounded_queue.h"
 #include "services/bus/participant.h"
 #include "services/ingest/other_services.h"
@@ -45,6 +46,7 @@ struct ServiceParts {
   Problems& problems;
   StopSignal& stop_signal;
   ThreadFailures& failures;
+  Bell& new_answers;  ///< Rung when results have been announced, answers among them.
   /// Called with alerts of the service. Must not wait.
   std::function<void(const ArchiveBatch&)> announce;
   std::function<void(const Health&)> on_health;  ///< The function must not wait.

@@ -116,12 +116,13 @@ ServiceState ServiceWatch::state_of_service(Instant now) {
           .clock_step_s = clock_step_s_};
 }
 
-/// Fills in the state of a link. While batches wait in the queue because the archive makes them
-/// wait, the link counts as silent no longer than it is live. The telemetry of a rehearsal follows
+/// Fills in the state of a link. While the archive does not store, or makes batches wait in the
+/// queue, the link counts as silent no longer than it is live. The telemetry of a rehearsal follows
 /// the clock that the rehearsal announces, and that of another replay its own, for which nobody
 /// updates auxiliary data.
 void ServiceWatch::note_link(const SpacecraftHealth& link, ServiceState& state) const {
-  if (parts_.taken.size() == 0 || link.link == LinkState::Live) {
+  const bool waits = state.write_failed || parts_.taken.size() > 0;
+  if (!waits || link.link == LinkState::Live) {
     state.silent_s = link.data_age_s;
   }
   const TaiTime heard = later_by_s(*link.last_sample, *link.data_age_s);

@@ -14,14 +14,17 @@
 namespace spindrift {
 namespace {
 
-constexpr std::chrono::seconds kBetweenVerdicts{1};
+constexpr std::chrono::milliseconds kLongest{1000};
+constexpr std::chrono::milliseconds kRest{100};
 
 }  // namespace
 
 VerdictWatch::VerdictWatch(const std::filesystem::path& db, std::vector<std::string> spacecraft,
-                           const AlertDesk& desk, OnVerdict on_verdict, ThreadFailures& failures)
+                           const AlertDesk& desk, Bell& new_answers, OnVerdict on_verdict,
+                           ThreadFailures& failures)
     : spacecraft_{std::move(spacecraft)},
       desk_{desk},
+      new_answers_{new_answers},
       on_verdict_{std::move(on_verdict)},
       archive_{db},
       thread_{[this, &failures](const std::stop_token& stop) {
@@ -36,7 +39,11 @@ PassVerdict VerdictWatch::of(const std::string& spacecraft) const {
 
 void VerdictWatch::run(const std::stop_token& stop) {
   let_samples_come_first();
-  every(kBetweenVerdicts, stop, [&] { look(); });
+  look();
+  every(kRest, stop, [&] {
+    new_answers_.wait_for(kLongest, stop);
+    look();
+  });
 }
 
 void VerdictWatch::look() {

@@ -172,6 +172,19 @@ test('says beside GO what an operator has accepted, and that telemetry without a
   assert.match(said[2], /NO ANSWER$/);
 });
 
+test('shows no digit finer than sigma, and the other axis only while the answer leaves it open', async () => {
+  const shownOf = craft => page.evaluate(async one => {
+    const { drawHeader } = await import('/header.js');
+    const { drawSky } = await import('/sky.js');
+    drawHeader(one, { mode: 'live' }, 0, false);
+    drawSky(one);
+    return [document.getElementById('figure-axis-ra-dec').textContent, document.getElementById('other-root').hidden];
+  }, { ra_deg: 100.337, dec_deg: -54.815, sigma_deg: 0.51, alternate_ra_deg: 80, alternate_dec_deg: -10, resolution: 'AMBIGUOUS', ...craft });
+  assert.deepEqual(await shownOf({ quality: 'OK' }), ['100.34° / -54.81°', true]);
+  assert.deepEqual(await shownOf({ quality: 'AMBIGUOUS', sigma_deg: 12 }), ['100° / -55°', false]);
+  assert.equal((await shownOf({}))[1], false);
+});
+
 test('needs no scrolling at 1366x768 and on a tablet', async () => {
   for (const [width, height] of [[1366, 768], [1024, 768]]) {
     await page.setViewportSize({ width, height });

@@ -27,7 +27,8 @@ void PassEdges::collect(const SpinProduct& product) {
   std::visit([this](const auto& value) { keep(value); }, product);
 }
 
-void PassEdges::act(TaiTime t, const SpinAction& action) {
+std::size_t PassEdges::act(TaiTime t, const SpinAction& action) {
+  const std::size_t before = edges_.size();
   std::visit(
       [&](const auto& what) {
         if constexpr (requires { excluded_.apply(t, what); }) {
@@ -40,6 +41,7 @@ void PassEdges::act(TaiTime t, const SpinAction& action) {
         }
       },
       action);
+  return before - edges_.size();
 }
 
 void PassEdges::forget_before(TaiTime t) {

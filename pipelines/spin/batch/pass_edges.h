@@ -31,8 +31,8 @@ class PassEdges {
   void collect(const SpinProduct& product);
 
   /// Applies an operator action valid from `t`: excluded edges are dropped, and at the first edge
-  /// after a manoeuvre all earlier edges.
-  void act(TaiTime t, const SpinAction& action);
+  /// after a manoeuvre all earlier edges. @return Number of edges dropped now.
+  std::size_t act(TaiTime t, const SpinAction& action);
 
   /// Bounds the memory to a day of six edges a turn at 100 rpm; beyond it the last edges are kept.
   static constexpr std::size_t kMost = 900'000;

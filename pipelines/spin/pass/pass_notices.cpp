@@ -140,6 +140,17 @@ void PassNotices::prior_contradicted(TaiTime t) {
   say_first(NoticeCode::PriorContradicted, {NoticeCode::PriorContradicted, {at(t)}});
 }
 
+void PassNotices::root_far_from_all(TaiTime t, const Eigen::Vector3d& nearest_icrf,
+                                    double apart_rad, double limit_rad) {
+  const RaDec nearest = ra_dec_of(nearest_icrf);
+  say_first(NoticeCode::RootFarFromAll, {NoticeCode::RootFarFromAll,
+                                         {at(t),
+                                          {"limit_deg", degrees(limit_rad)},
+                                          {"ra_deg", degrees(nearest.ra_rad)},
+                                          {"dec_deg", degrees(nearest.dec_rad)},
+                                          {"deg", degrees(apart_rad)}}});
+}
+
 void PassNotices::prior_set(const SpinPrior& prior) {
   config_.prior = prior;
   prior_verdict_.reset();

@@ -58,6 +58,11 @@ class PassNotices {
   void prior_contradicted(TaiTime t);
   /// Resets all statements about the previous prior, as an operator has set a new one.
   void prior_set(const SpinPrior& prior);
+  /// Notes that an operator's choice is no candidate; once a choice.
+  void root_far_from_all(TaiTime t, const Eigen::Vector3d& nearest_icrf, double apart_rad,
+                         double limit_rad);
+  /// Resets what was said of the choice before.
+  void root_to_choose() { said_.erase(NoticeCode::RootFarFromAll); }
   void axis_moved(TaiTime t, double apart_rad);
   /// Takes an estimate of `sequential`.
   void estimated(const SpinEstimate& estimate);

@@ -21,6 +21,8 @@ namespace {
 
 // Number of fixes after which the mean axis counts for or against a candidate.
 constexpr std::size_t kEstablishedFixes = 10;
+// How far a candidate may be from where an operator points, beyond its own error.
+constexpr double kMeant_rad = 5.0 * kRadPerDeg;
 
 constexpr std::string_view kFrameKind = "coded_frame";
 
@@ -621,10 +623,13 @@ void SpinPass::do_what_is_due(TaiTime t) {
   }
 }
 
-void SpinPass::apply(TaiTime /*t*/, const ChooseRoot& action) { root_to_choose_ = action; }
+void SpinPass::apply(TaiTime /*t*/, const ChooseRoot& action) {
+  root_to_choose_ = action;
+  notices_.root_to_choose();
+}
 
 /// Sets a prior at the chosen root, with a third of the distance to the next candidate as sigma.
-/// Candidates that noise does not separate are no choice.
+/// Candidates that noise does not separate are no choice, and none that is far off is meant.
 void SpinPass::choose_root(TaiTime t, const AxisCandidates& found) {
   if (!root_to_choose_ || found.told_apart || found.candidates.size() < 2) {
     return;
@@ -636,6 +641,11 @@ void SpinPass::choose_root(TaiTime t, const AxisCandidates& found) {
         return angle_between_rad(wanted, a.axis_icrf) < angle_between_rad(wanted, b.axis_icrf);
       });
   const AxisCandidate root = *chosen;
+  const double apart_rad = angle_between_rad(root.axis_icrf, root_to_choose_->axis_icrf);
+  if (apart_rad > kMeant_rad + kPriorSigmas * std::sqrt(root.total_covariance_rad2().trace())) {
+    notices_.root_far_from_all(t, root.axis_icrf, apart_rad, kMeant_rad);
+    return;
+  }
   candidates.erase(chosen);
   std::vector<Eigen::Vector3d> others_icrf;
   for (const AxisCandidate& other : candidates) {
@@ -656,6 +666,7 @@ void SpinPass::apply(TaiTime t, const SetPrior& action) {
       (shown && angle_between_rad(shown->axis_icrf, prior.axis_icrf) >
                     kContradictionSigmas * std::hypot(shown->sigma_rad, prior.sigma_rad));
   config_.prior = told_prior_ = prior;
+  sequential_.expect(prior);
   notices_.prior_set(prior);
   root_to_choose_.reset();
   if (contradicted) {

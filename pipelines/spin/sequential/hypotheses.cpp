@@ -1,6 +1,7 @@
 #include "pipelines/spin/sequential/hypotheses.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "pipelines/frames/celestial.h"
@@ -56,10 +57,10 @@ bool Hypotheses::closed() const {
                      [](const Hypothesis& other) { return other.late; });
 }
 
-/// The prior does not stand when all fixes are near-tangent, as filters that began to one side of
-/// the axis need not converge to it.
+/// Where all fixes are near-tangent the edges must fit as well, since filters that began to one
+/// side of the axis need not converge to it.
 bool Hypotheses::prior_stands() const {
-  return published().preferred_by_prior && !provisional_ &&
+  return published().preferred_by_prior && (!provisional_ || fits(published())) &&
          std::all_of(all_.begin() + 1, all_.end(), [&](const Hypothesis& other) {
            return other.log_likelihood - published().log_likelihood < kUnlikely;
          });
@@ -116,6 +117,21 @@ void Hypotheses::prefer_at(const StartingPoint& point) {
     for (Hypothesis& hypothesis : all_) {
       hypothesis.preferred_by_prior = &hypothesis == &*chosen;
     }
+  }
+}
+
+void Hypotheses::prefer_near(const SpinPrior& prior) {
+  std::vector<Hypothesis*> near;
+  for (Hypothesis& hypothesis : all_) {
+    const SpinFilter& filter = hypothesis.filter;
+    const double sigma_rad =
+        std::hypot(prior.sigma_rad, std::sqrt(filter.total_covariance_rad2().trace()));
+    if (angle_between_rad(filter.axis_icrf(), prior.axis_icrf) < kPriorSigmas * sigma_rad) {
+      near.push_back(&hypothesis);
+    }
+  }
+  if (near.size() == 1) {
+    near.front()->preferred_by_prior = true;
   }
 }
 

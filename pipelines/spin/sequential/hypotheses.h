@@ -83,6 +83,8 @@ class Hypotheses {
   void settle_at(const StartingPoint& point);
   /// Publishes the candidate that a prior names, but keeps the others until the edges decide.
   void prefer_at(const StartingPoint& point);
+  /// Likewise the candidate that is now within three sigmas of a prior, if it is the only one.
+  void prefer_near(const SpinPrior& prior);
 
   /// @param noise Excess noise that widens the filters' gates.
   /// @return True when the edges have beaten the candidate that a prior had chosen.

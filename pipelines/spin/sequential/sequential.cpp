@@ -52,6 +52,9 @@ std::optional<SpinEstimate> SequentialEstimator::update(const Revolution& revolu
     revolutions_before_start_ += settled.empty() ? 0 : 1;
     return std::nullopt;
   }
+  if (config_.prior && !prior_refuted_ && !hypotheses_.settled()) {
+    hypotheses_.prefer_near(*config_.prior);
+  }
   if (!began) {
     work_in(revolution, sky);
   }

@@ -7,7 +7,8 @@
 /// PRIOR settled the fix, its candidate is published until the edges beat it; the assessment then
 /// says so. Badly known candidates are averaged over fixes until all are known well enough
 /// (starting_points.h). Near-tangent candidates start filters only if there are no others for long,
-/// and then only an accepted fix settles the axis. A filter that gates most edges, or whose axis
+/// and then only an accepted fix settles the
+/// axis, or a prior whose candidate fits the edges. A filter that gates most edges, or whose axis
 /// the fixes contradict (contradiction.h), restarts at the next accepted fix, and the assessment
 /// says so; if the fixes name several axes, it is AMBIGUOUS again.
 ///
@@ -16,7 +17,7 @@
 ///     CONVERGING as OK, but from too few revolutions to show an error (convergence.h)
 ///     AMBIGUOUS  another axis, which is named, fits nearly as well, or nothing has settled it; the
 ///                covariance assumes that the published candidate is true. "or 2 more" counts
-///                further candidates, listed as alternates of the fixes. "or none: near-tangent"
+///                further candidates, listed as alternates of the fixes. FixesNearTangent
 ///                means that nearly all fixes are: where two branches touch, candidates are off by
 ///                more than their covariances and many fixes lack the true axis, so that perhaps no
 ///                filter follows it
@@ -59,6 +60,9 @@ class SequentialEstimator {
 
   /// Sets the noise of the edges to come and the grid of their times.
   void hear(const PulseNoise& noise) { config_.noise = noise; }
+
+  /// Sets what is known of the axis from now on; empty if nothing is.
+  void expect(const std::optional<SpinPrior>& prior) { config_.prior = prior; }
 
   /// Number of times the estimator gave up its axis for another.
   int restarts() const { return restarts_; }

@@ -142,6 +142,9 @@ TEST_F(OperatorActions, LeaveAPastSegmentOutOfBatchAlsoAfterARestart) {
   }));
   EXPECT_EQ(number("SELECT edges + outliers FROM spin_batch ORDER BY t_tai_ns DESC LIMIT 1"),
             static_cast<std::int64_t>(kept.size()));
+  EXPECT_EQ(text("SELECT arguments FROM notice WHERE code = 'batch_leaves_out'"),
+            R"({"action":"exclude_segment","edges":72,"spacecraft":"SPINNER","t_tai_ns":)" +
+                std::to_string(tai_ns(from)) + "}");
   EXPECT_GT(kept.size(), kAll - 100);
   EXPECT_LE(kept.size(), kAll - 72);
 }

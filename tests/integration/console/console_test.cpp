@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <chrono>
 #include <list>
 #include <string>
 
@@ -29,6 +30,16 @@ TEST_F(Console, TellsTheStateWithAnIdThatRises) {
   EXPECT_THAT(first, HasSubstr("Content-Type: text/event-stream"));
   const auto id = last_id(first);
   EXPECT_THAT(viewer.until(fmt::format("id: {}\n", id + 1)), HasSubstr("alerts"));
+}
+
+TEST_F(Console, TellsANewAnswerBeforeTheNextStateIsDue) {
+  EventViewer viewer = client_->watch();
+  viewer.until("event: state");
+  viewer.until("event: state");  // The next one that nothing calls for is a second away.
+  const auto told = std::chrono::steady_clock::now();
+  feed_.put("SPINNER", kRun, PassVerdict{.quality = Quality::Ok, .sigma_deg = 0.1, .against = ""});
+  viewer.until("\"quality\":\"OK\"");
+  EXPECT_LT(std::chrono::steady_clock::now() - told, std::chrono::milliseconds{500});
 }
 
 TEST_F(Console, TellsAViewerWhatItMissed) {

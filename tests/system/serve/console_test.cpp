@@ -57,6 +57,12 @@ TEST_F(ServedConsole, ShowsWhatTheArchiveHolds) {
            state["spin_rate_rpm"] == real_of(db(), "SELECT spin_rate_rpm FROM pass_verdict");
   };
   ASSERT_TRUE(eventually(is_of_verdict)) << shown() << service_->log();
+  // Health, which comes once a second, tells how far the telemetry has come.
+  ASSERT_TRUE(eventually([&] {
+    const auto state = client_->get_json("/api/v1/state");
+    return state["service"].value("samples_committed", 0) == 3600 &&
+           state["spacecraft"]["SPINNER"].contains("sun_ra_deg");
+  }));
   EXPECT_GT(shown()["to_target_deg"], 70.0);
   EXPECT_TRUE(shown()["sun_ra_deg"].is_number());
   const auto points = client_->get_json(

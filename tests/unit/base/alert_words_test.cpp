@@ -51,6 +51,16 @@ TEST(AlertWords, OfAConditionThatGoesOnHaveItsWorstItsBeginningAndItsCount) {
   EXPECT_EQ(evidence["count"], 3);
 }
 
+TEST(AlertWords, GiveAMinuteAndMoreAsADuration) {
+  auto late = change(AlertCode::LinkLate, Change::Raised, 30.0);
+  late.evidence.unit = "s";
+  late.evidence.value = 787'000.0;
+  late.evidence.sigma.reset();
+  EXPECT_THAT(sentence_of(late, 1), HasSubstr("host: 9 days 3 h, limit 30 at 2026-"));
+  late.evidence.value = 45.25;
+  EXPECT_THAT(sentence_of(late, 1), HasSubstr("host: 45.2 s, limit 30 at 2026-"));
+}
+
 TEST(AlertWords, SayInShortWhatAnAlertIsAbout) {
   EXPECT_EQ(words_of("data.outdated:leap_seconds"), "the table of leap seconds is old");
   EXPECT_EQ(words_of("channel.silent:sun2"), "silent channel that should give something (sun2)");

@@ -187,6 +187,22 @@ TEST_F(Feed, IsGoWhenNothingStandsAgainstIt) {
   EXPECT_EQ(shown()["go"]["against"][0]["code"], "service");
 }
 
+TEST_F(Feed, HasNewsFromAChangeOfFixAnswerOrAlertUntilTheStateIsTold) {
+  const auto is_news = [&](const auto& told) {
+    feed_->tell_state();
+    put(told);
+    return feed_->has_news();
+  };
+  PassVerdict verdict{.quality = Quality::Ok, .t = kT, .against = ""};
+  EXPECT_FALSE(is_news(estimate_at(kT, SpinEstimator::Mean)));
+  EXPECT_TRUE(is_news(verdict));
+  EXPECT_FALSE(is_news(verdict));
+  verdict.t = kT + 1s;
+  EXPECT_TRUE(is_news(verdict));
+  EXPECT_TRUE(is_news(SpinFix{.t = kT, .axis_icrf = axis_icrf_from(100.0, -55.0)}));
+  EXPECT_TRUE(is_news(Alert{.alert_id = "00ff", .raised = kT, .evidence = "{}"}));
+}
+
 TEST_F(Feed, TellsTheLastActionsOfTheRun) {
   std::vector<OperatorAction> actions;
   for (int i = 1; i <= 6; ++i) {
@@ -210,6 +226,32 @@ TEST_F(Feed, TellsTheLastActionsOfTheRun) {
   EXPECT_EQ(last["t_tai_ns"], tai_ns(kT));
   put(estimate_at(kT, SpinEstimator::Mean), "next run");
   EXPECT_EQ(shown()["actions"].size(), 0U);
+}
+
+TEST_F(Feed, TellsWhatAnActionHasDoneOnceTheRunSaysSo) {
+  put(estimate_at(kT, SpinEstimator::Mean));
+  const auto said = [](const std::string& id, const std::string& action) {
+    return OperatorAction{.action_id = id,
+                          .spacecraft = "SPINNER",
+                          .t = kT,
+                          .made_utc = {},
+                          .by = "shift",
+                          .action = action,
+                          .arguments = "{}",
+                          .note = {},
+                          .does = {}};
+  };
+  feed_->put_details({.run_id = "run",
+                      .spacecraft_id = "SPINNER",
+                      .actions = {said("1", "exclude_segment"), said("2", "choose_root")}});
+  EXPECT_FALSE(shown()["actions"][0].contains("effect"));
+  put_details({RunNotice{.code = "batch_leaves_out",
+                         .arguments = R"({"action":"exclude_segment","edges":412})",
+                         .says = "batch leaves out 412 edges"},
+               RunNotice{.code = "root_far_from_all", .arguments = "{}", .says = "no candidate"},
+               RunNotice{.code = "late_edges", .arguments = "{}", .says = "late"}});
+  EXPECT_EQ(shown()["actions"][0]["effect"], "batch leaves out 412 edges");
+  EXPECT_EQ(shown()["actions"][1]["effect"], "no candidate");
 }
 
 TEST_F(Feed, TellsEveryExclusionThatIsInForce) {

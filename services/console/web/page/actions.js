@@ -97,6 +97,7 @@ export function drawActions(craft, utcOf) {
     const { from_tai_ns, to_tai_ns } = row.arguments;
     const span = from_tai_ns ? `${clock(utcOf(from_tai_ns))} to ${clock(utcOf(to_tai_ns))} ` : '';
     rows.push([`✔ ${clock(utcOf(row.t_tai_ns))}`, `${row.action} ${span}${listed(row.arguments)}`, [row.by, row.note].filter(Boolean).join(': ')]);
+    if (row.effect) rows.push(['', row.effect, '']);
   }
   fillTable(byId('actions'), rows.length ? rows : [['nothing done yet']]);
 }

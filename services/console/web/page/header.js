@@ -1,5 +1,5 @@
 // What the operator must see at a glance, whatever else is on the page.
-import { byId, duration, element, number, sigma, sign } from './text.js';
+import { byId, duration, element, sigma, sign, withinSigma } from './text.js';
 
 const figures = ['UTC', 'Data age', 'Mode', 'Link', 'Spin rate', 'Axis RA / Dec', '1 σ', 'To target'];
 const ofSpin = ['Spin rate', 'Axis RA / Dec'];
@@ -46,10 +46,10 @@ export function drawHeader(craft, service, since_s, stale) {
   const link = stale ? 'unknown' : craft.state ?? 'waiting';
   const [icon, colour] = sign(link);
   put('Link', `${icon} ${link.toUpperCase()}`, colour);
-  put('Spin rate', `${number(craft.spin_rate_rpm, 4)} ± ${sigma(craft.sigma_rpm, '')} rpm`);
-  put('Axis RA / Dec', `${number(craft.ra_deg, 3, '°')} / ${number(craft.dec_deg, 3, '°')}`);
+  put('Spin rate', `${withinSigma(craft.spin_rate_rpm, 4, craft.sigma_rpm)} ± ${sigma(craft.sigma_rpm, '')} rpm`);
+  put('Axis RA / Dec', [craft.ra_deg, craft.dec_deg].map(angle => withinSigma(angle, 3, craft.sigma_deg, '°')).join(' / '));
   put('1 σ', sigma(craft.sigma_deg));
-  put('To target', number(craft.to_target_deg, 2, '°'));
+  put('To target', withinSigma(craft.to_target_deg, 2, craft.sigma_deg, '°'));
   const [mark, tone] = sign(craft.quality);
   const waiting = (craft.state ?? 'waiting') === 'waiting';
   say('quality', `${mark} ${craft.quality ?? (waiting ? 'WAITING' : 'NO ANSWER')}`, tone);

@@ -1,6 +1,6 @@
 // The sky in right ascension (rising to the left) and declination.
 import { begin, colours, cross } from './canvas.js';
-import { byId, number, sigma } from './text.js';
+import { byId, number, sigma, withinSigma } from './text.js';
 
 const left = 34;
 const bottom = 18;
@@ -82,7 +82,9 @@ function drawEllipse(pen, [x, y], craft, estimate, deg_px) {
 }
 
 const otherText = byId('other-root');
-const candidates = craft => [[craft.ra_deg, craft.dec_deg], [craft.alternate_ra_deg, craft.alternate_dec_deg]]
+// A single fix of two axes asks nothing while the answer is sure.
+const otherRoot = craft => (craft.quality ?? craft.resolution) === 'AMBIGUOUS' ? [craft.alternate_ra_deg, craft.alternate_dec_deg] : [NaN, NaN];
+const candidates = craft => [[craft.ra_deg, craft.dec_deg], otherRoot(craft)]
   .filter(place => place.every(Number.isFinite));
 
 // Tells `choose` which of the two axes was pointed at.
@@ -96,7 +98,8 @@ export function onRoot(craft, choose) {
   otherText.addEventListener('click', () => choose({ ra_deg: craft().alternate_ra_deg, dec_deg: craft().alternate_dec_deg }));
 }
 
-function drawOtherText({ alternate_ra_deg: ra, alternate_dec_deg: dec }) {
+function drawOtherText(craft) {
+  const [ra, dec] = otherRoot(craft);
   otherText.hidden = !Number.isFinite(ra);
   const text = `Choose RA ${number(ra, 2, '°')} Dec ${number(dec, 2, '°')}`;
   if (otherText.textContent !== text) otherText.textContent = text;
@@ -116,14 +119,14 @@ export function drawSky(craft) {
   put(craft.earth_ra_deg, craft.earth_dec_deg, 'ring', colours.mark, 'Earth');
   put(craft.prior?.ra_deg, craft.prior?.dec_deg, 'square', colours.dim, 'prior');
   put(craft.target?.ra_deg, craft.target?.dec_deg, 'square', colours.text, 'target');
-  put(craft.alternate_ra_deg, craft.alternate_dec_deg, 'cross', colours.bad, 'other axis');
+  put(...otherRoot(craft), 'cross', colours.bad, 'other axis');
   const estimate = craft.estimates?.[craft.estimator];
   let note = 'no axis yet';
   if (Number.isFinite(craft.ra_deg)) {
     const scale = estimate ? drawEllipse(pen, at(craft.ra_deg, craft.dec_deg), craft, estimate,
       { ra: (width - left - 6) / 360, dec: (height - bottom - 6) / 180 }) : '';
     note = `1 σ ${sigma(craft.sigma_deg)}${scale}`;
-    if (Number.isFinite(craft.to_target_deg)) note += `; ${craft.to_target_deg.toFixed(2)}° to the target`;
+    if (Number.isFinite(craft.to_target_deg)) note += `; ${withinSigma(craft.to_target_deg, 2, craft.sigma_deg, '°')} to the target`;
   }
   byId('sky-note').textContent = note;
 }

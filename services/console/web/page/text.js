@@ -13,6 +13,10 @@ export function element(name, text, className) {
 export const number = (value, digits, unit = '') =>
   Number.isFinite(value) ? `${value.toFixed(digits)}${unit}` : '–';
 
+// No finer than two significant digits of its sigma.
+export const withinSigma = (value, most, sigma, unit = '') =>
+  number(value, sigma > 0 ? Math.min(most, Math.max(0, 1 - Math.floor(Math.log10(sigma)))) : most, unit);
+
 // Two significant digits of a sigma, so that a small one is no zero.
 export function sigma(value, unit = '°') {
   if (!Number.isFinite(value)) return '–';

@@ -335,6 +335,55 @@ TEST(SpinPass, SaysInTheEndWhyThereIsNoMeanAndWhyThePriorDoesNotSettleTheAxis) {
   EXPECT_TRUE(testing::has(output.notices, NoticeCode::AmbiguousPriorNoHelp));
 }
 
+/// Without north beam and sun2 all fixes graze the limb, and two axes stay open for minutes.
+TEST(SpinPass, WhatAnOperatorKnowsOfTheAxisSettlesItUnlessTheEdgesOverruleIt) {
+  RecordedPass pass = recorded_pass("nominal");
+  const TaiTime acted = shifted(pass.pulses.front().t, 60.0);
+  std::erase_if(pass.pulses, [&](const Pulse& pulse) {
+    using enum PulseChannel;
+    return pulse.channel == Sun2 || pulse.channel == NorthIn || pulse.channel == NorthOut ||
+           seconds_between(acted, pulse.t) > 120.0;
+  });
+  const auto run_with = [&](const std::optional<SpinAction>& action) {
+    SpinPass spin{pass.config, pass.orbit};
+    if (action) {
+      spin.act(acted, *action);
+    }
+    return run(std::move(spin), pass.pulses);
+  };
+  EXPECT_EQ(sequential_of(run_with(std::nullopt)).assessment.quality, Quality::Ambiguous);
+  for (const SpinAction& action :
+       {SpinAction{ChooseRoot{pass.true_axis_icrf}},
+        SpinAction{SetPrior{{.axis_icrf = pass.true_axis_icrf, .sigma_rad = kRadPerDeg}}}}) {
+    const SpinEstimate settled = sequential_of(run_with(action));
+    EXPECT_EQ(settled.assessment.quality, Quality::Ok);
+    EXPECT_LT(error_rad(pass, settled), 3.0 * sigma_rad(settled));
+  }
+  const Eigen::Vector3d wrong_icrf =
+      Eigen::AngleAxisd{0.3, pass.true_axis_icrf.unitOrthogonal()} * pass.true_axis_icrf;
+  const SpinOutput overruled = run_with(ChooseRoot{wrong_icrf});
+  EXPECT_TRUE(testing::has(overruled.notices, NoticeCode::PriorContradicted));
+  const SpinEstimate left = sequential_of(overruled);
+  EXPECT_EQ(left.assessment.quality, Quality::Ambiguous);
+  EXPECT_LT(error_rad(pass, left), 3.0 * sigma_rad(left));
+}
+
+TEST(SpinPass, ARootFarFromAllCandidatesIsNotTakenAndTheNearestIsNamed) {
+  RecordedPass pass = recorded_pass("north-only");
+  std::erase_if(pass.pulses,
+                [](const Pulse& pulse) { return pulse.channel == PulseChannel::Sun2; });
+  SpinPass spin{pass.config, pass.orbit};
+  const TaiTime acted = shifted(pass.pulses.front().t, 60.0);
+  const Eigen::Vector3d elsewhere_icrf =
+      Eigen::AngleAxisd{1.0, pass.true_axis_icrf.unitOrthogonal()} * pass.true_axis_icrf;
+  spin.act(acted, ChooseRoot{elsewhere_icrf});
+  const SpinOutput output = run(std::move(spin), pass.pulses);
+  const auto said = std::ranges::find(output.notices, NoticeCode::RootFarFromAll, &Notice::code);
+  ASSERT_NE(said, output.notices.end());
+  EXPECT_EQ(said->values.back().name, "deg");
+  EXPECT_GT(std::get<double>(said->values.back().value), 5.0);
+}
+
 /// Expects doubt about the orbit in estimates from `from` on.
 void expect_doubts_of_orbit(const SpinOutput& output, TaiTime from) {
   for (const SpinEstimate& estimate : all_of<SpinEstimate>(output)) {
