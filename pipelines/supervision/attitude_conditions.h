@@ -12,7 +12,9 @@
 #include "pipelines/supervision/condition_watch.h"
 #include "pipelines/supervision/kind_presence.h"
 #include "pipelines/supervision/limits.h"
+#include "pipelines/supervision/lost_watch.h"
 #include "pipelines/supervision/sensor_conditions.h"
+#include "pipelines/supervision/stuck_sensors.h"
 #include "pipelines/three_axis/products.h"
 
 namespace spindrift {
@@ -31,6 +33,7 @@ class AttitudeConditions {
   /// @param samples Times of star fixes and magnetometer samples, of which an attitude can be made.
   ConditionChanges await_answer(std::vector<TaiTime> samples);
   ConditionChanges evaluate(const AttitudeEstimate& estimate);
+  ConditionChanges evaluate(const RejectedSample& sample) { return stuck_.see_left_out(sample); }
   ConditionChanges evaluate(const ReconstructedSeparation& separation);
 
   /// Settles the conditions of the answer by the last one, without hold. To be called once, when
@@ -45,6 +48,7 @@ class AttitudeConditions {
   double diverged_s_;
   KindPresence kinds_;
   SensorConditions sensors_;
+  StuckSensors stuck_;
   struct Recent {
     TaiTime t;
     Innovations innovations;
@@ -52,7 +56,7 @@ class AttitudeConditions {
   std::deque<Recent> recent_;      ///< Estimates of the last `diverged_s_` seconds.
   std::optional<TaiTime> judged_;  ///< Time of the last test of `recent_`.
   ConditionWatch diverged_;
-  ConditionWatch lost_;
+  LostWatch lost_;
   ConditionWatch doubtful_;
   AnswerPresence presence_;
   std::vector<TaiTime> awaited_;           ///< Samples whose answers may not have come yet.

@@ -29,20 +29,37 @@ class AttitudeConditionsTest : public ::testing::Test {
   AttitudeConditions conditions_{AlertLimits{}, std::nullopt};
 };
 
-TEST_F(AttitudeConditionsTest, RaiseThatTheAttitudeIsLostAndClearItWhenItIsBack) {
-  EXPECT_THAT(conditions_.evaluate(estimate(0.0, Quality::Ok)), only(Change::Cleared));
-  const auto lost = conditions_.evaluate(estimate(1.0, Quality::Lost));
-  ASSERT_THAT(lost, only(Change::Raised));
-  EXPECT_EQ(lost.front().code, AlertCode::AttitudeLost);
-  EXPECT_THAT(conditions_.evaluate(estimate(2.0, Quality::Converging)), only(Change::Cleared));
+/// Returns the changes of attitude.lost among the changes of an estimate.
+ConditionChanges lost_by(AttitudeConditions& conditions, const AttitudeEstimate& estimate) {
+  ConditionChanges changes = conditions.evaluate(estimate);
+  std::erase_if(changes, [](const auto& one) { return one.code != AlertCode::AttitudeLost; });
+  return changes;
+}
+
+TEST_F(AttitudeConditionsTest, ClearALostAttitudeWhenItHasBeenOkForTenSeconds) {
+  EXPECT_THAT(lost_by(conditions_, estimate(0.0, Quality::Ok)), IsEmpty());
+  EXPECT_THAT(lost_by(conditions_, estimate(10.0, Quality::Ok)), only(Change::Cleared));
+  EXPECT_THAT(lost_by(conditions_, estimate(11.0, Quality::Lost)), only(Change::Raised));
+  for (const Quality quality : {Quality::Converging, Quality::Doubtful}) {
+    for (double t_s = 12.0; t_s < 40.0; t_s += 1.0) {
+      EXPECT_THAT(lost_by(conditions_, estimate(t_s, quality)), IsEmpty());
+    }
+  }
+  EXPECT_THAT(lost_by(conditions_, estimate(40.0, Quality::Ok)), IsEmpty());
+  EXPECT_THAT(lost_by(conditions_, estimate(49.0, Quality::Doubtful)), IsEmpty());
+  EXPECT_THAT(lost_by(conditions_, estimate(50.0, Quality::Ok)), IsEmpty());
+  EXPECT_THAT(lost_by(conditions_, estimate(59.9, Quality::Ok)), IsEmpty());
+  EXPECT_THAT(lost_by(conditions_, estimate(60.0, Quality::Ok)), only(Change::Cleared));
 }
 
 TEST_F(AttitudeConditionsTest, RaiseThatStarFixesOverruleTheAttitude) {
   AttitudeEstimate anew = estimate(1.0, Quality::Converging);
   anew.assessment.reasons = {{ReasonCode::Since, {{"since_tai_ns", tai_ns(anew.t)}}}};
-  ASSERT_EQ(conditions_.evaluate(anew).size(), 1U);
+  ASSERT_THAT(lost_by(conditions_, anew), only(Change::Raised));
   anew.t += std::chrono::seconds{1};
-  EXPECT_THAT(conditions_.evaluate(anew), only(Change::Cleared));
+  EXPECT_THAT(lost_by(conditions_, anew), IsEmpty());
+  EXPECT_THAT(lost_by(conditions_, estimate(3.0, Quality::Ok)), IsEmpty());
+  EXPECT_THAT(lost_by(conditions_, estimate(13.0, Quality::Ok)), only(Change::Cleared));
 }
 
 /// Returns the keys raised among the changes.
@@ -87,6 +104,27 @@ TEST_F(AttitudeConditionsTest, RaiseThatNoAnswerComesOfFixes) {
     answered.evaluate(estimate(t_s, Quality::Ok));
   }
   EXPECT_THAT(raised_in(answered.settle()), IsEmpty());
+}
+
+RejectedSample left_out(double t_s, Rejection why) {
+  return {.t = at(t_s), .kind = SampleKind::Star, .rejected_by = why};
+}
+
+TEST_F(AttitudeConditionsTest, RaiseASensorThatRepeatsItself) {
+  for (double t_s = 0.0; t_s < 5.0; t_s += 1.0) {
+    EXPECT_THAT(raised_in(conditions_.evaluate(left_out(t_s, Rejection::Frozen))), IsEmpty());
+    EXPECT_THAT(conditions_.evaluate(left_out(t_s, Rejection::Innovation)), IsEmpty());
+  }
+  EXPECT_EQ(raised_in(conditions_.evaluate(left_out(5.0, Rejection::Frozen))),
+            std::set<std::string>{"sensor.stuck:star"});
+  const auto has_cleared = [this](double t_s) {
+    const ConditionChanges changes = conditions_.evaluate(estimate(t_s, Quality::Ok));
+    return std::any_of(changes.begin(), changes.end(), [](const ConditionChange& one) {
+      return one.code == AlertCode::SensorStuck && one.change == Change::Cleared;
+    });
+  };
+  EXPECT_FALSE(has_cleared(9.9));
+  EXPECT_TRUE(has_cleared(10.0));
 }
 
 /// Gives ten estimates a second with this mean square of the innovations in five degrees of
