@@ -37,11 +37,13 @@ double percent_nearer(const Innovations& innovations) {
 
 }  // namespace
 
-AttitudeConditions::AttitudeConditions(const AlertLimits& limits, std::optional<Orbit> orbit)
+AttitudeConditions::AttitudeConditions(const AlertLimits& limits, std::optional<Orbit> orbit,
+                                       const ThreeAxisConfig& config)
     : launcher_percent_{limits.launcher_percent},
       diverged_percent_{limits.diverged_percent},
       diverged_s_{limits.diverged_s},
-      kinds_{std::move(orbit), limits.silent_s},
+      views_{config, orbit, limits.silent_s},
+      kinds_{views_.others(), std::move(orbit), limits.silent_s},
       sensors_{limits},
       stuck_{limits.stuck_s},
       // Noise leaves the 99.9 % band in one window of a thousand, but not in two consecutive ones.
@@ -72,11 +74,23 @@ void AttitudeConditions::set_limits(const AlertLimits& limits) {
   sensors_.set_limits(limits);
   stuck_.set_limit_s(limits.stuck_s);
   kinds_.set_silent_s(limits.silent_s);
+  views_.set_silent_s(limits.silent_s);
+}
+
+ConditionChanges AttitudeConditions::evaluate(const RejectedSample& sample) {
+  views_.see_sample(sample.kind, sample.t);
+  return stuck_.see_left_out(sample);
+}
+
+ConditionChanges AttitudeConditions::evaluate(const SampleObservation& observation) {
+  views_.see_sample(kind_of(observation.said.source), observation.said.t);
+  return {};
 }
 
 ConditionChanges AttitudeConditions::evaluate(const AttitudeEstimate& estimate) {
   ConditionChanges changes = sensors_.evaluate(estimate.t, estimate.contradiction);
   std::ranges::move(stuck_.see_answer(estimate.t), std::back_inserter(changes));
+  std::ranges::move(views_.see_answer(estimate), std::back_inserter(changes));
   presence_.see_answer(estimate.t);
   add(doubtful_.update(estimate.t, estimate.assessment.quality == Quality::Doubtful), changes);
   const Quality quality = estimate.assessment.quality;

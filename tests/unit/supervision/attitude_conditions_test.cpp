@@ -222,4 +222,69 @@ TEST_F(AttitudeConditionsTest, ExpectNoSunThatTheEarthHides) {
   EXPECT_EQ(raised_by(unknown, {Gyro}, 10, 60), Keys{"channel.silent:sun"});
 }
 
+/// The Sun sensor looks along X, the tracker along Z, and the field of each is 30 deg wide.
+ThreeAxisConfig with_fields_of_view() {
+  constexpr double kHalf_rad = 0.52;
+  ThreeAxisConfig config;
+  config.sun_sensor = DigitalSunSensor{
+      .noise_rad = 0.01,
+      .view = FieldOfView{.boresight_body = Eigen::Vector3d::UnitX(), .half_angle_rad = kHalf_rad}};
+  config.star_tracker = StarTracker{
+      .q_body_sensor = Eigen::Quaterniond::Identity(),
+      .noise_rad = 1e-4,
+      .view = FieldOfView{.boresight_body = Eigen::Vector3d::UnitZ(), .half_angle_rad = kHalf_rad}};
+  return config;
+}
+
+/// Returns the keys open after a minute in which only the attitude goes on.
+/// @param towards_sun_body Direction to the Sun, body axes.
+Keys open_behind_a_minute(const std::optional<Orbit>& orbit,
+                          const Eigen::Vector3d& towards_sun_body) {
+  AttitudeConditions conditions{AlertLimits{}, orbit, with_fields_of_view()};
+  for (const SampleSource source : {SampleSource::Sun, SampleSource::Star}) {
+    conditions.evaluate(SampleObservation{.estimator = AttitudeSource::Mekf,
+                                          .said = {.t = at(0), .source = source}});
+  }
+  Keys open;
+  for (int t_s = 0; t_s <= 60; ++t_s) {
+    AttitudeEstimate one = estimate(t_s, Quality::Ok);
+    one.q_icrf_body = Eigen::Quaterniond::FromTwoVectors(towards_sun_body,
+                                                         geometric_sun_icrf_km(one.t).normalized());
+    for (const std::string& key : raised_in(conditions.evaluate(one))) {
+      open.insert(key);
+    }
+  }
+  return open;
+}
+
+TEST_F(AttitudeConditionsTest, ExpectNothingThatIsOutsideAFieldOfView) {
+  EXPECT_EQ(open_behind_a_minute({}, Eigen::Vector3d::UnitX()),
+            (Keys{"channel.silent:star", "channel.silent:sun"}));
+  EXPECT_EQ(open_behind_a_minute({}, Eigen::Vector3d::UnitY()), Keys{"channel.silent:star"});
+  EXPECT_EQ(open_behind_a_minute({}, Eigen::Vector3d::UnitZ()), Keys{});
+}
+
+TEST_F(AttitudeConditionsTest, ExpectNoStarsWhereTheEarthIs) {
+  const Eigen::Vector3d to_sun = geometric_sun_icrf_km(at(0)).normalized();
+  const auto beyond = [&](const Eigen::Vector3d& position_km) {
+    return Orbit{KeplerOrbit::through(
+                     at(0), {.position_icrf_km = position_km, .velocity_icrf_km_s = 7.5 * to_sun})
+                     .value()};
+  };
+  // The tracker looks across the Sun, where the first spacecraft has the Earth behind itself.
+  const Eigen::Vector3d boresight_icrf =
+      Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitX(), to_sun) *
+      Eigen::Vector3d::UnitZ();
+  EXPECT_EQ(open_behind_a_minute(beyond(7000.0 * boresight_icrf), Eigen::Vector3d::UnitX()),
+            (Keys{"channel.silent:star", "channel.silent:sun"}));
+  EXPECT_EQ(open_behind_a_minute(beyond(-7000.0 * boresight_icrf), Eigen::Vector3d::UnitX()),
+            Keys{"channel.silent:sun"});
+}
+
+TEST_F(AttitudeConditionsTest, LeaveASensorWithAFieldOfViewToTheAttitude) {
+  AttitudeConditions conditions{AlertLimits{}, std::nullopt, with_fields_of_view()};
+  EXPECT_EQ(raised_by(conditions, {Gyro, Sun, Star, Magnetometer}, 0, 10), Keys{});
+  EXPECT_EQ(raised_by(conditions, {Gyro}, 10, 60), Keys{"channel.silent:magnetometer"});
+}
+
 }  // namespace spindrift::attitude_conditions_test
