@@ -38,6 +38,7 @@ enum class AlertCode {
   AttitudeNoAnswer,
   AttitudeDiverged,
   SensorContradicts,  ///< Per culprit, `unknown` where nothing tells which of two it is.
+  SensorStuck,        ///< One alert for each sensor.
   ReconstructionLauncher,
   ModelDeparture,  ///< One alert for each channel.
   ArchiveBacklog,
@@ -50,17 +51,15 @@ inline constexpr int kAlertCodes = static_cast<int>(AlertCode::DataOutdated) + 1
 
 constexpr std::string_view name_of(AlertCode code) {
   constexpr std::array<std::string_view, kAlertCodes> kNames = {
-      "link.silent",       "link.late",          "link.ahead",
-      "link.gap",          "link.rejected",      "link.repeated",
-      "link.restarted",    "link.contradiction", "service.twice",
-      "channel.silent",    "spin.interference",  "spin.period",
-      "spin.rejection",    "spin.ambiguous",     "spin.doubtful",
-      "spin.sigma",        "spin.disagree",      "spin.off_target",
-      "spin.nutation",     "spin.rate",          "spin.no_answer",
-      "attitude.lost",     "attitude.doubtful",  "attitude.no_answer",
-      "attitude.diverged", "sensor.contradicts", "reconstruction.launcher",
-      "model.departure",   "archive.backlog",    "archive.write",
-      "archive.disk",      "clock.jump",         "data.outdated"};
+      "link.silent",       "link.late",          "link.ahead",        "link.gap",
+      "link.rejected",     "link.repeated",      "link.restarted",    "link.contradiction",
+      "service.twice",     "channel.silent",     "spin.interference", "spin.period",
+      "spin.rejection",    "spin.ambiguous",     "spin.doubtful",     "spin.sigma",
+      "spin.disagree",     "spin.off_target",    "spin.nutation",     "spin.rate",
+      "spin.no_answer",    "attitude.lost",      "attitude.doubtful", "attitude.no_answer",
+      "attitude.diverged", "sensor.contradicts", "sensor.stuck",      "reconstruction.launcher",
+      "model.departure",   "archive.backlog",    "archive.write",     "archive.disk",
+      "clock.jump",        "data.outdated"};
   return kNames.at(static_cast<std::size_t>(code));
 }
 
@@ -95,6 +94,7 @@ constexpr bool bears_on_answer(AlertCode code) {
   switch (code) {
     case AlertCode::ServiceTwice:
     case AlertCode::ChannelSilent:
+    case AlertCode::SensorStuck:
     case AlertCode::SpinInterference:
     case AlertCode::SpinOffTarget:
     case AlertCode::SpinNutation:

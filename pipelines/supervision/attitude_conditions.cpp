@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdint>
+#include <iterator>
 #include <optional>
 #include <utility>
 #include <variant>
@@ -36,17 +37,19 @@ double percent_nearer(const Innovations& innovations) {
 
 }  // namespace
 
-AttitudeConditions::AttitudeConditions(const AlertLimits& limits, std::optional<Orbit> orbit)
+AttitudeConditions::AttitudeConditions(const AlertLimits& limits, std::optional<Orbit> orbit,
+                                       const ThreeAxisConfig& config)
     : launcher_percent_{limits.launcher_percent},
       diverged_percent_{limits.diverged_percent},
       diverged_s_{limits.diverged_s},
-      kinds_{std::move(orbit), limits.silent_s},
+      views_{config, orbit, limits.silent_s},
+      kinds_{views_.others(), std::move(orbit), limits.silent_s},
       sensors_{limits},
+      stuck_{limits.stuck_s},
       // Noise leaves the 99.9 % band in one window of a thousand, but not in two consecutive ones.
       diverged_{AlertCode::AttitudeDiverged,
                 "% of chi-square",
                 {.raise_s = limits.diverged_s, .clear_s = limits.diverged_s}},
-      lost_{AlertCode::AttitudeLost, "s"},
       doubtful_{AlertCode::AttitudeDoubtful,
                 "s",
                 {.raise_s = limits.attitude_doubtful_s, .clear_s = limits.attitude_doubtful_s}},
@@ -69,19 +72,33 @@ void AttitudeConditions::set_limits(const AlertLimits& limits) {
   doubtful_.hold({.raise_s = limits.attitude_doubtful_s, .clear_s = limits.attitude_doubtful_s});
   presence_.set_limit_s(limits.attitude_no_answer_s);
   sensors_.set_limits(limits);
+  stuck_.set_limit_s(limits.stuck_s);
   kinds_.set_silent_s(limits.silent_s);
+  views_.set_silent_s(limits.silent_s);
+}
+
+ConditionChanges AttitudeConditions::evaluate(const RejectedSample& sample) {
+  views_.see_sample(sample.kind, sample.t);
+  return stuck_.see_left_out(sample);
+}
+
+ConditionChanges AttitudeConditions::evaluate(const SampleObservation& observation) {
+  views_.see_sample(kind_of(observation.said.source), observation.said.t);
+  return {};
 }
 
 ConditionChanges AttitudeConditions::evaluate(const AttitudeEstimate& estimate) {
   ConditionChanges changes = sensors_.evaluate(estimate.t, estimate.contradiction);
+  std::ranges::move(stuck_.see_answer(estimate.t), std::back_inserter(changes));
+  std::ranges::move(views_.see_answer(estimate), std::back_inserter(changes));
   presence_.see_answer(estimate.t);
   add(doubtful_.update(estimate.t, estimate.assessment.quality == Quality::Doubtful), changes);
-  add(lost_.update(estimate.t,
-                   estimate.assessment.quality == Quality::Lost || begins_anew(estimate)),
+  const Quality quality = estimate.assessment.quality;
+  add(lost_.update(estimate.t, quality == Quality::Lost || begins_anew(estimate), quality),
       changes);
   add(see_innovations(estimate), changes);
   last_ = estimate.t;
-  quality_ = estimate.assessment.quality;
+  quality_ = quality;
   return changes;
 }
 
@@ -92,7 +109,7 @@ ConditionChanges AttitudeConditions::settle() {
     doubtful_.end();
     // Behind all that was judged, since a change at the time of another would be taken for known.
     const TaiTime t = *last_ + std::chrono::nanoseconds{1};
-    add(lost_.update(t, quality_ == Quality::Lost), changes);
+    add(lost_.update(t, quality_ == Quality::Lost, quality_), changes);
     add(doubtful_.update(t, quality_ == Quality::Doubtful), changes);
   }
   return changes;

@@ -12,7 +12,10 @@
 #include "pipelines/supervision/condition_watch.h"
 #include "pipelines/supervision/kind_presence.h"
 #include "pipelines/supervision/limits.h"
+#include "pipelines/supervision/lost_watch.h"
 #include "pipelines/supervision/sensor_conditions.h"
+#include "pipelines/supervision/stuck_sensors.h"
+#include "pipelines/supervision/view_presence.h"
 #include "pipelines/three_axis/products.h"
 
 namespace spindrift {
@@ -20,7 +23,9 @@ namespace spindrift {
 class AttitudeConditions {
  public:
   /// @param orbit Orbit for the prediction of eclipses; empty if unknown.
-  AttitudeConditions(const AlertLimits& limits, std::optional<Orbit> orbit);
+  /// @param config Sensors, of which the fields of view count.
+  AttitudeConditions(const AlertLimits& limits, std::optional<Orbit> orbit,
+                     const ThreeAxisConfig& config = {});
 
   /// Sets the limits of what is evaluated from now on.
   void set_limits(const AlertLimits& limits);
@@ -31,6 +36,8 @@ class AttitudeConditions {
   /// @param samples Times of star fixes and magnetometer samples, of which an attitude can be made.
   ConditionChanges await_answer(std::vector<TaiTime> samples);
   ConditionChanges evaluate(const AttitudeEstimate& estimate);
+  ConditionChanges evaluate(const RejectedSample& sample);
+  ConditionChanges evaluate(const SampleObservation& observation);
   ConditionChanges evaluate(const ReconstructedSeparation& separation);
 
   /// Settles the conditions of the answer by the last one, without hold. To be called once, when
@@ -43,8 +50,10 @@ class AttitudeConditions {
   double launcher_percent_;
   double diverged_percent_;
   double diverged_s_;
-  KindPresence kinds_;
+  ViewPresence views_;  ///< What a sensor with a field of view should see.
+  KindPresence kinds_;  ///< All other sensors.
   SensorConditions sensors_;
+  StuckSensors stuck_;
   struct Recent {
     TaiTime t;
     Innovations innovations;
@@ -52,7 +61,7 @@ class AttitudeConditions {
   std::deque<Recent> recent_;      ///< Estimates of the last `diverged_s_` seconds.
   std::optional<TaiTime> judged_;  ///< Time of the last test of `recent_`.
   ConditionWatch diverged_;
-  ConditionWatch lost_;
+  LostWatch lost_;
   ConditionWatch doubtful_;
   AnswerPresence presence_;
   std::vector<TaiTime> awaited_;           ///< Samples whose answers may not have come yet.

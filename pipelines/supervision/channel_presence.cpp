@@ -6,16 +6,13 @@
 #include <utility>
 
 #include "pipelines/ephemeris/sun.h"
-#include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
 #include "pipelines/spin/sensor_model/geometry.h"
 #include "pipelines/spin/types/side.h"
+#include "pipelines/supervision/view_margin.h"
 
 namespace spindrift {
 namespace {
-
-constexpr double kToSpare_rad = 1.0 * kRadPerDeg;
-constexpr double kSigmasToSpare = 3.0;
 
 /// Returns the other slit, or the other end of the chord.
 PulseChannel partner_of(PulseChannel channel) {
@@ -112,7 +109,7 @@ bool ChannelPresence::is_in_view(PulseChannel channel, TaiTime t, const AxisSeen
   if (!disc_rad) {
     return false;
   }
-  const double to_spare_rad = kToSpare_rad + kSigmasToSpare * axis.sigma_rad;
+  const double to_spare_rad = view_margin_rad(axis.sigma_rad);
   if (sees_the_sun(channel)) {
     const Eigen::Vector3d sun_icrf = geometric_sun_icrf_km(t).normalized();
     return angle_between_rad(sun_icrf, earth_icrf) > *disc_rad + to_spare_rad &&

@@ -14,10 +14,10 @@ constexpr std::size_t kAnyKind = 0;
 
 }  // namespace
 
-KindPresence::KindPresence(std::optional<Orbit> orbit, double silent_s)
+KindPresence::KindPresence(const std::vector<SampleKind>& kinds, std::optional<Orbit> orbit,
+                           double silent_s)
     : orbit_{std::move(orbit)}, silent_s_{silent_s} {
-  for (const SampleKind kind :
-       {SampleKind::Gyro, SampleKind::Star, SampleKind::Sun, SampleKind::Magnetometer}) {
+  for (const SampleKind kind : kinds) {
     channels_.push_back(
         {.kind = kind,
          .watch = ConditionWatch{AlertCode::ChannelSilent, "s", {}, std::string{name_of(kind)}}});

@@ -19,7 +19,8 @@ namespace spindrift {
 /// eclipsed Sun.
 class KindPresence {
  public:
-  KindPresence(std::optional<Orbit> orbit, double silent_s);
+  /// @param kinds Kinds to watch; all others only tell how late it is.
+  KindPresence(const std::vector<SampleKind>& kinds, std::optional<Orbit> orbit, double silent_s);
 
   void set_silent_s(double silent_s) { silent_s_ = silent_s; }
 

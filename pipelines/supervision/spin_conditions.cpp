@@ -55,7 +55,6 @@ SpinConditions::SpinConditions(const SpinConfig& config, Orbit orbit, const Aler
       off_target_{AlertCode::SpinOffTarget, "deg", kSeveralAnswers},
       nutation_{AlertCode::SpinNutation, "deg"},
       rate_{AlertCode::SpinRate, "rpm", kSeveralAnswers},
-      lost_{AlertCode::AttitudeLost, "s"},
       presence_{AlertCode::SpinNoAnswer, limits.spin_no_answer_s},
       answers_{limits.disagree_sigmas} {}
 
@@ -171,7 +170,7 @@ void SpinConditions::evaluate_in_force(TaiTime t, const SpinAnswer& answer,
   }
   add(ambiguous_.update(t, answer.quality == Quality::Ambiguous), changes);
   add(doubtful_.update(t, answer.quality == Quality::Doubtful), changes);
-  add(lost_.update(t, answer.quality == Quality::Lost), changes);
+  add(lost_.update(t, answer.quality == Quality::Lost, answer.quality), changes);
   if (first_ && seconds_between(*first_, t) >= limits_.sigma_after_s) {
     add(sigma_.update(t, {.value = sigma_deg_of(answer.estimate), .limit = limits_.sigma_deg}),
         changes);
@@ -214,9 +213,10 @@ ConditionChanges SpinConditions::settle() {
     return changes;
   }
   for (ConditionWatch* const watch :
-       {&ambiguous_, &doubtful_, &lost_, &sigma_, &off_target_, &rate_, &disagree_}) {
+       {&ambiguous_, &doubtful_, &sigma_, &off_target_, &rate_, &disagree_}) {
     watch->end();
   }
+  lost_.end();
   // Behind all that was judged, since a change at the time of another would be taken for known.
   const TaiTime t = std::max(answer->t, judged_.value_or(answer->t)) + std::chrono::nanoseconds{1};
   evaluate_in_force(t, *answer, changes);

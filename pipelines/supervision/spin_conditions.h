@@ -21,6 +21,7 @@
 #include "pipelines/supervision/channel_presence.h"
 #include "pipelines/supervision/condition_watch.h"
 #include "pipelines/supervision/limits.h"
+#include "pipelines/supervision/lost_watch.h"
 #include "pipelines/supervision/sensor_conditions.h"
 
 namespace spindrift {
@@ -87,7 +88,7 @@ class SpinConditions {
   ConditionWatch off_target_;
   ConditionWatch nutation_;
   ConditionWatch rate_;
-  ConditionWatch lost_;
+  LostWatch lost_;
   AnswerPresence presence_;
   std::map<std::int64_t, TaiTime> t_sun1_;  ///< Sun pulse of revolutions without a period yet.
   std::optional<TaiTime> first_;            ///< First estimate since start or manoeuvre.

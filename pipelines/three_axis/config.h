@@ -18,13 +18,21 @@ struct GyroSensor {
   std::optional<double> range_rad_s;  ///< Rate beyond which the gyro saturates.
 };
 
+/// A cone about a boresight; only its silence depends on it.
+struct FieldOfView {
+  Eigen::Vector3d boresight_body;  ///< Unit vector.
+  double half_angle_rad;
+};
+
 struct DigitalSunSensor {
   double noise_rad;
+  std::optional<FieldOfView> view = {};  ///< Where it sees the Sun; empty: all round.
 };
 
 struct StarTracker {
   Eigen::Quaterniond q_body_sensor;  ///< Rotation v_body = q v_sensor q*; unit quaternion.
   double noise_rad;
+  std::optional<FieldOfView> view = {};  ///< Where neither Sun nor Earth may stand.
 };
 
 struct Magnetometer {

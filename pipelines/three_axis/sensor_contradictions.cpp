@@ -332,9 +332,9 @@ bool SensorContradictions::is_vouched_for(SampleKind kind, const Pair& accused, 
     if (!pair.has(kind) || pair.has(accused.other(kind)) || (pair.has(kGyro) && !by_rate)) {
       return false;
     }
-    const double rate_to_turn = by_rate && !pair.has(kGyro) ? SensorPair::kRecent_s : 1.0;
+    const double rate_to_turn = by_rate && !pair.has(kGyro) ? accused.test.lasting_s() : 1.0;
     const double expected =
-        pair.test.sigmas_if(rate_to_turn * accused.test.mean_turn_rad(),
+        pair.test.sigmas_if(rate_to_turn * accused.test.lasting_turn_rad(),
                             accused.test.weight(prior_) / squared(rate_to_turn), prior_);
     return expected >= kVouched && pair.test.sigmas() <= kVouchedShare * expected;
   });

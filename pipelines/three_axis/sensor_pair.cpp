@@ -18,6 +18,10 @@ constexpr int kFewestComparisons = 4;
 // A contradiction is over when so many comparisons in a row have been nearer than this, in sigma.
 constexpr int kEndsAfter = 5;
 constexpr double kNear = 1.0;
+// A comparison so far off by itself, in sigma, is no noise.
+constexpr double kCertain = 20.0;
+// Comparisons go on showing the same turn if they are within this share of it.
+constexpr double kSteady = 0.15;
 constexpr double kLongestSilence_s = 60.0;
 // Chi-square with one more degree of freedom exceeds 5 sigma as rarely if it is larger by this.
 constexpr double kSquarePerFreedom = 3.4;
@@ -56,6 +60,7 @@ void SensorPair::add(TaiTime t, const PairComparison& compared, const PairPrior&
   const double alone = sigmas_alone(compared, prior);
   least_in_a_row_ = far_in_a_row_ == 0 ? alone : std::min(least_in_a_row_, alone);
   far_in_a_row_ = alone >= kContradicts ? far_in_a_row_ + 1 : 0;
+  see_steady(t, compared.turn_rad, alone);
   near_in_a_row_ = alone < kNear ? near_in_a_row_ + 1 : 0;
   if (contradicted_ && near_in_a_row_ >= kEndsAfter) {
     *this = {};
@@ -70,6 +75,24 @@ void SensorPair::add(TaiTime t, const PairComparison& compared, const PairPrior&
     contradicted_ = t;
   }
 }
+
+void SensorPair::see_steady(TaiTime t, const Vector3d& turn_rad, double alone) {
+  const Vector3d change_rad = turn_rad - steady_turn_rad_;
+  const bool goes_on = change_rad.norm() <= kSteady * steady_turn_rad_.norm();
+  steady_ = alone < kCertain ? 0 : goes_on ? steady_ + 1 : 1;
+  steady_turn_rad_ = steady_ > 1 ? steady_turn_rad_ + change_rad / steady_ : turn_rad;
+  steady_since_ = steady_ > 1 ? steady_since_ : t;
+}
+
+Vector3d SensorPair::lasting_turn_rad() const {
+  return is_steady() ? steady_turn_rad_ : mean_turn_rad();
+}
+
+double SensorPair::lasting_s() const {
+  return is_steady() ? std::min(elapsed_s(steady_since_, *last_), kRecent_s) : kRecent_s;
+}
+
+bool SensorPair::is_steady() const { return steady_ >= kFewestComparisons; }
 
 void SensorPair::forget(TaiTime t) {
   const double passed_s = last_ ? elapsed_s(*last_, t) : 0.0;

@@ -59,8 +59,11 @@ class SensorPair {
   bool agrees(TaiTime now) const { return is_tested(now) && sigmas_ <= kAgrees; }
   /// Returns the difference, least about axes that the pair does not measure.
   const Eigen::Vector3d& turn_rad() const { return turn_rad_; }
-  /// Returns the mean difference, which is less where it changes its sign.
-  Eigen::Vector3d mean_turn_rad() const;
+  /// Returns the mean difference, which is less where it changes its sign: of the last comparisons
+  /// if these show the same beyond doubt, else of all.
+  Eigen::Vector3d lasting_turn_rad() const;
+  /// Returns for how long the comparisons have shown that difference.
+  double lasting_s() const;
   /// Returns the inverse of the total covariance of the mean difference, 1/rad^2.
   Eigen::Matrix3d weight(const PairPrior& prior) const;
   /// Returns how many sigma this pair would be off if its sensor were turned by what another pair
@@ -71,6 +74,9 @@ class SensorPair {
 
  private:
   void forget(TaiTime t);
+  void see_steady(TaiTime t, const Eigen::Vector3d& turn_rad, double alone);
+  bool is_steady() const;
+  Eigen::Vector3d mean_turn_rad() const;
   double sigmas_alone(const PairComparison& compared, const PairPrior& prior) const;
   void judge(const PairPrior& prior);
   Eigen::Matrix3d noise_covariance() const;
@@ -90,6 +96,9 @@ class SensorPair {
   int far_in_a_row_ = 0;         ///< Number of last comparisons each far off by itself.
   int near_in_a_row_ = 0;        ///< Number of last comparisons that agree.
   double least_in_a_row_ = 0.0;  ///< The least of those far off, sigma.
+  int steady_ = 0;  ///< Number of last comparisons that show the same turn beyond doubt.
+  TaiTime steady_since_ = {};
+  Eigen::Vector3d steady_turn_rad_ = Eigen::Vector3d::Zero();  ///< Mean of these.
   double sigmas_ = 0.0;
   Eigen::Vector3d turn_rad_ = Eigen::Vector3d::Zero();
   std::optional<TaiTime> contradicted_;  ///< Last time of a contradiction.

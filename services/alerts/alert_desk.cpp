@@ -144,7 +144,7 @@ AlertDesk::Conditions AlertDesk::conditions_of(const Mission& mission) {
   if (const SpinConfig* const spin = mission.spin()) {
     return SpinConditions{*spin, *mission.orbit, mission.alerts, mission.target};
   }
-  return AttitudeConditions{mission.alerts, mission.orbit};
+  return AttitudeConditions{mission.alerts, mission.orbit, *mission.three_axis()};
 }
 
 /// Resets the conditions for a new run.

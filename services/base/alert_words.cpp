@@ -72,6 +72,8 @@ constexpr std::array<Words, kAlertCodes> kWords{{
      "check noise, mounting and bias of the sensors in the mission file"},
     {SensorContradicts, "a sensor contradicts others beyond what the mission file allows",
      "check its mounting, signs, units and time tags in the mission file, or exclude it"},
+    {SensorStuck, "a sensor repeats the same numbers, so that its samples are left out",
+     "look at the sensor and at who sends it"},
     {ReconstructionLauncher, "attitude at separation away from the launcher's",
      "check [reconstruction.launcher] and the mounting of star tracker and sun sensor"},
     {ModelDeparture, "flight away from the ground model",

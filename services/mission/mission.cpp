@@ -79,6 +79,7 @@ Expected<Mission> parse(const std::filesystem::path& path, std::string text,
   auto separation = separation_plan(*document);
   const auto contact = planned_contact(*document);
   check_calibration(*document, *schema, kind_of(values));
+  check_fields_of_view(*document);
   if (auto sound = soundness(*document); !sound) {
     return Unexpected{std::move(sound.error())};
   }

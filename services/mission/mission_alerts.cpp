@@ -71,6 +71,7 @@ AlertLimits alert_limits(const TomlValues& values) {
       .diverged_percent = number(values, "alerts.attitude.diverged.percent"),
       .diverged_s = number(values, "alerts.attitude.diverged.seconds"),
       .contradicts_sigmas = number(values, "alerts.sensor.contradicts.sigmas"),
+      .stuck_s = number(values, "alerts.sensor.stuck.seconds"),
       .launcher_percent = number(values, "alerts.reconstruction.launcher.percent"),
       .departure_sigmas = number(values, "alerts.model.departure.sigmas"),
       .backlog_s = number(values, "alerts.archive.backlog.seconds"),

@@ -1,6 +1,9 @@
 #include "services/mission/mission_three_axis.h"
 
+#include <fmt/format.h>
+
 #include <cmath>
+#include <string>
 #include <vector>
 
 #include "services/mission/mission_alignment.h"
@@ -18,9 +21,22 @@ std::optional<GyroSensor> gyro(const TomlValues& values) {
                     .range_rad_s = radians_if(values, "three_axis.gyro.range_deg_s")};
 }
 
+std::optional<FieldOfView> field_of_view(const TomlValues& values, const std::string& sensor) {
+  const auto boresight = value_if<std::vector<double>>(values, sensor + ".boresight_body");
+  const auto half_angle_rad = radians_if(values, sensor + ".fov_deg");
+  if (!boresight || !half_angle_rad) {
+    return std::nullopt;
+  }
+  return FieldOfView{.boresight_body = Eigen::Vector3d{boresight->data()}.normalized(),
+                     .half_angle_rad = *half_angle_rad};
+}
+
 std::optional<DigitalSunSensor> sun_sensor(const TomlValues& values) {
   const auto noise_rad = radians_if(values, "three_axis.sun_sensor.noise_deg");
-  return noise_rad ? std::optional{DigitalSunSensor{.noise_rad = *noise_rad}} : std::nullopt;
+  return noise_rad
+             ? std::optional{DigitalSunSensor{
+                   .noise_rad = *noise_rad, .view = field_of_view(values, "three_axis.sun_sensor")}}
+             : std::nullopt;
 }
 
 std::optional<StarTracker> star_tracker(const TomlValues& values) {
@@ -31,7 +47,8 @@ std::optional<StarTracker> star_tracker(const TomlValues& values) {
   const Eigen::Quaterniond q_body_sensor{q->at(3), q->at(0), q->at(1), q->at(2)};
   return StarTracker{
       .q_body_sensor = q_body_sensor.normalized(),
-      .noise_rad = radians(values, "three_axis.star_tracker.noise_arcsec") / kArcsecPerDeg};
+      .noise_rad = radians(values, "three_axis.star_tracker.noise_arcsec") / kArcsecPerDeg,
+      .view = field_of_view(values, "three_axis.star_tracker")};
 }
 
 std::optional<Magnetometer> magnetometer(const TomlValues& values) {
@@ -50,6 +67,23 @@ std::optional<Inertia> inertia(const TomlValues& values, const AttitudeAlignment
 }
 
 }  // namespace
+
+void check_fields_of_view(TomlDocument& document) {
+  for (const std::string sensor : {"three_axis.sun_sensor", "three_axis.star_tracker"}) {
+    const std::string boresight = sensor + ".boresight_body";
+    const std::string half_angle = sensor + ".fov_deg";
+    const auto vector = value_if<std::vector<double>>(document.values, boresight);
+    if (vector.has_value() != document.values.contains(half_angle)) {
+      const std::string& there = vector ? boresight : half_angle;
+      add_problem(document, there,
+                  fmt::format("{} without {}: a field of view has both", there,
+                              vector ? half_angle : boresight));
+    } else if (vector && Eigen::Vector3d{vector->data()}.norm() == 0.0) {
+      add_problem(document, boresight,
+                  fmt::format("{} = [0, 0, 0]: must have a direction", boresight));
+    }
+  }
+}
 
 ThreeAxisConfig three_axis_config(const TomlValues& values) {
   const AttitudeAlignment alignment = three_axis_alignment(values);

@@ -20,6 +20,7 @@
 #include "services/ingest/sequence_tracker.h"
 #include "services/processor/processor.h"
 #include "services/serving/session_watch.h"
+#include "services/simulation/ground_model.h"
 #include "services/simulation/pass_files.h"
 #include "services/simulation/scenario.h"
 #include "services/simulation/simulated_pass.h"
@@ -77,10 +78,13 @@ inline Flight flown(const std::string& scenario_text, const std::string& more_of
   return flight;
 }
 
-/// Holds severity and time of the first alert under a key.
+/// Holds what became of the alerts under a key.
 struct Raised {
-  AlertSeverity severity;
+  AlertSeverity severity;  ///< Severity of the first alert, as is `t`.
   TaiTime t;
+  std::set<std::string> ids = {};       ///< Occurrences.
+  std::int64_t begun = 0;               ///< How often the condition has begun.
+  std::optional<TaiTime> cleared = {};  ///< Empty while an alert is open.
 };
 using RaisedByKey = std::map<std::string, Raised>;
 
@@ -89,7 +93,7 @@ class SupervisedPass {
   SupervisedPass(const Mission& mission, RunMode mode)
       : id_{mission.spacecraft_id},
         processor_{Processor::make({mission}, {.mode = mode, .telemetry = {"simulated"}}).value()},
-        desk_{{mission}, mode} {
+        desk_{{mission}, mode, load_ground_models({&mission, 1}).value()} {
     see(processor_.begin());
   }
 
@@ -119,13 +123,15 @@ class SupervisedPass {
 
   /// Called with each answer in force when supervision has seen it.
   std::function<void(const SpinAnswer&)> on_answer = [](const SpinAnswer& /*answer*/) {};
+  /// Called with each state of the service before supervision sees it, and the seconds since start.
+  std::function<void(ServiceState&, double)> on_state = [](ServiceState& /*state*/, double /*t*/) {
+  };
 
-  /// Processes the samples in steps of one second, like `serve`, and some seconds beyond their end.
-  RaisedByKey serve(const std::vector<Sent>& sent) {
-    constexpr int kLonger_s = 15;
+  /// Processes the samples in steps of one second, like `serve`, and so long beyond their end.
+  RaisedByKey serve(const std::vector<Sent>& sent, int longer_s = 15) {
     const TaiTime start = sent.front().came;
     auto next = sent.begin();
-    for (int second = 1; next != sent.end() || second <= end_s_ + kLonger_s; ++second) {
+    for (int second = 1; next != sent.end() || second <= end_s_ + longer_s; ++second) {
       const TaiTime now = shifted(start, second);
       SampleBatch batch;
       for (std::int64_t place = 0; next != sent.end() && next->came < now; ++next) {
@@ -134,7 +140,7 @@ class SupervisedPass {
         end_s_ = second;
       }
       take(std::move(batch), now, second);
-      supervise(now);
+      supervise(now, second);
     }
     return raised_;
   }
@@ -179,7 +185,7 @@ class SupervisedPass {
     }
   }
 
-  void supervise(TaiTime now) {
+  void supervise(TaiTime now, int second) {
     ServiceState state{.t = now,
                        .pass_t = now,
                        .silent_s = seconds_between(last_came_, now),
@@ -188,6 +194,7 @@ class SupervisedPass {
     for (const auto& [source, missing] : gaps_.beat(tracker_.by_source())) {
       state.sources[source].missing = static_cast<std::int64_t>(missing);
     }
+    on_state(state, second);
     for (const ArchiveBatch& batch : desk_.evaluate({{id_, state}}, now)) {
       note_alerts(batch);
     }
@@ -209,9 +216,15 @@ class SupervisedPass {
   void note_alerts(const ArchiveBatch& batch) {
     for (const Product& product : batch.products) {
       const auto* const alert = std::get_if<Alert>(&product);
-      if (alert != nullptr && !alert->from) {
-        raised_.try_emplace(alert->key, Raised{.severity = alert->severity, .t = alert->raised});
+      if (alert == nullptr) {
+        continue;
       }
+      Raised& raised =
+          raised_.try_emplace(alert->key, Raised{.severity = alert->severity, .t = alert->raised})
+              .first->second;
+      raised.ids.insert(alert->alert_id);
+      raised.begun = alert->count;
+      raised.cleared = alert->cleared;
     }
   }
 

@@ -55,6 +55,34 @@ noise_arcsec = 20
           "mission.toml: [spin.noise]: missing: standard deviation of the time of an edge"));
 }
 
+TEST(MissionRefusals, TakeAFieldOfViewWholeOrNotAtAll) {
+  const auto problems = [](const std::string& of_sun, const std::string& of_star) {
+    return problems_of(fmt::format(R"([spacecraft]
+id = "T"
+kind = "three_axis"
+[three_axis.gyro]
+noise_deg_s = 0.002
+bias_sigma_deg_s = 0.01
+[three_axis.sun_sensor]
+noise_deg = 0.5
+{}
+[three_axis.star_tracker]
+q_body_sensor = [0.0, 0.0, 0.0, 1.0]
+noise_arcsec = 20
+{}
+)",
+                                   of_sun, of_star));
+  };
+  EXPECT_THAT(problems("boresight_body = [1.0, 0, 0]", "fov_deg = 20"),
+              ElementsAre("mission.toml:9: three_axis.sun_sensor.boresight_body without "
+                          "three_axis.sun_sensor.fov_deg: a field of view has both",
+                          "mission.toml:13: three_axis.star_tracker.fov_deg without "
+                          "three_axis.star_tracker.boresight_body: a field of view has both"));
+  EXPECT_THAT(problems("", "boresight_body = [0, 0, 0]\nfov_deg = 20"),
+              ElementsAre("mission.toml:13: three_axis.star_tracker.boresight_body = [0, 0, 0]: "
+                          "must have a direction"));
+}
+
 struct Range {
   const char* path;
   std::vector<const char*> good;

@@ -29,20 +29,37 @@ class AttitudeConditionsTest : public ::testing::Test {
   AttitudeConditions conditions_{AlertLimits{}, std::nullopt};
 };
 
-TEST_F(AttitudeConditionsTest, RaiseThatTheAttitudeIsLostAndClearItWhenItIsBack) {
-  EXPECT_THAT(conditions_.evaluate(estimate(0.0, Quality::Ok)), only(Change::Cleared));
-  const auto lost = conditions_.evaluate(estimate(1.0, Quality::Lost));
-  ASSERT_THAT(lost, only(Change::Raised));
-  EXPECT_EQ(lost.front().code, AlertCode::AttitudeLost);
-  EXPECT_THAT(conditions_.evaluate(estimate(2.0, Quality::Converging)), only(Change::Cleared));
+/// Returns the changes of attitude.lost among the changes of an estimate.
+ConditionChanges lost_by(AttitudeConditions& conditions, const AttitudeEstimate& estimate) {
+  ConditionChanges changes = conditions.evaluate(estimate);
+  std::erase_if(changes, [](const auto& one) { return one.code != AlertCode::AttitudeLost; });
+  return changes;
+}
+
+TEST_F(AttitudeConditionsTest, ClearALostAttitudeWhenItHasBeenOkForTenSeconds) {
+  EXPECT_THAT(lost_by(conditions_, estimate(0.0, Quality::Ok)), IsEmpty());
+  EXPECT_THAT(lost_by(conditions_, estimate(10.0, Quality::Ok)), only(Change::Cleared));
+  EXPECT_THAT(lost_by(conditions_, estimate(11.0, Quality::Lost)), only(Change::Raised));
+  for (const Quality quality : {Quality::Converging, Quality::Doubtful}) {
+    for (double t_s = 12.0; t_s < 40.0; t_s += 1.0) {
+      EXPECT_THAT(lost_by(conditions_, estimate(t_s, quality)), IsEmpty());
+    }
+  }
+  EXPECT_THAT(lost_by(conditions_, estimate(40.0, Quality::Ok)), IsEmpty());
+  EXPECT_THAT(lost_by(conditions_, estimate(49.0, Quality::Doubtful)), IsEmpty());
+  EXPECT_THAT(lost_by(conditions_, estimate(50.0, Quality::Ok)), IsEmpty());
+  EXPECT_THAT(lost_by(conditions_, estimate(59.9, Quality::Ok)), IsEmpty());
+  EXPECT_THAT(lost_by(conditions_, estimate(60.0, Quality::Ok)), only(Change::Cleared));
 }
 
 TEST_F(AttitudeConditionsTest, RaiseThatStarFixesOverruleTheAttitude) {
   AttitudeEstimate anew = estimate(1.0, Quality::Converging);
   anew.assessment.reasons = {{ReasonCode::Since, {{"since_tai_ns", tai_ns(anew.t)}}}};
-  ASSERT_EQ(conditions_.evaluate(anew).size(), 1U);
+  ASSERT_THAT(lost_by(conditions_, anew), only(Change::Raised));
   anew.t += std::chrono::seconds{1};
-  EXPECT_THAT(conditions_.evaluate(anew), only(Change::Cleared));
+  EXPECT_THAT(lost_by(conditions_, anew), IsEmpty());
+  EXPECT_THAT(lost_by(conditions_, estimate(3.0, Quality::Ok)), IsEmpty());
+  EXPECT_THAT(lost_by(conditions_, estimate(13.0, Quality::Ok)), only(Change::Cleared));
 }
 
 /// Returns the keys raised among the changes.
@@ -87,6 +104,27 @@ TEST_F(AttitudeConditionsTest, RaiseThatNoAnswerComesOfFixes) {
     answered.evaluate(estimate(t_s, Quality::Ok));
   }
   EXPECT_THAT(raised_in(answered.settle()), IsEmpty());
+}
+
+RejectedSample left_out(double t_s, Rejection why) {
+  return {.t = at(t_s), .kind = SampleKind::Star, .rejected_by = why};
+}
+
+TEST_F(AttitudeConditionsTest, RaiseASensorThatRepeatsItself) {
+  for (double t_s = 0.0; t_s < 5.0; t_s += 1.0) {
+    EXPECT_THAT(raised_in(conditions_.evaluate(left_out(t_s, Rejection::Frozen))), IsEmpty());
+    EXPECT_THAT(conditions_.evaluate(left_out(t_s, Rejection::Innovation)), IsEmpty());
+  }
+  EXPECT_EQ(raised_in(conditions_.evaluate(left_out(5.0, Rejection::Frozen))),
+            std::set<std::string>{"sensor.stuck:star"});
+  const auto has_cleared = [this](double t_s) {
+    const ConditionChanges changes = conditions_.evaluate(estimate(t_s, Quality::Ok));
+    return std::any_of(changes.begin(), changes.end(), [](const ConditionChange& one) {
+      return one.code == AlertCode::SensorStuck && one.change == Change::Cleared;
+    });
+  };
+  EXPECT_FALSE(has_cleared(9.9));
+  EXPECT_TRUE(has_cleared(10.0));
 }
 
 /// Gives ten estimates a second with this mean square of the innovations in five degrees of
@@ -182,6 +220,71 @@ TEST_F(AttitudeConditionsTest, ExpectNoSunThatTheEarthHides) {
   AttitudeConditions unknown{AlertLimits{}, std::nullopt};
   EXPECT_EQ(raised_by(unknown, {Gyro, Sun}, 0, 10), Keys{});
   EXPECT_EQ(raised_by(unknown, {Gyro}, 10, 60), Keys{"channel.silent:sun"});
+}
+
+/// The Sun sensor looks along X, the tracker along Z, and the field of each is 30 deg wide.
+ThreeAxisConfig with_fields_of_view() {
+  constexpr double kHalf_rad = 0.52;
+  ThreeAxisConfig config;
+  config.sun_sensor = DigitalSunSensor{
+      .noise_rad = 0.01,
+      .view = FieldOfView{.boresight_body = Eigen::Vector3d::UnitX(), .half_angle_rad = kHalf_rad}};
+  config.star_tracker = StarTracker{
+      .q_body_sensor = Eigen::Quaterniond::Identity(),
+      .noise_rad = 1e-4,
+      .view = FieldOfView{.boresight_body = Eigen::Vector3d::UnitZ(), .half_angle_rad = kHalf_rad}};
+  return config;
+}
+
+/// Returns the keys open after a minute in which only the attitude goes on.
+/// @param towards_sun_body Direction to the Sun, body axes.
+Keys open_behind_a_minute(const std::optional<Orbit>& orbit,
+                          const Eigen::Vector3d& towards_sun_body) {
+  AttitudeConditions conditions{AlertLimits{}, orbit, with_fields_of_view()};
+  for (const SampleSource source : {SampleSource::Sun, SampleSource::Star}) {
+    conditions.evaluate(SampleObservation{.estimator = AttitudeSource::Mekf,
+                                          .said = {.t = at(0), .source = source}});
+  }
+  Keys open;
+  for (int t_s = 0; t_s <= 60; ++t_s) {
+    AttitudeEstimate one = estimate(t_s, Quality::Ok);
+    one.q_icrf_body = Eigen::Quaterniond::FromTwoVectors(towards_sun_body,
+                                                         geometric_sun_icrf_km(one.t).normalized());
+    for (const std::string& key : raised_in(conditions.evaluate(one))) {
+      open.insert(key);
+    }
+  }
+  return open;
+}
+
+TEST_F(AttitudeConditionsTest, ExpectNothingThatIsOutsideAFieldOfView) {
+  EXPECT_EQ(open_behind_a_minute({}, Eigen::Vector3d::UnitX()),
+            (Keys{"channel.silent:star", "channel.silent:sun"}));
+  EXPECT_EQ(open_behind_a_minute({}, Eigen::Vector3d::UnitY()), Keys{"channel.silent:star"});
+  EXPECT_EQ(open_behind_a_minute({}, Eigen::Vector3d::UnitZ()), Keys{});
+}
+
+TEST_F(AttitudeConditionsTest, ExpectNoStarsWhereTheEarthIs) {
+  const Eigen::Vector3d to_sun = geometric_sun_icrf_km(at(0)).normalized();
+  const auto beyond = [&](const Eigen::Vector3d& position_km) {
+    return Orbit{KeplerOrbit::through(
+                     at(0), {.position_icrf_km = position_km, .velocity_icrf_km_s = 7.5 * to_sun})
+                     .value()};
+  };
+  // The tracker looks across the Sun, where the first spacecraft has the Earth behind itself.
+  const Eigen::Vector3d boresight_icrf =
+      Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitX(), to_sun) *
+      Eigen::Vector3d::UnitZ();
+  EXPECT_EQ(open_behind_a_minute(beyond(7000.0 * boresight_icrf), Eigen::Vector3d::UnitX()),
+            (Keys{"channel.silent:star", "channel.silent:sun"}));
+  EXPECT_EQ(open_behind_a_minute(beyond(-7000.0 * boresight_icrf), Eigen::Vector3d::UnitX()),
+            Keys{"channel.silent:sun"});
+}
+
+TEST_F(AttitudeConditionsTest, LeaveASensorWithAFieldOfViewToTheAttitude) {
+  AttitudeConditions conditions{AlertLimits{}, std::nullopt, with_fields_of_view()};
+  EXPECT_EQ(raised_by(conditions, {Gyro, Sun, Star, Magnetometer}, 0, 10), Keys{});
+  EXPECT_EQ(raised_by(conditions, {Gyro}, 10, 60), Keys{"channel.silent:magnetometer"});
 }
 
 }  // namespace spindrift::attitude_conditions_test
