@@ -28,8 +28,7 @@ std::vector<OperatorAction> read_all(SQLite::Statement& query, SpacecraftKind ki
                           .note = query.getColumn(7).getString(),
                           .does = {},
                           .arrival = {query.getColumn(8).getInt64()}};
-    auto does =
-        what_it_does(kind, action.action, parsed_json(action.arguments));
+    auto does = what_it_does(kind, action.action, parsed_json(action.arguments));
     if (does) {
       action.does = *std::move(does);
       actions.push_back(std::move(action));

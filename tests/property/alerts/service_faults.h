@@ -99,7 +99,7 @@ inline std::vector<Fault> service_faults() {
                  .scenario = spinner,
                  .service = [change](ServiceState& state, double t_s, const Window& window) {
                    state.free_gib = 100.0;
-                   state.data_until = {{"orbit", shifted(state.pass_t, 10.0 * kDay_s)}};
+                   state.data_ends = {{"orbit", {shifted(state.pass_t, 10.0 * kDay_s)}}};
                    if (window.has(t_s)) {
                      change(state);
                    }
@@ -183,7 +183,7 @@ inline std::vector<Fault> service_faults() {
        stepped},
       of_service("the orbit ends", "data.outdated:orbit",
                  [](ServiceState& state) {
-                   state.data_until = {{"orbit", shifted(state.pass_t, kDay_s / 24.0)}};
+                   state.data_ends = {{"orbit", {shifted(state.pass_t, kDay_s / 24.0)}}};
                  }),
       {"flight is not the ground model's",
        {"model.departure:period"},
