@@ -57,7 +57,7 @@ constexpr std::array<Pattern<ReasonCode>, kReasonCodes> kReasonPatterns{{
     {SensorGated, "many {sensor} samples gated"},
     {SensorNoise, "{sensor} noise x {factor:.1f}"},
     {AlignmentOff, "{key} exceeded: off by {sigmas:.1f} sigma"},
-    {Contradicted, "wrong sensor: {sensor}, by {with}: {sigmas:.0f} sigma since {since_tai_ns}"},
+    {Contradicted, "{sensor} wrong"},
     {OrbitSteps, "orbit steps by {km:.3f} km, {m_s:.2f} m/s at {t_tai_ns}"},
     {Withheld, "the last answer: {column} of {table} is not finite since"},
     {ComputingFailed, "the last answer: computing failed: {what}"},

@@ -75,7 +75,7 @@ TEST(Alerts, NameTheChannelOfASpinnerThatContradictsTheOthers) {
   EXPECT_THAT(rows_of(pass.db, "SELECT DISTINCT quality FROM spin_estimate WHERE quality = 'OK'"),
               IsEmpty());
   EXPECT_THAT(rows_of(pass.db, "SELECT status FROM spin_estimate WHERE estimator = 'batch'"),
-              Contains(HasSubstr("wrong sensor: north_out")));
+              Contains(HasSubstr("north_out wrong")));
 }
 
 TEST(Alerts, NameABeamThatIsDeadFromTheStart) {

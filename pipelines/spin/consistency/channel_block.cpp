@@ -17,6 +17,7 @@ namespace {
 
 constexpr double kBlock_s = 5.0;
 constexpr std::size_t kFewestRevolutions = 3;
+constexpr std::size_t kFewestToBend = 5;
 // Ratio of the standard deviation of a median to that of a mean.
 constexpr double kOfMedian = 1.2533;
 // Ratio to the stated noise that a few edges show only if there is more of it.
@@ -46,10 +47,18 @@ std::vector<double> delays_s(std::span<const Revolution> revolutions, const Revo
 }
 
 /// Returns the standard deviation of single delays from their second differences, which neither an
-/// offset nor the motion of the Earth makes; of two delays from their difference.
+/// offset nor the motion of the Earth makes. A few strays may lie on a line: of less than
+/// kFewestToBend delays it is that about their median, of two that by their difference.
 double scatter_s(const std::vector<double>& delays) {
   if (delays.size() == 2) {
     return kSigmaPerMad * std::abs(delays[1] - delays[0]) / std::numbers::sqrt2;
+  }
+  if (delays.size() < kFewestToBend) {
+    std::vector<double> off = delays;
+    const double median_s = upper_median(off);
+    std::transform(off.begin(), off.end(), off.begin(),
+                   [median_s](double delay_s) { return std::abs(delay_s - median_s); });
+    return kSigmaPerMad * upper_median(off);
   }
   std::vector<double> bends;
   for (std::size_t i = 2; i < delays.size(); ++i) {

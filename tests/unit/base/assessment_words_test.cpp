@@ -24,7 +24,7 @@ TEST(AssessmentWords, BeginWithTheQualityAndGiveTheReasonsInOrder) {
       "AMBIGUOUS, or ra 181.50 dec -53.18 deg");
 }
 
-TEST(AssessmentWords, NameTheWrongSensorAndWhatContradictsIt) {
+TEST(AssessmentWords, NameTheWrongSensor) {
   EXPECT_EQ(sentence_of({Quality::Doubtful,
                          {{Contradicted,
                            {{"sensor", "star"},
@@ -32,8 +32,7 @@ TEST(AssessmentWords, NameTheWrongSensorAndWhatContradictsIt) {
                             {"angle_deg", 2.0},
                             {"sigmas", 12.3},
                             {"since_tai_ns", std::int64_t{1'795'143'637'000'000'000}}}}}}),
-            "DOUBTFUL, wrong sensor: star, by sun, magnetometer: 12 sigma since "
-            "2026-11-20T03:00:00Z");
+            "DOUBTFUL, star wrong");
 }
 
 TEST(AssessmentWords, CountOneOfAThing) {
