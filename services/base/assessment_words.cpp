@@ -21,7 +21,7 @@ constexpr std::array<Pattern<ReasonCode>, kReasonCodes> kReasonPatterns{{
     {FewSettled, "{open_percent:.0f} % of such graze or are ambiguous"},
     {Since, "since {since_tai_ns}"},
     {AwaitingFix, "awaiting a fix"},
-    {ModelOff, "model off by {deg:.2g} deg: {key}"},
+    {ModelOff, "model off {deg:.2g} deg: {key}"},
     {Noise, "noise x {factor:.1f}"},
     {CopiesInNoise, "copies within the noise"},
     {Revolutions, "{count} revolution{s}"},

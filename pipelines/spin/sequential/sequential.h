@@ -23,7 +23,7 @@
 ///                filter follows it
 ///     DOUBTFUL   the edges scatter more than their noise, or show model errors beyond their
 ///                allowance or half a degree, which the covariance then covers (smaller errors are
-///                covered, too, with quality OK and "model off by"); or most edges of the named
+///                covered, too, with quality OK and "model off"); or most edges of the named
 ///                channel are gated
 ///     LOST       most edges are gated, so the axis is wrong; the covariance is that of an axis
 ///                which may point anywhere

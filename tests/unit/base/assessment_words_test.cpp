@@ -75,7 +75,7 @@ TEST(AssessmentWords, ShowValuesToTheDigitsOfTheirSigma) {
 
 TEST(AssessmentWords, StandWithoutAValueThatADamagedArchiveLost) {
   EXPECT_EQ(sentence_of({Quality::Ok, {Reason{ModelOff, {}}}}),
-            "OK, model off by {deg:.2g} deg: {key}");
+            "OK, model off {deg:.2g} deg: {key}");
 }
 
 TEST(AssessmentWords, AreDocumentedWithTheirCodes) {
