@@ -50,7 +50,7 @@ class AttitudeConditions {
   double launcher_percent_;
   double diverged_percent_;
   double diverged_s_;
-  ViewPresence views_;  ///< What a sensor with a field of view should see.
+  ViewPresence views_;  ///< Tells what a sensor with a field of view should see.
   KindPresence kinds_;  ///< All other sensors.
   SensorConditions sensors_;
   StuckSensors stuck_;

@@ -44,7 +44,7 @@ struct ServiceState {
   bool write_failed = false;
   std::optional<double> free_gib = {};  ///< Free space of the archive; empty if unknown.
   double clock_step_s = 0.0;            ///< Step of the wall clock since the previous state.
-  std::map<std::string, DataEnd> data_ends = {};  ///< By item, such as "orbit".
+  std::map<std::string, DataEnd> data_ends = {};  ///< Ends of validity by item, such as "orbit".
 };
 
 /// Watches one spacecraft; conditions of the whole service are raised for each spacecraft.

@@ -26,7 +26,7 @@ struct FieldOfView {
 
 struct DigitalSunSensor {
   double noise_rad;
-  std::optional<FieldOfView> view = {};  ///< Where it sees the Sun; empty: all round.
+  std::optional<FieldOfView> view = {};  ///< Field in which it sees the Sun; empty: all round.
 };
 
 struct StarTracker {

@@ -179,9 +179,7 @@ TEST_F(ArchiveFailure, NobodyNeedsToWaitForEverBehindALockedOrFullArchive) {
                              .on_refused = [&](const auto& /*batch*/) { ++refused; },
                              .on_failure = first_into(failed)});
   commit(*archive, start_of("run-1"));
-  const auto soon = [] {
-    return std::chrono::steady_clock::now() + std::chrono::milliseconds{50};
-  };
+  const auto soon = [] { return std::chrono::steady_clock::now() + std::chrono::milliseconds{50}; };
   {
     SQLite::Database other{path().string(), SQLite::OPEN_READWRITE};
     other.exec("BEGIN IMMEDIATE");

@@ -7,6 +7,7 @@
 
 #include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
+#include "pipelines/frames/sphere_spiral.h"
 #include "pipelines/spin/batch/batch_fit.h"
 #include "pipelines/spin/batch/evaluated_fit.h"
 #include "pipelines/spin/batch/initial_state.h"
@@ -24,15 +25,6 @@ constexpr std::size_t kTried = 12;
 constexpr std::size_t kMost = 4;
 // A rival may fit the sample worse by this much, because a few outliers in a sample decide nothing.
 constexpr double kNearly = 100.0;
-constexpr double kGolden = 0.6180339887498949;
-
-/// Returns a point of a spiral from pole to pole.
-Eigen::Vector3d place(int i) {
-  const double z = 1.0 - (2.0 * i + 1.0) / kOverSky;
-  const double ra_rad = kTurn_rad * kGolden * i;
-  const double across = std::sqrt(1.0 - z * z);
-  return {across * std::cos(ra_rad), across * std::sin(ra_rad), z};
-}
 
 /// Samples by the golden ratio: a fixed stride would pick one channel where the channels alternate.
 std::vector<PassEdge> sample_of(std::span<const PassEdge> edges) {
@@ -53,7 +45,7 @@ std::vector<Eigen::Vector3d> places_about(const Eigen::Vector3d& sun_icrf) {
   std::vector<Eigen::Vector3d> places;
   places.reserve(kOverSky + 2 * kAboutSun);
   for (int i = 0; i < kOverSky; ++i) {
-    places.push_back(place(i));
+    places.push_back(place_on_spiral(i, kOverSky));
   }
   const Eigen::Vector3d across = sun_icrf.unitOrthogonal();
   for (int i = 0; i < kAboutSun; ++i) {

@@ -10,6 +10,7 @@
 
 #include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
+#include "pipelines/frames/sphere_spiral.h"
 #include "pipelines/spin/sensor_model/edge_prediction.h"
 #include "pipelines/spin/types/alignment.h"
 #include "pipelines/time/time_span.h"
@@ -246,21 +247,12 @@ std::array<double, kPulseChannels> mean_off_rad(const AxisState& state,
 }
 
 constexpr int kPlaces = 600;
-constexpr double kGolden = 0.6180339887498949;
 constexpr double kBasin_rad = 0.35;
 constexpr std::size_t kMostBest = 3;
 // Azimuth by which an edge may be off at a place near the axis.
 constexpr double kNear_rad = 0.2;
 // Squared azimuths, in units of kNear_rad, beyond which an edge is just wrong.
 constexpr double kWrong = 9.0;
-
-/// Returns a point of a spiral from pole to pole.
-Eigen::Vector3d place_on_spiral(int i) {
-  const double z = 1.0 - (2.0 * i + 1.0) / kPlaces;
-  const double ra_rad = kTurn_rad * kGolden * i;
-  const double across = std::sqrt(1.0 - z * z);
-  return {across * std::cos(ra_rad), across * std::sin(ra_rad), z};
-}
 
 }  // namespace
 
@@ -306,7 +298,8 @@ SkyOfAxes::SkyOfAxes(const SpinConfig& config, const BlockUnderSky& seen) {
     channels_.push_back(point.edge.channel);
   }
   for (int i = 0; i < kPlaces; ++i) {
-    Place& place = places_.emplace_back(Place{.axis_icrf = place_on_spiral(i), .off_rad = {}});
+    Place& place =
+        places_.emplace_back(Place{.axis_icrf = place_on_spiral(i, kPlaces), .off_rad = {}});
     const Eigen::Matrix3d R_spin_icrf = frame_about(place.axis_icrf).conjugate().toRotationMatrix();
     for (const ChannelPoint& point : seen.block.points) {
       const auto edge = predict_edge(sensors, seen.sky, R_spin_icrf, point.edge);

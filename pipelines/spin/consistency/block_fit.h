@@ -63,7 +63,7 @@ class SkyOfAxes {
   };
   double cost(const Place& place, const OmittedSensors& omitted) const;
 
-  std::vector<PulseChannel> channels_;  ///< Of the points of the block.
+  std::vector<PulseChannel> channels_;  ///< Channels of the points of the block.
   std::vector<Place> places_;
 };
 

@@ -187,7 +187,7 @@ std::optional<SensorContradiction> judge(const std::vector<Suspect>& suspects,
     return std::nullopt;
   }
   const Suspect* const best = &suspects.front();
-  // What no single sensor explains counts as noise.
+  // The misfit that no single sensor explains counts as noise.
   const double noise = std::max(1.0, best->fit->squares / std::max(best->fit->freedom, 1));
   const double gain = (together.squares - best->fit->squares) / noise;
   if (!(gain > chi_square_beyond(chance, std::max(together.freedom - best->fit->freedom, 1)))) {

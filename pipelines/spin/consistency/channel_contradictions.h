@@ -39,7 +39,7 @@ class ChannelContradictions {
   bool search_sky(TaiTime now);
   void end();
 
-  std::deque<BlockUnderSky> blocks_;        ///< In order of time.
+  std::deque<BlockUnderSky> blocks_;        ///< Blocks in order of time.
   std::optional<TaiTime> since_;            ///< Time since when they contradict each other.
   std::optional<TaiTime> compared_;         ///< Time of the last comparison.
   std::optional<TaiTime> searched_;         ///< Time of the last search of the whole sky.
