@@ -124,7 +124,7 @@ RequestServer::~RequestServer() {
 }
 
 void RequestServer::run() {
-  std::list<Caller> callers;  // In the order in which their time runs out.
+  std::list<Caller> callers;  // They are in the order in which their time runs out.
   while (true) {
     std::vector<pollfd> waiting{{.fd = stop_.number(), .events = POLLIN, .revents = 0},
                                 {.fd = socket_.number(), .events = POLLIN, .revents = 0}};

@@ -48,6 +48,20 @@ struct ComparedPoint {
   Slopes slopes;
 };
 
+/// Returns the phase of the block with which the points that count are where they are expected.
+double phase_of(const std::vector<ComparedPoint>& points) {
+  double weights = 0.0;
+  double sum_rad = 0.0;
+  for (const ComparedPoint& point : points) {
+    if (point.counts) {
+      const double weight = 1.0 / square(point.sigma_rad);
+      weights += weight;
+      sum_rad -= weight * point.off_rad;
+    }
+  }
+  return weights > 0.0 ? sum_rad / weights : 0.0;
+}
+
 class AxisState {
  public:
   AxisState(const SpinConfig& config, const OmittedSensors& omitted, const Eigen::Vector3d& axis)
@@ -132,19 +146,6 @@ class AxisState {
     }
   }
 
-  static double phase_of(const std::vector<ComparedPoint>& points) {
-    double weights = 0.0;
-    double sum_rad = 0.0;
-    for (const ComparedPoint& point : points) {
-      if (point.counts) {
-        const double weight = 1.0 / square(point.sigma_rad);
-        weights += weight;
-        sum_rad -= weight * point.off_rad;
-      }
-    }
-    return weights > 0.0 ? sum_rad / weights : 0.0;
-  }
-
   const SpinConfig* config_;
   const OmittedSensors* omitted_;
   PlacedSensors sensors_;
@@ -224,19 +225,13 @@ std::array<double, kPulseChannels> mean_off_rad(const AxisState& state,
   std::array<int, kPulseChannels> count{};
   for (const BlockUnderSky& block : blocks) {
     double missing = 0.0;
-    const std::vector<ComparedPoint> points = state.compare(block, missing);
-    double weights = 0.0;
-    double phase_rad = 0.0;
-    for (const ComparedPoint& point : points) {
-      if (point.counts) {
-        const double weight = 1.0 / square(point.sigma_rad);
-        weights += weight;
-        phase_rad += weight * (point.off_rad + point.slopes.dot(errors));
-      }
+    std::vector<ComparedPoint> points = state.compare(block, missing);
+    for (ComparedPoint& point : points) {
+      point.off_rad += point.slopes.dot(errors);
     }
+    const double phase_rad = phase_of(points);
     for (const ComparedPoint& point : points) {
-      const double off_rad = point.off_rad + point.slopes.dot(errors) - phase_rad / weights;
-      sum.at(index_of(point.channel)) += wrapped_rad(off_rad);
+      sum.at(index_of(point.channel)) += wrapped_rad(point.off_rad + phase_rad);
       ++count.at(index_of(point.channel));
     }
   }

@@ -40,6 +40,8 @@ struct Fault {
   std::function<void(ServiceState&, double, const Window&)> service = {};
   bool is_separation = false;                  ///< Whether the separation is to be reconstructed.
   std::function<void(Mission&)> mission = {};  ///< Changes what the service knows.
+  /// Alert key of the wrong sensor, which may be named beside where `keys` are of another alert.
+  std::string culprit = {};
 };
 
 /// The whole pass, for what is wrong from its begin to its end.
@@ -90,7 +92,7 @@ inline Spoil dead(IsOf is_of_it) {
 template <class Value>
 Spoil changed(std::function<void(Value&, double)> change) {
   return [=](std::vector<Sent>& sent, const Window& window) {
-    auto changes = change;  // With a state of its own.
+    auto changes = change;  // Each row has a state of its own.
     for (Sent& one : sent) {
       const double t_s = time_in_s(one, sent);
       Value* const value = value_in<Value>(one);

@@ -132,11 +132,12 @@ inline std::vector<Fault> spin_faults() {
        jittered(any_of_all, 0.02),
        60.0,
        minute},
-      {"sun2 turned by 2 deg: the estimators",
-       {"spin.disagree"},
-       spinner,
-       moved(of({Sun2}), 2.0 / 330.0),
-       120.0}};
+      {.name = "sun2 turned by 2 deg: the estimators",
+       .keys = {"spin.disagree"},
+       .scenario = spinner,
+       .sensors = moved(of({Sun2}), 2.0 / 330.0),
+       .within_s = 120.0,
+       .culprit = "sensor.contradicts:sun2"}};
 }
 
 /// Every sensor is wrong in every way in which it may be.

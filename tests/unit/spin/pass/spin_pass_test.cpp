@@ -335,7 +335,8 @@ TEST(SpinPass, SaysInTheEndWhyThereIsNoMeanAndWhyThePriorDoesNotSettleTheAxis) {
   EXPECT_TRUE(testing::has(output.notices, NoticeCode::AmbiguousPriorNoHelp));
 }
 
-/// Without north beam and sun2 all fixes graze the limb, and two axes stay open for minutes.
+/// In this pass, without north beam and sun2, all fixes graze the limb, and two axes stay open for
+/// minutes.
 TEST(SpinPass, WhatAnOperatorKnowsOfTheAxisSettlesItUnlessTheEdgesOverruleIt) {
   RecordedPass pass = recorded_pass("nominal");
   const TaiTime acted = shifted(pass.pulses.front().t, 60.0);
