@@ -32,7 +32,7 @@ std::optional<SpinPrior> prior(const TomlValues& values) {
                    .sigma_rad = radians(values, "spin.prior.sigma_deg")};
 }
 
-std::string batch_key(SensorBias bias) { return fmt::format("spin.batch.{}", prior_of(bias).name); }
+std::string batch_key(SensorBias bias) { return fmt::format("spin.batch.{}", range_of(bias).name); }
 
 SpinBatch batch(const TomlValues& values) {
   SpinBatch batch;

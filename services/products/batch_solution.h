@@ -114,12 +114,12 @@ struct SpinBiasTable {
     return solution->biases;
   }
   static double to_unit(const BiasEstimate& bias) {
-    return prior_of(bias.bias).is_angle ? kDegPerRad : 1.0;
+    return range_of(bias.bias).is_angle ? kDegPerRad : 1.0;
   }
   static constexpr auto kColumns = columns(
       ProductColumn{"estimator",
                     [](const BiasEstimate& /*bias*/) { return name_of(SpinEstimator::Batch); }},
-      ProductColumn{"name", [](const BiasEstimate& bias) { return prior_of(bias.bias).name; }},
+      ProductColumn{"name", [](const BiasEstimate& bias) { return range_of(bias.bias).name; }},
       ProductColumn{"value",
                     [](const BiasEstimate& bias) {
                       return bias.observable ? std::optional{bias.value * to_unit(bias)}
@@ -127,7 +127,7 @@ struct SpinBiasTable {
                     }},
       ProductColumn{"unit",
                     [](const BiasEstimate& bias) {
-                      return std::string_view{prior_of(bias.bias).is_angle ? "deg" : "km"};
+                      return std::string_view{range_of(bias.bias).is_angle ? "deg" : "km"};
                     }},
       ProductColumn{"sigma", [](const BiasEstimate& bias) { return bias.sigma * to_unit(bias); }},
       ProductColumn{"observable", &BiasEstimate::observable},

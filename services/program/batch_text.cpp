@@ -19,7 +19,7 @@ struct ReadableBias {
 };
 
 ReadableBias readable(const BiasEstimate& bias) {
-  const bool is_angle = prior_of(bias.bias).is_angle;
+  const bool is_angle = range_of(bias.bias).is_angle;
   const double to_unit = is_angle ? kDegPerRad : 1.0;
   return {.value = bias.value * to_unit,
           .sigma = bias.sigma * to_unit,
@@ -113,10 +113,10 @@ std::string to_text(const BatchSolution& solution) {
   for (const BiasEstimate& bias : solution.biases) {
     const ReadableBias shown = readable(bias);
     text += bias.observable
-                ? fmt::format("  {:<13}{:<18}{} {}{}\n", heading, prior_of(bias.bias).name,
+                ? fmt::format("  {:<13}{:<18}{} {}{}\n", heading, range_of(bias.bias).name,
                               signed_with_sigma(shown.value, shown.sigma, 4), shown.unit,
                               bias.estimated ? "" : " (not in the axis)")
-                : fmt::format("  {:<13}{:<18}not observable\n", heading, prior_of(bias.bias).name);
+                : fmt::format("  {:<13}{:<18}not observable\n", heading, range_of(bias.bias).name);
     heading = "";
   }
   for (const BiasSet& direction : solution.undetermined) {
@@ -129,7 +129,7 @@ nlohmann::json to_json(const BatchSolution& solution) {
   nlohmann::json biases = nlohmann::json::object();
   for (const BiasEstimate& bias : solution.biases) {
     const ReadableBias shown = readable(bias);
-    biases[std::string{prior_of(bias.bias).name}] = {
+    biases[std::string{range_of(bias.bias).name}] = {
         {"value", bias.observable ? nlohmann::json(shown.value) : nlohmann::json{}},
         {"sigma", shown.sigma},
         {"unit", shown.unit},

@@ -12,6 +12,7 @@
 
 #include "pipelines/frames/angle.h"
 #include "pipelines/spin/batch/batch_estimator.h"
+#include "pipelines/spin/batch/bias_priors.h"
 #include "tests/support/batch_pass.h"
 #include "tests/support/normalised_square.h"
 
@@ -100,18 +101,33 @@ inline void add_pass(const PassKind& kind, SpinningBody body, const SensorBiases
   }
 }
 
-/// Runs passes whose biases are drawn from their priors.
+/// Returns the covariance of beams that were placed together: one error of azimuth for both, one of
+/// the south mounting angle, each of 0.15 deg.
+inline SpinAlignment beams_placed_together() {
+  using Errors = SpinAlignmentVector;
+  const Errors azimuth = Errors::Unit(NorthAzimuthError) + Errors::Unit(SouthAzimuthError);
+  const Errors mount = Errors::Unit(SouthMountAngleError);
+  const double sigma_rad = 0.15 * kRadPerDeg;
+  return sigma_rad * sigma_rad * (azimuth * azimuth.transpose() + mount * mount.transpose());
+}
+
+/// Runs passes whose biases are drawn from the priors that `beams_placed_together` gives them.
 inline BatchStatistics many_passes(int passes, const PassKind& kind, std::uint64_t seed) {
   std::mt19937_64 rng{seed};
   std::normal_distribution<double> normal;
   BatchStatistics sums;
   for (int pass = 0; pass < passes; ++pass) {
-    const SpinningBody body = random_body(kind.around, 6.0 * kRadPerDeg, rng);
+    SpinningBody body = random_body(kind.around, 6.0 * kRadPerDeg, rng);
+    if (kind.estimated.any()) {
+      body.config.alignment = beams_placed_together();
+    }
+    // Those of beams do not depend on the sun angle.
+    const SensorBiases sigmas = BiasPriors{body.config, 90.0 * kRadPerDeg}.stated();
     normal.reset();
     SensorBiases biases = SensorBiases::Zero();
     for (int i = 0; i < kSensorBiases; ++i) {
       if (kind.estimated[static_cast<std::size_t>(i)]) {
-        biases[i] = normal(rng) * prior_of(static_cast<SensorBias>(i)).sigma;
+        biases[i] = normal(rng) * sigmas[i];
       }
     }
     add_pass(kind, body, biases, rng, sums);

@@ -12,7 +12,7 @@ namespace spindrift {
 namespace {
 
 bool is_far_off(const BiasEstimate& bias) {
-  return bias.estimated && std::abs(bias.value) > kFarOffPriorSigmas * bias.prior_sigma;
+  return bias.estimated && std::abs(bias.value) > kFarOffPriorSigmas * bias.stated_sigma;
 }
 
 bool is_doubtful(const BatchSolution& solution, const BatchDoubts& doubts) {
@@ -62,14 +62,14 @@ void add_motion(const BatchSolution& solution, const BatchDoubts& doubts, Reason
   }
 }
 
-NamedValue named(SensorBias bias) { return {"bias", std::string{prior_of(bias).name}}; }
+NamedValue named(SensorBias bias) { return {"bias", std::string{range_of(bias).name}}; }
 
 void add_bias(const BiasEstimate& bias, Reasons& reasons) {
   if (!bias.observable) {
     reasons.push_back({ReasonCode::BiasOpen, {named(bias.bias)}});
     return;
   }
-  const bool is_angle = prior_of(bias.bias).is_angle;
+  const bool is_angle = range_of(bias.bias).is_angle;
   const double unit = is_angle ? kRadPerDeg : 1.0;
   reasons.push_back({ReasonCode::Bias,
                      {named(bias.bias),

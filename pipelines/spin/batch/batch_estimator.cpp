@@ -70,12 +70,13 @@ Error why_diverged(const Solved& solved) {
 std::vector<BiasEstimate> all_biases(const PassModel& model, const EvaluatedFit& found) {
   const PulseNoise& noise = model.config().noise;
   const BiasPriors priors{model, found.fit.state};
+  const SensorBiases stated = priors.stated();
   const SensorBiases& now = found.fit.state.biases;
   const BiasSet all = seen_biases(found.information) | found.estimated;
   PassInformation beside_all = found.beside(considered_prior(noise, priors.alignment_beside(all)));
   for (int i = 0; i < kSensorBiases; ++i) {
     if (!found.estimated[static_cast<std::size_t>(i)]) {
-      beside_all.bias_sigmas[i] = priors.stated()[i];
+      beside_all.bias_sigmas[i] = stated[i];
     }
   }
   const Observability together{beside_all, all};
@@ -94,6 +95,9 @@ std::vector<BiasEstimate> all_biases(const PassModel& model, const EvaluatedFit&
     *std::find_if(biases.begin(), biases.end(), [&](const BiasEstimate& bias) {
       return bias.bias == estimated.bias;
     }) = estimated;
+  }
+  for (BiasEstimate& bias : biases) {
+    bias.stated_sigma = stated[bias.bias];
   }
   std::erase_if(biases, [](const BiasEstimate& bias) {
     return bias.bias == ConingX || bias.bias == ConingY;

@@ -177,7 +177,7 @@ void hold_biases(ceres::Problem& problem, double* biases, BiasSet estimated) {
       held.push_back(i);
       continue;
     }
-    const double bound = prior_of(static_cast<SensorBias>(i)).bound;
+    const double bound = range_of(static_cast<SensorBias>(i)).bound;
     problem.SetParameterLowerBound(biases, i, -bound);
     problem.SetParameterUpperBound(biases, i, bound);
   }
@@ -242,7 +242,7 @@ ceres::Solver::Summary solve(Fit& fit, std::span<const PassEdge> edges, std::siz
 BiasSet biases_at_bound(const SensorBiases& biases, BiasSet estimated) {
   BiasSet at_bound;
   for (int i = 0; i < kSensorBiases; ++i) {
-    const double bound = prior_of(static_cast<SensorBias>(i)).bound;
+    const double bound = range_of(static_cast<SensorBias>(i)).bound;
     at_bound[static_cast<std::size_t>(i)] =
         estimated[static_cast<std::size_t>(i)] && std::abs(biases[i]) > 0.999 * bound;
   }

@@ -23,8 +23,8 @@ struct BiasEstimate {
   double value;  ///< Value in rad or km; zero, as in the prior, where not observable.
   double sigma;  ///< Standard deviation in rad or km; that of the prior where not observable.
   bool observable;
-  bool estimated;  ///< False for a one-step estimate outside the solution.
-  double prior_sigma = prior_of(bias).sigma;  ///< Standard deviation of the prior in rad or km.
+  bool estimated;             ///< False for a one-step estimate outside the solution.
+  double stated_sigma = 0.0;  ///< What the mission file states of it in rad or km; see BiasPriors.
 };
 
 /// Holds the coning estimate: the sensors' axis leans away from the principal axis.

@@ -47,7 +47,7 @@ SpinAlignmentVector of_chord_end(SensorBias bias) {
 }  // namespace
 
 SensorBiases BiasPriors::stated() const {
-  SensorBiases sigmas = suspected_sigmas();
+  SensorBiases sigmas = range_sigmas();
   for (int i = 0; i < kSensorBiases; ++i) {
     const auto bias = static_cast<SensorBias>(i);
     const SpinAlignmentVector slopes =
@@ -61,7 +61,7 @@ SensorBiases BiasPriors::stated() const {
 }
 
 SensorBiases BiasPriors::of_estimated() const {
-  return config_->batch.biases ? stated() : suspected_sigmas();
+  return config_->batch.biases ? stated() : range_sigmas();
 }
 
 SpinAlignment BiasPriors::alignment_beside(BiasSet estimated) const {

@@ -124,8 +124,7 @@ std::vector<BiasEstimate> Observability::biases(const SensorBiases& biases,
                    .value = observable ? biases[bias] : 0.0,
                    .sigma = observable ? sigma : prior,
                    .observable = observable,
-                   .estimated = true,
-                   .prior_sigma = prior});
+                   .estimated = true});
   }
   return all;
 }

@@ -31,16 +31,16 @@ using BiasSet = std::bitset<kSensorBiases>;
 /// Returns the bias itself, or both biases of coning for either of them.
 BiasSet unknowns_of(SensorBias bias);
 
-/// The prior of a bias: zero within sigma.
-struct BiasPrior {
+/// Holds name, unit and range of a bias.
+struct BiasRange {
   std::string_view name;  ///< Name in mission file and archive.
   bool is_angle;          ///< Whether the unit is rad, else km.
-  double sigma;           ///< One standard deviation of a suspected bias about zero.
   double bound;           ///< Bound that no real sensor exceeds.
 };
-const BiasPrior& prior_of(SensorBias bias);
+const BiasRange& range_of(SensorBias bias);
 
-/// Returns the sigmas of suspected biases.
-SensorBiases suspected_sigmas();
+/// Returns the sigmas of biases of which nothing is known but that they lie, evenly spread, within
+/// their bounds.
+SensorBiases range_sigmas();
 
 }  // namespace spindrift

@@ -1,5 +1,6 @@
 /// What the mission file may be off by, in the solution of `batch`.
 
+#include <algorithm>
 #include <cmath>
 
 #include "pipelines/frames/angle.h"
@@ -81,6 +82,27 @@ TEST_F(BatchAlignment, AnErrorWithinItIsOkAndOneBeyondNamesTheKey) {
               ::testing::HasSubstr("spin.ir.north.azimuth_deg"));
 }
 
+TEST_F(BatchAlignment, AnAddedBiasIsFoundInFullAndDoubtedBeyondWhatTheFileStatesOfIt) {
+  const double chord_rad = 20.0 * kSigma_rad;
+  auto seen = pass();
+  for (PassEdge& edge : seen) {
+    const double half_s = 0.5 * chord_rad / body.rate_rad_s;
+    const int sense = edge.pulse.channel == PulseChannel::NorthOut  ? 1
+                      : edge.pulse.channel == PulseChannel::NorthIn ? -1
+                                                                    : 0;
+    edge.pulse.t += std::chrono::nanoseconds{std::llround(1e9 * sense * half_s)};
+  }
+  const BatchSolution solution = solved(said(SpinAlignmentVector::Zero(), usual_alignment()), seen);
+  const auto chord = std::find_if(solution.biases.begin(), solution.biases.end(),
+                                  [](const auto& bias) { return bias.bias == NorthChordBias; });
+  ASSERT_NE(chord, solution.biases.end());
+  EXPECT_TRUE(chord->estimated);
+  EXPECT_NEAR(chord->value, chord_rad, 4.0 * chord->sigma);
+  EXPECT_DOUBLE_EQ(chord->stated_sigma, 2.0 * kSigma_rad);
+  EXPECT_THAT(sentence_of(solution.estimate.assessment),
+              ::testing::HasSubstr("more than 4 times its prior"));
+}
+
 TEST_F(BatchAlignment, ABiasToEstimateHasItsPriorFromIt) {
   SpinConfig config = said(SpinAlignmentVector::Zero(), usual_alignment());
   config.batch.biases = BiasSet{}.set(NorthMountAngleBias).set(DihedralBias).set(NorthChordBias);
@@ -104,7 +126,7 @@ TEST_F(BatchAlignment, ABiasToEstimateHasItsPriorFromIt) {
   EXPECT_NEAR(left(NorthAzimuthError, SouthAzimuthError), -0.5 * kSigma_rad * kSigma_rad, 1e-15);
   EXPECT_EQ(left(SouthMountAngleError, SouthMountAngleError), kSigma_rad * kSigma_rad);
   config.alignment.setZero();
-  EXPECT_EQ(BiasPriors(config, sun_angle_rad).of_estimated(), suspected_sigmas());
+  EXPECT_EQ(BiasPriors(config, sun_angle_rad).of_estimated(), range_sigmas());
 }
 
 TEST_F(BatchAlignment, NormalEquationsShowAnErrorOfTheFile) {

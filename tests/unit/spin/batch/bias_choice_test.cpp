@@ -14,7 +14,7 @@ constexpr BiasSet kNone;
 /// Adds edges that ask for a bias with a likelihood gain of `gain`. They determine the bias twenty
 /// times as well as its prior and do not mix it with the motion.
 void ask_for(SensorBias bias, double gain, PassInformation& pass) {
-  const double prior = prior_of(bias).sigma;
+  const double prior = range_sigmas()[bias];
   const int row = kMotionUnknowns + bias;
   pass.information(row, row) = 399.0 / (prior * prior);
   pass.score[row] = std::sqrt(gain * 400.0) / prior;
@@ -35,13 +35,12 @@ PassInformation mixed(SensorBias bias, double score, std::mt19937_64& rng) {
   for (int edge = 0; edge < 100; ++edge) {
     Eigen::Matrix<double, kBatchUnknowns, 1> slopes;
     for (int i = 0; i < kBatchUnknowns; ++i) {
-      const double unit =
-          i < kMotionUnknowns ? 0.01 : prior_of(static_cast<SensorBias>(i - kMotionUnknowns)).sigma;
+      const double unit = i < kMotionUnknowns ? 0.01 : range_sigmas()[i - kMotionUnknowns];
       slopes[i] = normal(rng) / unit;
     }
     pass.information += slopes * slopes.transpose();
   }
-  pass.score[kMotionUnknowns + bias] = score / prior_of(bias).sigma;
+  pass.score[kMotionUnknowns + bias] = score / range_sigmas()[bias];
   pass.edges = 100;
   return pass;
 }
@@ -100,8 +99,7 @@ TEST(BiasChoice, TheGainIsWhatTheSquaresFallByAtTheMinimum) {
     Eigen::Matrix<double, 8, 8> information = pass.information(unknowns, unknowns);
     information.diagonal().head<5>().array() += 1.0;
     for (int i = 5; i < 8; ++i) {
-      const double prior =
-          prior_of(static_cast<SensorBias>(unknowns.at(static_cast<std::size_t>(i)) - 5)).sigma;
+      const double prior = range_sigmas()[unknowns.at(static_cast<std::size_t>(i)) - 5];
       information(i, i) += 1.0 / (prior * prior);
     }
     const Eigen::Matrix<double, 8, 1> score = pass.score(unknowns);
@@ -127,7 +125,7 @@ TEST(BiasChoice, TwoThatExplainTheSameLeaveHalfTheirDistanceSquaredOpen) {
   // -mixing / motion of that.
   const double motion = 1e8 + 1.0;
   const double left =
-      400.0 / std::pow(prior_of(NorthChordBias).sigma, 2) - mixing * mixing / motion;
+      400.0 / std::pow(range_sigmas()[NorthChordBias], 2) - mixing * mixing / motion;
   const double tilt_rad = mixing / motion * pass.score[north] / left;
   EXPECT_NEAR(open_rad2(0, 0) / (0.5 * 4.0 * tilt_rad * tilt_rad), 1.0, 1e-9);
   EXPECT_EQ(open_rad2(0, 1), 0.0);

@@ -11,8 +11,8 @@ namespace spindrift::observability_test {
 PassInformation of_north(double sum, double difference) {
   PassInformation pass;
   pass.information.diagonal().head<kMotionUnknowns>().setConstant(1e8);
-  const double chord = prior_of(NorthChordBias).sigma;
-  const double mount = prior_of(NorthMountAngleBias).sigma;
+  const double chord = range_sigmas()[NorthChordBias];
+  const double mount = range_sigmas()[NorthMountAngleBias];
   const int c = kMotionUnknowns + NorthChordBias;
   const int m = kMotionUnknowns + NorthMountAngleBias;
   pass.information(c, c) = 0.5 * (sum + difference) / (chord * chord);
@@ -33,7 +33,7 @@ TEST(Observability, WhatTheEdgesDetermineIsObservable) {
   EXPECT_TRUE(estimates[0].observable);
   EXPECT_EQ(estimates[0].value, 0.01);
   // The expected sigma is a hundredth of the prior's.
-  EXPECT_NEAR(estimates[0].sigma / prior_of(NorthChordBias).sigma, 0.01, 1e-6);
+  EXPECT_NEAR(estimates[0].sigma / range_sigmas()[NorthChordBias], 0.01, 1e-6);
   EXPECT_THAT(observed.undetermined(), IsEmpty());
 }
 
@@ -45,7 +45,7 @@ TEST(Observability, ADirectionThatIsLeftOpenIsNamedAndHeldAtItsPrior) {
   for (const BiasEstimate& estimate : observed.biases(biases)) {
     EXPECT_FALSE(estimate.observable);
     EXPECT_EQ(estimate.value, 0.0);
-    EXPECT_EQ(estimate.sigma, prior_of(estimate.bias).sigma);
+    EXPECT_EQ(estimate.sigma, range_sigmas()[estimate.bias]);
   }
 }
 
@@ -81,7 +81,7 @@ TEST(Observability, AConsideredParameterMovesTheUnknownsByTheirGain) {
   // A chord bias is mixed with the first tilt; an azimuth pulls the tilt.
   PassInformation pass;
   pass.information.diagonal().head<kMotionUnknowns>().setConstant(1e8);
-  const double prior = prior_of(NorthChordBias).sigma;
+  const double prior = range_sigmas()[NorthChordBias];
   const int c = kMotionUnknowns + NorthChordBias;
   pass.information(c, c) = 1e8;
   pass.information(0, c) = pass.information(c, 0) = 0.9e8;

@@ -51,7 +51,7 @@ TEST_P(PassModels, SlopesAreThoseOfTheResidual) {
   }
   for (int i = 0; i < kSensorBiases; ++i) {
     const auto bias = static_cast<SensorBias>(i);
-    state.biases[i] = (i % 2 == 0 ? 0.7 : -0.7) * prior_of(bias).sigma;
+    state.biases[i] = (i % 2 == 0 ? 0.07 : -0.07) * range_of(bias).bound;
   }
   ASSERT_GT(scene.edges.size() * kBatchUnknowns, 1000U);
   for (const PassEdge& edge : scene.edges) {
