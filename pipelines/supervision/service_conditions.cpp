@@ -27,9 +27,9 @@ ServiceConditions::ServiceConditions(const AlertLimits& limits, std::optional<Co
       late_{AlertCode::LinkLate, "s", kNotForAMoment},
       ahead_{AlertCode::LinkAhead, "s", kNotForAMoment},
       rejected_{AlertCode::LinkRejected, "%"},
-      twice_{AlertCode::ServiceTwice, "s"},
+      twice_{AlertCode::ServiceTwice, "services"},
       backlog_{AlertCode::ArchiveBacklog, "s"},
-      write_{AlertCode::ArchiveWrite, "s"},
+      write_{AlertCode::ArchiveWrite, "failures"},
       disk_{AlertCode::ArchiveDisk, "GiB"},
       clock_{AlertCode::ClockJump, "s", {.raise_s = 0.0, .clear_s = 60.0}} {}
 

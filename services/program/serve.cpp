@@ -254,20 +254,27 @@ Expected<void> take_up_last_runs(const std::filesystem::path& db,
   return {};
 }
 
-/// Restores open alerts before anything is computed, only of runs of the same mode: alerts left
-/// open by a rehearsal must not wake anybody.
+/// Restores open alerts before anything is computed, and how many changes there were, only of runs
+/// of the same mode: alerts left open by a rehearsal must not wake anybody.
 Expected<void> take_up_alerts(const std::filesystem::path& db, RunMode mode, AlertDesk& desk,
                               ConsoleFeed* feed) {
-  return find_alerts(db).map([&](const std::vector<StoredAlert>& alerts) {
-    for (const StoredAlert& stored : alerts) {
-      if (stored.mode == mode) {
-        desk.take_up(stored.spacecraft, stored.run_id, stored.alert);
-        if (feed != nullptr) {
-          feed->put(stored);
+  return find_alerts(db)
+      .map([&](const std::vector<StoredAlert>& alerts) {
+        for (const StoredAlert& stored : alerts) {
+          if (stored.mode == mode) {
+            desk.take_up(stored.spacecraft, stored.run_id, stored.alert);
+            if (feed != nullptr) {
+              feed->put(stored);
+            }
+          }
         }
-      }
-    }
-  });
+      })
+      .and_then([&] { return find_transitions(db, mode); })
+      .map([&](const std::vector<StoredTransition>& transitions) {
+        for (const auto& [spacecraft, t] : transitions) {
+          desk.take_up_transition(spacecraft, t);
+        }
+      });
 }
 
 /// A full pipe without a reader must not block a stopped service.
