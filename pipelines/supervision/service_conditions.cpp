@@ -28,6 +28,7 @@ ServiceConditions::ServiceConditions(const AlertLimits& limits, std::optional<Co
       ahead_{AlertCode::LinkAhead, "s", kNotForAMoment},
       rejected_{AlertCode::LinkRejected, "%"},
       twice_{AlertCode::ServiceTwice, "services"},
+      undelivered_{AlertCode::AlertsUndelivered, "s"},
       backlog_{AlertCode::ArchiveBacklog, "s"},
       write_{AlertCode::ArchiveWrite, "failures"},
       disk_{AlertCode::ArchiveDisk, "GiB"},
@@ -44,6 +45,8 @@ ConditionChanges ServiceConditions::evaluate(const ServiceState& state) {
     twice->who = state.other_service.value_or("");
   }
   add(std::move(twice), changes);
+  add(undelivered_.update(state.t, {.value = state.undelivered_s, .limit = limits_.undelivered_s}),
+      changes);
   return changes;
 }
 

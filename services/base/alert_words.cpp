@@ -44,6 +44,8 @@ constexpr std::array<Words, kAlertCodes> kWords{{
      "look at the table contradiction; [sources] prefer names the one whose value counts"},
     {ServiceTwice, "another service publishes results of the spacecraft in this partition",
      "stop one of the two; `spindrift doctor` says who is on the bus"},
+    {AlertsUndelivered, "the webhook does not take alerts",
+     "look at its receiver, and at the log for what it answers"},
     {ChannelSilent, "nothing from {}", "look at sensor and telemetry link"},
     {SpinInterference, "edges of two channels spoil each other",
      "nothing needs to be done: both are left out while it lasts"},

@@ -120,9 +120,12 @@ void ConsoleAnswers::add_page() {
 void ConsoleAnswers::add_api() {
   gets_["/healthz"] = [this](const auto&, const auto&, const auto&) { return health(); };
   gets_["/metrics"] = [this](const auto&, const auto&, const ViewerCounts& viewers) {
+    const auto failures = service_.webhook == nullptr
+                              ? std::nullopt
+                              : std::optional{service_.webhook->deliveries().failures()};
     return answer(http::status::ok, "text/plain; version=0.0.4; charset=utf-8",
                   metrics_text(service_.feed.state(), service_.archive.statistics(),
-                               service_.feed.latencies(), viewers));
+                               service_.feed.latencies(), viewers, failures));
   };
   gets_["/api/v1/state"] = [this](const auto&, const auto&, const auto&) {
     return json_answer(http::status::ok, service_.feed.state());

@@ -315,7 +315,7 @@ Expected<void> take_and_answer(const ServeOptions& options, const ServiceParts& 
   ActionInbox inbox{
       kinds_of(parts.missions), parts.db, parts.mode, parts.archive, parts.taken, actions};
   const auto requests = answer_requests(options.db, parts.archive, parts.desk, inbox);
-  const auto console = start_console(options, feed, parts.desk, parts.archive, inbox);
+  const auto console = start_console(options, feed, parts, inbox);
   if (!console) {
     return Unexpected{console.error()};
   }
@@ -397,6 +397,7 @@ Expected<void> serve(const ServeOptions& options) {
       .processor = *processor,
       .archive = archive,
       .desk = desk,
+      .webhook = webhook->get(),
       .problems = problems,
       .stop_signal = stop_signal,
       .failures = failures,
