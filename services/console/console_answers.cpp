@@ -13,6 +13,7 @@
 
 #include "pipelines/core/shown.h"
 #include "services/alerts/alert_json.h"
+#include "services/alerts/webhook.h"
 #include "services/base/parsed_json.h"
 #include "services/console/page_files.h"
 #include "services/console/token_file.h"
