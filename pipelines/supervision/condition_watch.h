@@ -83,8 +83,8 @@ class ConditionWatch {
   /// Watches a value that must not fall below its limit.
   std::optional<ConditionChange> see_least(TaiTime t, const Reading& reading);
 
-  /// Watches a yes/no condition. Its evidence is the time it has held where its unit is s; where
-  /// the unit is that of a thing, that the thing is there.
+  /// Watches a yes/no condition. Its evidence is the time it has held; of a thing that is raised at
+  /// once, and whose unit is not s, it is that the thing is there.
   std::optional<ConditionChange> update(TaiTime t, bool is_there);
 
   /// Makes the next reading final: it decides at once, by the limit alone, whatever its time.
