@@ -20,6 +20,9 @@ class TurnShare {
   TurnShare(int turns, std::size_t per_turn)
       : length_{static_cast<std::size_t>(turns)}, per_turn_{per_turn} {}
 
+  /// Changes the length of the window; the turns counted so far stay.
+  void set_turns(int turns) { length_ = static_cast<std::size_t>(turns); }
+
   /// @return Bad share of the turns so far in percent, if the item begins a new one and the window
   ///         is full.
   std::optional<double> count(std::optional<std::int64_t> turn, bool is_bad) {
@@ -47,6 +50,7 @@ class TurnShare {
     if (turns_.size() < length_) {
       return std::nullopt;
     }
+    turns_.erase(turns_.begin(), turns_.end() - static_cast<std::ptrdiff_t>(length_));
     Count sum;
     for (const Count& count : turns_) {
       sum.all += count.all;

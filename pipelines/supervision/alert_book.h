@@ -45,6 +45,9 @@ class AlertBook {
   /// Restores an earlier alert; calls follow the original order, and the last of a key counts.
   void take_up(const std::string& run_id, Alert alert);
 
+  /// Counts a change that was given before; calls follow the original order.
+  void count_given(TaiTime t);
+
   /// Returns `t`, or a moment after the last change of the key's condition if that is later. For
   /// conditions that are not recomputed and whose clock may be set back.
   TaiTime after(const std::string& key, TaiTime t) const;
@@ -89,7 +92,6 @@ class AlertBook {
   static bool returns(const Entry& entry, const Occurrence& occurrence);
   std::optional<Alert> give(Entry& entry);
   bool has_room(const Alert& alert, TaiTime t) const;
-  void count_given(TaiTime t);
 
   std::map<std::string, Entry> by_key_;
   std::deque<TaiTime> given_;  ///< Times of the last changes that were given.

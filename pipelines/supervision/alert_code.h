@@ -21,6 +21,7 @@ enum class AlertCode {
   LinkRestarted,
   LinkContradiction,
   ServiceTwice,
+  AlertsUndelivered,
   ChannelSilent,  ///< One alert for each channel.
   SpinInterference,
   SpinPeriod,
@@ -50,16 +51,41 @@ enum class AlertCode {
 inline constexpr int kAlertCodes = static_cast<int>(AlertCode::DataOutdated) + 1;
 
 constexpr std::string_view name_of(AlertCode code) {
-  constexpr std::array<std::string_view, kAlertCodes> kNames = {
-      "link.silent",       "link.late",          "link.ahead",        "link.gap",
-      "link.rejected",     "link.repeated",      "link.restarted",    "link.contradiction",
-      "service.twice",     "channel.silent",     "spin.interference", "spin.period",
-      "spin.rejection",    "spin.ambiguous",     "spin.doubtful",     "spin.sigma",
-      "spin.disagree",     "spin.off_target",    "spin.nutation",     "spin.rate",
-      "spin.no_answer",    "attitude.lost",      "attitude.doubtful", "attitude.no_answer",
-      "attitude.diverged", "sensor.contradicts", "sensor.stuck",      "reconstruction.launcher",
-      "model.departure",   "archive.backlog",    "archive.write",     "archive.disk",
-      "clock.jump",        "data.outdated"};
+  constexpr std::array<std::string_view, kAlertCodes> kNames = {"link.silent",
+                                                                "link.late",
+                                                                "link.ahead",
+                                                                "link.gap",
+                                                                "link.rejected",
+                                                                "link.repeated",
+                                                                "link.restarted",
+                                                                "link.contradiction",
+                                                                "service.twice",
+                                                                "alerts.undelivered",
+                                                                "channel.silent",
+                                                                "spin.interference",
+                                                                "spin.period",
+                                                                "spin.rejection",
+                                                                "spin.ambiguous",
+                                                                "spin.doubtful",
+                                                                "spin.sigma",
+                                                                "spin.disagree",
+                                                                "spin.off_target",
+                                                                "spin.nutation",
+                                                                "spin.rate",
+                                                                "spin.no_answer",
+                                                                "attitude.lost",
+                                                                "attitude.doubtful",
+                                                                "attitude.no_answer",
+                                                                "attitude.diverged",
+                                                                "sensor.contradicts",
+                                                                "sensor.stuck",
+                                                                "reconstruction.launcher",
+                                                                "model.departure",
+                                                                "archive.backlog",
+                                                                "archive.write",
+                                                                "archive.disk",
+                                                                "clock.jump",
+                                                                "data.outdated"};
   return kNames.at(static_cast<std::size_t>(code));
 }
 
@@ -93,6 +119,7 @@ constexpr std::string_view about_of(std::string_view key) {
 constexpr bool bears_on_answer(AlertCode code) {
   switch (code) {
     case AlertCode::ServiceTwice:
+    case AlertCode::AlertsUndelivered:
     case AlertCode::ChannelSilent:
     case AlertCode::SensorStuck:
     case AlertCode::SpinInterference:

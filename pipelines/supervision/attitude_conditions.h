@@ -27,7 +27,8 @@ class AttitudeConditions {
   AttitudeConditions(const AlertLimits& limits, std::optional<Orbit> orbit,
                      const ThreeAxisConfig& config = {});
 
-  /// Sets the limits of what is evaluated from now on.
+  /// Sets the limits of what is evaluated from now on. What has been evaluated is not forgotten, so
+  /// that limits may change to and fro with the times of what comes next.
   void set_limits(const AlertLimits& limits);
 
   ConditionChanges evaluate(SampleKind kind, TaiTime t) { return kinds_.evaluate(kind, t); }

@@ -44,11 +44,15 @@ std::optional<ConditionChange> ConditionWatch::judge(TaiTime t, const Reading& r
 std::optional<ConditionChange> ConditionWatch::update(TaiTime t, bool is_there) {
   const bool is_news = settle(t, is_there ? Change::Raised : Change::Cleared);
   const TaiTime since = told_ && !is_news ? told_->evidence.since : since_;
-  const Evidence evidence{.value = seconds_between(since, t),
-                          .limit = holding_.raise_s,
-                          .unit = "s",
+  const bool is_presence = unit_ != "s" && holding_.raise_s <= 0.0;
+  const Evidence evidence{.value = !is_presence ? seconds_between(since, t)
+                                   : is_there   ? 1.0
+                                                : 0.0,
+                          .limit = is_presence ? 1.0 : holding_.raise_s,
+                          .unit = is_presence ? unit_ : "s",
                           .since = since,
-                          .last = t};
+                          .last = t,
+                          .is_presence = is_presence};
   if (is_news) {
     return tell_settled(evidence);
   }

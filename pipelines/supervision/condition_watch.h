@@ -26,6 +26,7 @@ struct Evidence {
   std::vector<std::string> sources = {};  ///< Telemetry sources involved, if several.
   std::optional<double> worst = {};       ///< Since it was raised; empty: `value`.
   std::vector<NamedValue> more = {};      ///< What else is known, by the name it has in the alert.
+  bool is_presence = false;               ///< The thing is there or not: `value` is 1 or 0.
 };
 
 /// A renewed condition holds as before, with a value that has moved.
@@ -82,7 +83,8 @@ class ConditionWatch {
   /// Watches a value that must not fall below its limit.
   std::optional<ConditionChange> see_least(TaiTime t, const Reading& reading);
 
-  /// Watches a yes/no condition; its evidence is the time it has held.
+  /// Watches a yes/no condition. Its evidence is the time it has held; of a thing that is raised at
+  /// once, and whose unit is not s, it is that the thing is there.
   std::optional<ConditionChange> update(TaiTime t, bool is_there);
 
   /// Makes the next reading final: it decides at once, by the limit alone, whatever its time.

@@ -34,6 +34,7 @@ struct AlertLimits {
   double rejected_percent = 1.0;
   double repeated_samples = 100.0;
   double contradicted_samples = 1.0;
+  double undelivered_s = 60.0;
   double silent_s = 5.0;
   int silent_revolutions = 10;
   ShareLimit period = {.percent = 10.0, .revolutions = 100};

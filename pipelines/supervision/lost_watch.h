@@ -26,7 +26,7 @@ class LostWatch {
   }
 
  private:
-  ConditionWatch watch_{AlertCode::AttitudeLost, "s", {.raise_s = 0.0, .clear_s = 10.0}};
+  ConditionWatch watch_{AlertCode::AttitudeLost, "answers", {.raise_s = 0.0, .clear_s = 10.0}};
   bool was_lost_ = false;
 };
 

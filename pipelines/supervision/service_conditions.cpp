@@ -27,9 +27,10 @@ ServiceConditions::ServiceConditions(const AlertLimits& limits, std::optional<Co
       late_{AlertCode::LinkLate, "s", kNotForAMoment},
       ahead_{AlertCode::LinkAhead, "s", kNotForAMoment},
       rejected_{AlertCode::LinkRejected, "%"},
-      twice_{AlertCode::ServiceTwice, "s"},
+      twice_{AlertCode::ServiceTwice, "services"},
+      undelivered_{AlertCode::AlertsUndelivered, "s"},
       backlog_{AlertCode::ArchiveBacklog, "s"},
-      write_{AlertCode::ArchiveWrite, "s"},
+      write_{AlertCode::ArchiveWrite, "failures"},
       disk_{AlertCode::ArchiveDisk, "GiB"},
       clock_{AlertCode::ClockJump, "s", {.raise_s = 0.0, .clear_s = 60.0}} {}
 
@@ -44,6 +45,8 @@ ConditionChanges ServiceConditions::evaluate(const ServiceState& state) {
     twice->who = state.other_service.value_or("");
   }
   add(std::move(twice), changes);
+  add(undelivered_.update(state.t, {.value = state.undelivered_s, .limit = limits_.undelivered_s}),
+      changes);
   return changes;
 }
 

@@ -40,7 +40,8 @@ struct ServiceState {
   std::int64_t rejected = 0;  ///< Rejected samples among `received`.
   /// Another service that publishes results of this spacecraft; empty if there is none.
   std::optional<std::string> other_service = {};
-  double backlog_s = 0.0;  ///< Time for which the oldest sample has waited to be committed.
+  double undelivered_s = 0.0;  ///< Time for which the webhook has not taken alerts.
+  double backlog_s = 0.0;      ///< Time for which the oldest sample has waited to be committed.
   bool write_failed = false;
   std::optional<double> free_gib = {};  ///< Free space of the archive; empty if unknown.
   double clock_step_s = 0.0;            ///< Step of the wall clock since the previous state.
@@ -80,6 +81,7 @@ class ServiceConditions {
   ConditionWatch ahead_;
   ConditionWatch rejected_;
   ConditionWatch twice_;
+  ConditionWatch undelivered_;
   ConditionWatch backlog_;
   ConditionWatch write_;
   ConditionWatch disk_;

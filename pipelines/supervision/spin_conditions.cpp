@@ -45,7 +45,7 @@ SpinConditions::SpinConditions(const SpinConfig& config, Orbit orbit, const Aler
       sensors_{limits},
       irrational_{limits.period.revolutions, 1},
       left_out_{limits.rejection.revolutions, kPulseChannels},
-      interference_{AlertCode::SpinInterference, "s", {.raise_s = 0.0, .clear_s = 60.0}},
+      interference_{AlertCode::SpinInterference, "edges", {.raise_s = 0.0, .clear_s = 60.0}},
       period_{AlertCode::SpinPeriod, "%"},
       rejection_{AlertCode::SpinRejection, "%"},
       ambiguous_{AlertCode::SpinAmbiguous, "s", as_long_again(limits.ambiguous_s)},
@@ -59,12 +59,8 @@ SpinConditions::SpinConditions(const SpinConfig& config, Orbit orbit, const Aler
       answers_{limits.disagree_sigmas} {}
 
 void SpinConditions::set_limits(const AlertLimits& limits) {
-  if (limits.period.revolutions != limits_.period.revolutions) {
-    irrational_ = TurnShare{limits.period.revolutions, 1};
-  }
-  if (limits.rejection.revolutions != limits_.rejection.revolutions) {
-    left_out_ = TurnShare{limits.rejection.revolutions, kPulseChannels};
-  }
+  irrational_.set_turns(limits.period.revolutions);
+  left_out_.set_turns(limits.rejection.revolutions);
   channels_.set_silent_revolutions(limits.silent_revolutions);
   sensors_.set_limits(limits);
   ambiguous_.hold(as_long_again(limits.ambiguous_s));
@@ -125,21 +121,20 @@ ConditionChanges SpinConditions::evaluate(const SpinFix& fix) {
 }
 
 ConditionChanges SpinConditions::evaluate(const RevolutionProduct& revolution) {
-  t_sun1_.insert_or_assign(revolution.revolution, revolution.t_sun1);
+  t_sun1_ = revolution.t_sun1;
   return {};
 }
 
 ConditionChanges SpinConditions::evaluate(const SpinMeasurement& measurement) {
   ConditionChanges changes;
-  const auto t = t_sun1_.find(measurement.revolution);
-  if (measurement.quantity != SpinQuantity::Period || t == t_sun1_.end()) {
+  if (measurement.quantity != SpinQuantity::Period) {
     return changes;
   }
-  if (const auto percent =
-          irrational_.count(measurement.revolution, measurement.rejected_by.has_value())) {
-    add(period_.update(t->second, {.value = *percent, .limit = limits_.period.percent}), changes);
+  const auto percent =
+      irrational_.count(measurement.revolution, measurement.rejected_by.has_value());
+  if (percent && t_sun1_) {
+    add(period_.update(*t_sun1_, {.value = *percent, .limit = limits_.period.percent}), changes);
   }
-  t_sun1_.erase(t_sun1_.begin(), t);
   return changes;
 }
 

@@ -35,7 +35,8 @@ class SpinConditions {
 
   /// Sets the target axis for estimates from `t` on; the target rate stays.
   void set_target(TaiTime t, const Eigen::Vector3d& axis_icrf);
-  /// Sets the limits of what is evaluated from now on.
+  /// Sets the limits of what is evaluated from now on. What has been evaluated is not forgotten, so
+  /// that limits may change to and fro with the times of what comes next.
   void set_limits(const AlertLimits& limits);
   /// Announces a manoeuvre at `t`, after which a large axis sigma is expected for a while.
   void note_manoeuvre(TaiTime t) {
@@ -90,10 +91,10 @@ class SpinConditions {
   ConditionWatch rate_;
   LostWatch lost_;
   AnswerPresence presence_;
-  std::map<std::int64_t, TaiTime> t_sun1_;  ///< Sun pulse of revolutions without a period yet.
-  std::optional<TaiTime> first_;            ///< First estimate since start or manoeuvre.
-  std::set<TaiTime> manoeuvres_;            ///< Times of future manoeuvres.
-  std::optional<TaiTime> judged_;           ///< When the answer in force was judged last.
+  std::optional<TaiTime> t_sun1_;  ///< Sun edge of the last revolution that has a usable one.
+  std::optional<TaiTime> first_;   ///< First estimate since start or manoeuvre.
+  std::set<TaiTime> manoeuvres_;   ///< Times of future manoeuvres.
+  std::optional<TaiTime> judged_;  ///< When the answer in force was judged last.
   SpinAnswers answers_;
   std::optional<Estimated> least_nutation_rad_;  ///< Smallest half-angle found.
 };

@@ -147,6 +147,7 @@ void AttitudeEstimator::take_in_gyro(const GyroSample& sample, Products& out) {
   const std::optional<GyroSample> before = gyro_.last();
   const bool gap = before && gyro_.is_gap(elapsed_s(before->t, sample.t));
   gyro_.accept(sample);
+  contradictions_.note_scatter(sample.t, gyro_.noise_rad_s());
   note_accepted(SampleKind::Gyro, sample.t);
   if (before) {
     const double length_s = elapsed_s(before->t, sample.t);
@@ -198,6 +199,7 @@ void AttitudeEstimator::push(const StarFix& fix, Products& out) {
   }
   const auto factor = gyro_unit_.factor();
   gyro_unit_.observe(fix.t, observed_by(fix));
+  contradictions_.note_unit(gyro_unit_.factor().has_value());
   if (gyro_unit_.factor() != factor) {
     leave_out_suspect(out);
     forget_gyro();

@@ -42,6 +42,9 @@ class GyroWatch {
   /// Returns the time of the first of these invalid samples.
   TaiTime out_since() const { return out_since_; }
 
+  /// Returns the noise of the samples, at least the stated one.
+  double noise_rad_s() const { return noise_rad_s_; }
+
   double wander_rad2_s3() const { return wander_.rad2_s3(); }
 
   /// Returns whether samples are missing in an interval between two consecutive ones.

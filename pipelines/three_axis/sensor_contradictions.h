@@ -14,7 +14,9 @@
 /// What the errors of the mission file as stated explain is no contradiction (sensor_pair.h). Where
 /// pairs contradict each other, the culprit is the sensor that, left out, makes the others agree.
 /// If two contradict each other and no other pair shows which, a third sensor may vouch for one of
-/// the two: it agrees with it, and would not if that one were so far off.
+/// the two: it agrees with it, and would not if that one were so far off. A gyro that is right in
+/// another unit, or whose noise is far beyond the stated one, contradicts itself. A field that is
+/// wrong in direction and strength is the magnetometer's or the orbit's (field_departure.h).
 
 #pragma once
 
@@ -26,6 +28,7 @@
 
 #include "pipelines/observation/sensor_contradiction.h"
 #include "pipelines/three_axis/config.h"
+#include "pipelines/three_axis/field_departure.h"
 #include "pipelines/three_axis/mekf.h"
 #include "pipelines/three_axis/products.h"
 #include "pipelines/three_axis/sensor_pair.h"
@@ -43,6 +46,10 @@ class SensorContradictions {
   void turn(const RateSpan& span, double turn_rad2);
   /// Notes that the turn since the last call of `turn` is not measured.
   void lose_gyro() { ++carried_.losses; }
+  /// Notes whether the gyro's rates agree with the star fixes in another unit only.
+  void note_unit(bool is_wrong) { gyro_unit_is_wrong_ = is_wrong; }
+  /// Notes the noise that the gyro's samples have at `t`.
+  void note_scatter(TaiTime t, double noise_rad_s);
   void add(TaiTime t, const ObservedAttitude& fix);
   void add(const SeenDirection& seen);
 
@@ -98,6 +105,9 @@ class SensorContradictions {
   double most_sigmas_without(SampleKind kind, TaiTime t) const;
   bool is_vouched_for(SampleKind kind, const Pair& accused, TaiTime t) const;
   std::optional<SampleKind> culprit_of(const Pair& worst, TaiTime t) const;
+  std::optional<SampleKind> field_or_orbit(TaiTime t) const;
+  bool is_noisy() const;
+  std::optional<SensorContradiction> scatter(TaiTime t) const;
 
   PairPrior prior_ = PairPrior::Zero();
   std::array<Pair, 6> pairs_;
@@ -107,6 +117,10 @@ class SensorContradictions {
   std::optional<Direction> sun_;
   std::optional<Direction> sun_begin_;  ///< Begin of the present comparison of Sun and gyro.
   std::optional<Direction> field_;
+  FieldDeparture departure_;
+  bool gyro_unit_is_wrong_ = false;
+  double stated_noise_rad_s_ = 0.0;  ///< Of the gyro.
+  double gyro_noise_rad_s_ = 0.0;
   std::optional<SensorContradiction> found_;
 };
 

@@ -39,6 +39,27 @@ ConditionChanges changes_by_product(Conditions& conditions, const Product& produ
       product);
 }
 
+/// Returns the time of what a product is about; empty for one that has no time of its own.
+std::optional<TaiTime> time_of(const Product& product) {
+  return std::visit(
+      [](const auto& value) -> std::optional<TaiTime> {
+        if constexpr (requires { TaiTime{value.t}; }) {
+          return value.t;
+        } else if constexpr (requires { value.pulse.t; }) {
+          return value.pulse.t;
+        } else if constexpr (requires { value.t_sun1; }) {
+          return value.t_sun1;
+        } else if constexpr (requires { value.said.t; }) {
+          return value.said.t;
+        } else if constexpr (requires { value->estimate.t; }) {
+          return value->estimate.t;
+        } else {
+          return std::nullopt;
+        }
+      },
+      product);
+}
+
 /// Returns the time of a result that comes in order; empty for any other product.
 std::optional<TaiTime> time_in_order(const Product& product) {
   if (const auto* const attitude = std::get_if<AttitudeEstimate>(&product)) {
@@ -132,10 +153,7 @@ AlertDesk::AlertDesk(const std::vector<Mission>& missions, RunMode mode, const G
                             .contradictions = ContradictionConditions{mission.alerts},
                             .comparison = {},
                             .service = ServiceConditions{mission.alerts, mission.contact},
-                            .limits = mission.alerts,
-                            .service_limits = mission.alerts,
-                            .to_come = LimitsInForce{mission.alert_values},
-                            .service_to_come = LimitsInForce{mission.alert_values}};
+                            .limits = LimitsInForce{mission.alert_values}};
     begin(*supervised);
   }
 }
@@ -154,16 +172,15 @@ void AlertDesk::begin(Supervised& supervised) {
   if (supervised.model) {
     supervised.comparison.emplace(supervised.model, supervised.mission.alerts.departure_sigmas);
   }
-  supervised.limits = supervised.service_limits = supervised.mission.alerts;
-  supervised.service.set_limits(supervised.service_limits);
-  supervised.to_come = supervised.service_to_come = LimitsInForce{supervised.mission.alert_values};
+  supervised.limits = LimitsInForce{supervised.mission.alert_values};
+  supervised.in_force = nullptr;
 }
 
 void AlertDesk::apply(const OperatorAction& action, Supervised& supervised) {
   const TaiTime t = action.t.value();
   if (const auto* const limit = std::get_if<SetLimit>(&action.does)) {
-    supervised.to_come.set(t, *limit);
-    supervised.service_to_come.set(t, *limit);
+    supervised.limits.set(t, *limit);
+    supervised.in_force = nullptr;
   }
   const auto* const does = std::get_if<SpinAction>(&action.does);
   auto* const spin = std::get_if<SpinConditions>(&supervised.conditions);
@@ -177,17 +194,16 @@ void AlertDesk::apply(const OperatorAction& action, Supervised& supervised) {
   }
 }
 
-/// Puts the limits in force that operators have set for results from `t` or earlier on.
-void AlertDesk::advance_limits(TaiTime t, Supervised& supervised) {
-  const auto limits = supervised.to_come.advance(t);
-  if (!limits) {
+/// Puts the limits in force that hold at `t`, the time of what is judged next.
+void AlertDesk::put_limits_in_force(TaiTime t, Supervised& supervised) {
+  const AlertLimits& limits = supervised.limits.at(t);
+  if (std::exchange(supervised.in_force, &limits) == &limits) {
     return;
   }
-  supervised.limits = *limits;
-  std::visit([&](auto& conditions) { conditions.set_limits(*limits); }, supervised.conditions);
-  supervised.contradictions.set_limits(*limits);
+  std::visit([&](auto& conditions) { conditions.set_limits(limits); }, supervised.conditions);
+  supervised.contradictions.set_limits(limits);
   if (supervised.comparison) {
-    supervised.comparison->set_band(limits->departure_sigmas);
+    supervised.comparison->set_band(limits.departure_sigmas);
   }
 }
 
@@ -208,6 +224,8 @@ ConditionChanges AlertDesk::changes_by(const Samples& samples, Supervised& super
     if (is_left_out(sample)) {
       return;
     }
+    // A sample of the instant at which an operator sets limits has come before them.
+    put_limits_in_force(sample.value.t - std::chrono::nanoseconds{1}, supervised);
     using Value = std::remove_cvref_t<decltype(sample.value)>;
     if constexpr (requires { kind_of(sample.value); }) {
       // A kind without a sensor is not used, so it is not missed either.
@@ -229,6 +247,11 @@ void AlertDesk::take_up(const std::string& spacecraft, const std::string& run_id
   Desk& desk = desks_[spacecraft];
   desk.run_of.insert_or_assign(alert.alert_id, run_id);
   desk.book.take_up(run_id, alert);
+}
+
+void AlertDesk::take_up_transition(const std::string& spacecraft, TaiTime t) {
+  const std::lock_guard lock{mutex_};
+  desks_[spacecraft].book.count_given(t);
 }
 
 void AlertDesk::take_up_run(const std::string& spacecraft, const std::string& run_id) {
@@ -338,14 +361,12 @@ std::vector<ArchiveBatch> AlertDesk::evaluate(const std::map<std::string, Servic
 /// These alerts cannot be recomputed, so they must not be lost when the clock is set back.
 std::vector<Alert> AlertDesk::changed_by(const ServiceState& state, Desk& desk) {
   Supervised& supervised = *desk.supervised;
-  if (const auto limits = supervised.service_to_come.advance(state.pass_t)) {
-    supervised.service_limits = *limits;
-    supervised.service.set_limits(*limits);
-  }
+  const AlertLimits& limits = supervised.limits.at(state.pass_t);
+  supervised.service.set_limits(limits);
   std::vector<Alert> alerts;
   for (const ConditionChange& change : supervised.service.evaluate(state)) {
-    Occurrence occurrence = occurrence_of(change, supervised.stored_run, supervised.mission.sha256,
-                                          supervised.service_limits, desk.book);
+    Occurrence occurrence =
+        occurrence_of(change, supervised.stored_run, supervised.mission.sha256, limits, desk.book);
     occurrence.t = desk.book.after(occurrence.key, occurrence.t);
     if (auto alert = settle(desk.book, change.change, occurrence)) {
       desk.run_of.try_emplace(alert->alert_id, supervised.stored_run);
@@ -363,8 +384,8 @@ std::vector<Alert> AlertDesk::changed_by(ArchiveBatch& batch, Desk& desk) {
     append(attitude->await_answer(times_of_fixes(batch.samples)), all);
   }
   for (const Product& product : batch.products) {
-    if (const auto t = time_in_order(product)) {
-      advance_limits(*t, supervised);
+    if (const auto t = time_of(product)) {
+      put_limits_in_force(*t, supervised);
     }
     append(std::visit([&](auto& conditions) { return changes_by_product(conditions, product); },
                       supervised.conditions),
@@ -382,12 +403,12 @@ std::vector<Alert> AlertDesk::changed_by(ArchiveBatch& batch, Desk& desk) {
 }
 
 std::vector<Alert> AlertDesk::settled(const ConditionChanges& changes, Desk& desk) {
-  const Supervised& supervised = *desk.supervised;
+  Supervised& supervised = *desk.supervised;
   std::vector<Alert> alerts;
   for (const ConditionChange& change : changes) {
     if (auto alert = settle(desk.book, change.change,
                             occurrence_of(change, supervised.run_id, supervised.mission.sha256,
-                                          supervised.limits, desk.book))) {
+                                          supervised.limits.at(change.t), desk.book))) {
       desk.run_of.try_emplace(alert->alert_id, supervised.run_id);
       alerts.push_back(*std::move(alert));
     }

@@ -55,6 +55,9 @@ class AlertDesk {
   /// Takes up an earlier alert from the archive; call it in the order of raising.
   void take_up(const std::string& spacecraft, const std::string& run_id, const Alert& alert);
 
+  /// Counts an earlier transition of a spacecraft's alerts; call it in their order.
+  void take_up_transition(const std::string& spacecraft, TaiTime t);
+
   /// Sets the last run of a spacecraft, which gets the service's alerts until the next run begins.
   void take_up_run(const std::string& spacecraft, const std::string& run_id);
 
@@ -105,11 +108,9 @@ class AlertDesk {
     ContradictionConditions contradictions;
     std::optional<ModelComparison> comparison;
     ServiceConditions service;
-    AlertLimits limits;          ///< Limits in force for what samples and products raise.
-    AlertLimits service_limits;  ///< Limits in force for what the service raises.
-    LimitsInForce to_come;       ///< Operators' limits, by the time of results.
-    LimitsInForce service_to_come;
-    std::string run_id = {};  ///< Supervised run, empty before the first.
+    LimitsInForce limits;
+    const AlertLimits* in_force = nullptr;  ///< Those that `conditions` have; null before any.
+    std::string run_id = {};                ///< Supervised run, empty before the first.
     /// Answers of the run before, whose last solution comes while this one goes on.
     std::optional<SpinConditions> ended = {};
     std::string ended_run = {};
@@ -126,7 +127,7 @@ class AlertDesk {
   static void begin(Supervised& supervised);
   static void end(Supervised& supervised);
   static void apply(const OperatorAction& action, Supervised& supervised);
-  static void advance_limits(TaiTime t, Supervised& supervised);
+  static void put_limits_in_force(TaiTime t, Supervised& supervised);
   template <class Samples>
   static ConditionChanges changes_by(const Samples& samples, Supervised& supervised);
   static std::vector<Alert> changed_by(ArchiveBatch& batch, Desk& desk);

@@ -43,4 +43,21 @@ Expected<std::vector<StoredAlert>> find_alerts(const std::filesystem::path& arch
   return read_archive(archive, &alerts_in);
 }
 
+Expected<std::vector<StoredTransition>> find_transitions(const std::filesystem::path& archive,
+                                                         RunMode mode) {
+  return read_archive(archive, [&](SQLite::Database& database) {
+    SQLite::Statement query{database,
+                            "SELECT spacecraft_id, t_tai_ns FROM alert_transition"
+                            " JOIN run USING (run_id) WHERE mode = ?"
+                            " ORDER BY first_arrival, t_tai_ns"};
+    query.bind(1, std::string{name_of(mode)});
+    std::vector<StoredTransition> transitions;
+    while (query.executeStep()) {
+      transitions.push_back({.spacecraft = query.getColumn(0).getString(),
+                             .t = tai_from_ns(query.getColumn(1).getInt64())});
+    }
+    return transitions;
+  });
+}
+
 }  // namespace spindrift

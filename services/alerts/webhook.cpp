@@ -91,16 +91,35 @@ Webhook::Webhook(std::string url, const AlertDesk& desk, std::string service)
 
 Webhook::~Webhook() = default;
 
+BackOff Webhook::deliveries() const {
+  const std::lock_guard lock{mutex_};
+  return deliveries_;
+}
+
+void Webhook::note(const Expected<void>& sent) {
+  const std::lock_guard lock{mutex_};
+  if (sent) {
+    deliveries_.succeed();
+  } else {
+    deliveries_.fail(std::chrono::steady_clock::now());
+  }
+}
+
 void Webhook::run(const std::stop_token& stop) {
   FiringAlerts firing{service_};
   std::string failure;  // Last logged failure.
   every(kPeriod, stop, [&] {
+    if (!deliveries().is_due(std::chrono::steady_clock::now())) {
+      return;
+    }
     const nlohmann::json due = firing.due(desk_.open(), tai_now());
     if (due.empty()) {
+      note({});  // What it has not taken is over.
       return;
     }
     const auto sent =
         post(url_, due.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+    note(sent);
     if (sent) {
       firing.told(tai_now());
       if (!std::exchange(failure, "").empty()) {

@@ -5,6 +5,7 @@
 
 #include <functional>
 #include <memory>
+#include <mutex>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <thread>
@@ -12,6 +13,7 @@
 
 #include "pipelines/core/expected.h"
 #include "services/alerts/alert_desk.h"
+#include "services/alerts/back_off.h"
 
 namespace spindrift {
 
@@ -24,6 +26,10 @@ class Webhook {
   static Expected<std::unique_ptr<Webhook>> start(const std::string& url, const AlertDesk& desk,
                                                   const std::string& service);
   ~Webhook();
+
+  /// Returns how often it did not take alerts, and for how long it has not.
+  BackOff deliveries() const;
+
   Webhook(const Webhook&) = delete;
   Webhook& operator=(const Webhook&) = delete;
   Webhook(Webhook&&) = delete;
@@ -32,10 +38,13 @@ class Webhook {
  private:
   Webhook(std::string url, const AlertDesk& desk, std::string service);
   void run(const std::stop_token& stop);
+  void note(const Expected<void>& sent);
 
   std::string url_;
   const AlertDesk& desk_;
   std::string service_;
+  mutable std::mutex mutex_;
+  BackOff deliveries_;
   std::jthread thread_;  // Last member, since the thread uses the others.
 };
 

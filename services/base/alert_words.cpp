@@ -44,8 +44,9 @@ constexpr std::array<Words, kAlertCodes> kWords{{
      "look at the table contradiction; [sources] prefer names the one whose value counts"},
     {ServiceTwice, "another service publishes results of the spacecraft in this partition",
      "stop one of the two; `spindrift doctor` says who is on the bus"},
-    {ChannelSilent, "silent channel that should give something",
-     "look at sensor and telemetry link"},
+    {AlertsUndelivered, "the webhook does not take alerts",
+     "look at its receiver, and at the log for what it answers"},
+    {ChannelSilent, "nothing from {}", "look at sensor and telemetry link"},
     {SpinInterference, "edges of two channels spoil each other",
      "nothing needs to be done: both are left out while it lasts"},
     {SpinPeriod, "share of revolutions with an irrational period",
@@ -111,6 +112,15 @@ std::string digits_of(double value, std::string_view unit) {
   return unit == "s" && value >= kLong_s ? duration_text(value) : fmt::format("{:.3g}", value);
 }
 
+/// Returns what the alert is about, with the name of the thing if it is about one.
+std::string what_of(AlertCode code, std::string_view about) {
+  const std::string_view what = kWords.at(static_cast<std::size_t>(code)).what;
+  const std::string thing = shown(std::string{about});
+  return what.find("{}") != std::string_view::npos ? fmt::format(fmt::runtime(what), thing)
+         : about.empty()                           ? std::string{what}
+                                                   : fmt::format("{} ({})", what, thing);
+}
+
 std::string value_text(const ConditionChange& change) {
   const Evidence& evidence = change.evidence;
   if (const Ending* const ending = ending_of(change.code, change.about)) {
@@ -118,7 +128,7 @@ std::string value_text(const ConditionChange& change) {
     return fmt::format(": {} {}{}{}", ending->what, is_over ? "ended " : "ends in ",
                        duration_text(std::abs(evidence.value) * kHour_s), is_over ? " ago" : "");
   }
-  if (evidence.limit <= 0.0) {
+  if (evidence.limit <= 0.0 || evidence.is_presence) {
     return {};  // The alert is raised by mere presence, so the value says nothing.
   }
   const std::string sigma =
@@ -127,7 +137,8 @@ std::string value_text(const ConditionChange& change) {
                                 ? ", worst " + digits_of(*evidence.worst, evidence.unit)
                                 : std::string{};
   const bool has_unit = evidence.unit != "s" || evidence.value < kLong_s;
-  return fmt::format(": {}{}{}{}, limit {}", digits_of(evidence.value, evidence.unit),
+  return fmt::format("{}{}{}{}{}, limit {}", change.code == ChannelSilent ? " for " : ": ",
+                     digits_of(evidence.value, evidence.unit),
                      has_unit ? fmt::format(" {}", evidence.unit) : "", sigma, worst,
                      digits_of(evidence.limit, evidence.unit));
 }
@@ -140,7 +151,6 @@ std::string_view what_to_do(const ConditionChange& change) {
 }  // namespace
 
 std::string sentence_of(const ConditionChange& change, std::int64_t count) {
-  const Words& words = kWords.at(static_cast<std::size_t>(change.code));
   if (change.change == Change::Cleared) {
     return fmt::format("over at {}", format_utc(change.t));
   }
@@ -151,8 +161,9 @@ std::string sentence_of(const ConditionChange& change, std::int64_t count) {
                                 ? fmt::format(", since {}", format_utc(change.evidence.since))
                                 : std::string{};
   const std::string often = count > 1 ? fmt::format(", {} times so far", count) : std::string{};
-  return fmt::format("{}{}{} at {}{}{}: {}", words.what, who, value_text(change), format_utc(t),
-                     since, often, what_to_do(change));
+  const bool names_it = ending_of(change.code, change.about) == nullptr;
+  return fmt::format("{}{}{} at {}{}{}: {}", what_of(change.code, names_it ? change.about : ""),
+                     who, value_text(change), format_utc(t), since, often, what_to_do(change));
 }
 
 std::string words_of(const std::string& key) {
@@ -162,10 +173,7 @@ std::string words_of(const std::string& key) {
   }
   const std::string_view about = about_of(key);
   const Ending* const ending = ending_of(*code, about);
-  return ending != nullptr ? fmt::format("{} is old", ending->what)
-         : about.empty()   ? std::string{kWords.at(static_cast<std::size_t>(*code)).what}
-                           : fmt::format("{} ({})", kWords.at(static_cast<std::size_t>(*code)).what,
-                                         shown(std::string{about}));
+  return ending != nullptr ? fmt::format("{} is old", ending->what) : what_of(*code, about);
 }
 
 std::string evidence_json(const Evidence& evidence, std::string_view config_sha256,

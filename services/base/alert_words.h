@@ -16,7 +16,7 @@ namespace spindrift {
 /// @param count How often the condition has begun so far.
 std::string sentence_of(const ConditionChange& change, std::int64_t count = 1);
 
-/// Returns what an alert is about, in a few words: "silent channel (sun2)".
+/// Returns what an alert is about, in a few words: "nothing from sun2".
 /// @param key Key of an alert; returned as it is where it is unknown.
 std::string words_of(const std::string& key);
 

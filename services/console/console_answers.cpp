@@ -13,6 +13,7 @@
 
 #include "pipelines/core/shown.h"
 #include "services/alerts/alert_json.h"
+#include "services/alerts/webhook.h"
 #include "services/base/parsed_json.h"
 #include "services/console/page_files.h"
 #include "services/console/token_file.h"
@@ -120,9 +121,12 @@ void ConsoleAnswers::add_page() {
 void ConsoleAnswers::add_api() {
   gets_["/healthz"] = [this](const auto&, const auto&, const auto&) { return health(); };
   gets_["/metrics"] = [this](const auto&, const auto&, const ViewerCounts& viewers) {
+    const auto failures = service_.webhook == nullptr
+                              ? std::nullopt
+                              : std::optional{service_.webhook->deliveries().failures()};
     return answer(http::status::ok, "text/plain; version=0.0.4; charset=utf-8",
                   metrics_text(service_.feed.state(), service_.archive.statistics(),
-                               service_.feed.latencies(), viewers));
+                               service_.feed.latencies(), viewers, failures));
   };
   gets_["/api/v1/state"] = [this](const auto&, const auto&, const auto&) {
     return json_answer(http::status::ok, service_.feed.state());

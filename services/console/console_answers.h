@@ -26,6 +26,8 @@
 
 namespace spindrift {
 
+class Webhook;
+
 /// Answer made later, each kind by a thread of its own.
 struct LaterAnswer {
   enum class By {
@@ -50,6 +52,7 @@ class ConsoleAnswers {
     ConsoleFeed& feed;
     AlertDesk& desk;
     Archive& archive;
+    const Webhook* webhook = nullptr;  ///< Null when alerts are sent nowhere.
     /// Takes an operator's action and waits until it is stored. @return Its id; InvalidInput for a
     /// bad one.
     std::function<Expected<std::string>(const nlohmann::json&)> act = {};

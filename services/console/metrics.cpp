@@ -135,7 +135,8 @@ void add_alerts(const nlohmann::json& alerts, std::vector<MetricFamily>& all) {
 }  // namespace
 
 std::string metrics_text(const nlohmann::json& state, const ArchiveStatistics& archive,
-                         const DurationHistogram& latencies, const ViewerCounts& viewers) {
+                         const DurationHistogram& latencies, const ViewerCounts& viewers,
+                         std::optional<std::int64_t> webhook_failures) {
   std::vector<MetricFamily> all;
   add_service(state.at("service"), all);
   add_archive(archive, all);
@@ -146,6 +147,12 @@ std::string metrics_text(const nlohmann::json& state, const ArchiveStatistics& a
       .put_into(all);
   add_spacecraft(state.at("spacecraft"), all);
   add_alerts(state.at("alerts"), all);
+  if (webhook_failures) {
+    Family{"webhook_failures_total", "How often the webhook did not take alerts",
+           MetricType::Counter}
+        .add(static_cast<double>(*webhook_failures))
+        .put_into(all);
+  }
   Family{"viewers", "Who watches the console"}
       .add(static_cast<double>(viewers.watching))
       .put_into(all);

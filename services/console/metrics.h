@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 
 #include "services/archive/archive.h"
@@ -19,7 +20,9 @@ struct ViewerCounts {
 
 /// Returns the metrics in Prometheus text format. Unknown values are left out.
 /// @param state As in /api/v1/state. @param latencies Latencies of results.
+/// @param webhook_failures How often the webhook did not take alerts; empty when there is none.
 std::string metrics_text(const nlohmann::json& state, const ArchiveStatistics& archive,
-                         const DurationHistogram& latencies, const ViewerCounts& viewers);
+                         const DurationHistogram& latencies, const ViewerCounts& viewers,
+                         std::optional<std::int64_t> webhook_failures = {});
 
 }  // namespace spindrift

@@ -315,7 +315,7 @@ nlohmann::json ShownSpacecraft::residuals() const {
 void ShownSpacecraft::show(const OperatorAction& action) {
   actions_.push_back(action);
   if (const auto* const limit = std::get_if<SetLimit>(&action.does)) {
-    limits_to_come_.set(action.t.value(), *limit);
+    limits_.set(action.t.value(), *limit);
   }
   const auto* const does = std::get_if<SpinAction>(&action.does);
   const auto* const said = does == nullptr ? nullptr : std::get_if<SetPrior>(does);
@@ -335,10 +335,7 @@ void ShownSpacecraft::show_effect(const RunNotice& notice) {
 }
 
 const AlertLimits& ShownSpacecraft::limits() {
-  if (health_.last_sample) {
-    limits_ = limits_to_come_.advance(*health_.last_sample).value_or(limits_);
-  }
-  return limits_;
+  return limits_.at(health_.last_sample.value_or(TaiTime::min()));
 }
 
 /// Returns the mission's prior unless an operator has replaced it.

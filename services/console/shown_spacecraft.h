@@ -80,8 +80,7 @@ class ShownSpacecraft {
   Ledger ledger_;  ///< Residuals of edges in `sequential`, or of samples in the filter.
   std::deque<OperatorAction> actions_;          ///< The latest actions.
   std::map<std::string, std::string> effects_;  ///< What actions have done, by action_id.
-  LimitsInForce limits_to_come_{mission_.alert_values};
-  AlertLimits limits_ = mission_.alerts;
+  LimitsInForce limits_{mission_.alert_values};
   std::map<TaiTime, SpinPrior> priors_;                  ///< Set by actions, by start time.
   std::optional<std::pair<TaiTime, double>> bound_deg_;  ///< From the last batch solution.
   ApparentSun sun_;

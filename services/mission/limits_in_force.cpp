@@ -1,20 +1,27 @@
 #include "services/mission/limits_in_force.h"
 
+#include <iterator>
+
 #include "services/mission/mission_alerts.h"
 
 namespace spindrift {
 
-std::optional<AlertLimits> LimitsInForce::advance(TaiTime t) {
-  const auto later = pending_.upper_bound(t);
-  if (later == pending_.begin()) {
-    return std::nullopt;
+const AlertLimits& LimitsInForce::at(TaiTime t) {
+  if (from_.empty()) {
+    work_out();
   }
-  for (auto due = pending_.begin(); due != later; due = pending_.erase(due)) {
-    for (const auto& [name, value] : due->second.limits) {
-      values_.insert_or_assign(limit_path(due->second.key, name), value);
+  return std::prev(from_.upper_bound(t))->second;
+}
+
+void LimitsInForce::work_out() {
+  TomlValues values = values_;
+  from_.emplace(TaiTime::min(), alert_limits(values));
+  for (const auto& [t, limit] : said_) {
+    for (const auto& [name, value] : limit.limits) {
+      values.insert_or_assign(limit_path(limit.key, name), value);
     }
+    from_.insert_or_assign(t, alert_limits(values));
   }
-  return alert_limits(values_);
 }
 
 }  // namespace spindrift

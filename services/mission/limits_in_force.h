@@ -4,7 +4,6 @@
 #pragma once
 
 #include <map>
-#include <optional>
 
 #include "pipelines/supervision/limits.h"
 #include "pipelines/time/tai_time.h"
@@ -12,20 +11,28 @@
 
 namespace spindrift {
 
+/// Tells the limits by the time of what is judged, so that they hold from the same place on in
+/// whichever order samples, results and details are judged.
 class LimitsInForce {
  public:
   /// @param values The values of [alerts] of the mission file, defaults filled in.
   explicit LimitsInForce(TomlValues values) : values_{std::move(values)} {}
 
   /// Sets limits, which must be allowed, for what happens from `t` on.
-  void set(TaiTime t, const SetLimit& limit) { pending_.emplace(t, limit); }
+  void set(TaiTime t, const SetLimit& limit) {
+    said_.emplace(t, limit);
+    from_.clear();
+  }
 
-  /// Advances to `t`. @return The limits if any has changed.
-  std::optional<AlertLimits> advance(TaiTime t);
+  /// @return Valid until the next `set`; the same object as long as no limit changes.
+  const AlertLimits& at(TaiTime t);
 
  private:
+  void work_out();
+
   TomlValues values_;
-  std::multimap<TaiTime, SetLimit> pending_;
+  std::multimap<TaiTime, SetLimit> said_;
+  std::map<TaiTime, AlertLimits> from_;  ///< By the time from which they hold; empty: not known.
 };
 
 }  // namespace spindrift

@@ -53,6 +53,7 @@ AlertLimits alert_limits(const TomlValues& values) {
       .rejected_percent = number(values, "alerts.link.rejected.percent"),
       .repeated_samples = number(values, "alerts.link.repeated.samples"),
       .contradicted_samples = number(values, "alerts.link.contradiction.samples"),
+      .undelivered_s = number(values, "alerts.alerts.undelivered.seconds"),
       .silent_s = number(values, "alerts.channel.silent.seconds"),
       .silent_revolutions = static_cast<int>(number(values, "alerts.channel.silent.revolutions")),
       .period = share_limit(values, "alerts.spin.period"),

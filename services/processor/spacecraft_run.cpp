@@ -268,9 +268,11 @@ void SpacecraftRun::hand_on(OperatorAction action, std::vector<PassInput>& input
   inputs.back().actions.push_back({.place = next_place(inputs.back()), .value = std::move(action)});
 }
 
-/// An action without a time applies from the time that the telemetry has reached.
+/// An action without a time applies from the time that the telemetry has reached, and before any
+/// from now on; in a replay, whose telemetry may be of any time, from its beginning.
 void SpacecraftRun::accept(OperatorAction&& action, Taken& out) {
-  action.t = action.t ? *action.t : watch_.reached().value_or(tai_now());
+  const TaiTime before_any = start_.mode == RunMode::Live ? tai_now() : TaiTime{};
+  action.t = action.t ? *action.t : watch_.reached().value_or(before_any);
   action.arrival = new_arrival();
   spdlog::info("{}: {} from {} on, by {}: {} {} {}", spacecraft_id_, action.action,
                format_utc(*action.t), action.by, action.arguments, action.note, action.action_id);

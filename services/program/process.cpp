@@ -1,13 +1,16 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <csignal>
 #include <cstdint>
 #include <iterator>
 #include <string>
 #include <utility>
 
+#include "pipelines/time/utc.h"
 #include "services/alerts/alert_desk.h"
 #include "services/archive/archive.h"
+#include "services/archive/last_run.h"
 #include "services/archive/submit_all.h"
 #include "services/archive/verdict.h"
 #include "services/base/counted.h"
@@ -111,6 +114,28 @@ Expected<void> tell_at_the_end(Archive& archive, const Processor& processor,
   });
 }
 
+/// @return InvalidConfiguration if no run has an answer and the orbit ends before or begins after
+///         the last one's telemetry.
+Expected<void> check_orbit(const Mission& mission, const Processor& processor,
+                           const std::filesystem::path& db) {
+  const OrbitEphemeris* const orbit = mission.orbit ? mission.orbit->ephemeris() : nullptr;
+  const auto last = find_last_run(db, mission.spacecraft_id, RunMode::Process);
+  const auto summaries = processor.summaries();
+  const bool has_answer = std::any_of(summaries.begin(), summaries.end(), [](const auto& run) {
+    return !run.estimates.empty() || run.attitude.has_value();
+  });
+  if (orbit == nullptr || has_answer || !last || !*last || !(*last)->first_sample ||
+      (orbit->usable_from() <= *(*last)->last_sample &&
+       orbit->usable_to() >= *(*last)->first_sample)) {
+    return {};
+  }
+  return refused(fmt::format(
+      "{}: the orbit covers {} to {}, and the telemetry {} to {}: without the orbit of these dates "
+      "there is no answer",
+      mission.spacecraft_id, format_utc(orbit->usable_from(), 0), format_utc(orbit->usable_to(), 0),
+      format_utc(*(*last)->first_sample, 0), format_utc(*(*last)->last_sample, 0)));
+}
+
 Expected<bool> computed_without_fault(const Processor& processor, const std::filesystem::path& db) {
   for (const RunSummary& summary : processor.summaries()) {
     const auto faults = find_faults(db, summary.run_id);
@@ -170,12 +195,14 @@ Expected<bool> process(const ProcessOptions& options) {
   if (auto outcome = outcome_of(done.map([](bool) {}), (*archive)->close()); !outcome) {
     return Unexpected{outcome.error()};
   }
-  return report(*processor, options.db, options.json).and_then([&](const std::string& text) {
-    fmt::print("{}", text);
-    return computed_without_fault(*processor, options.db).map([&](bool sound) {
-      return *done && sound;
-    });
-  });
+  return report(*processor, options.db, options.json)
+      .and_then([&](const std::string& text) {
+        fmt::print("{}", text);
+        return telemetry->check_read();
+      })
+      .and_then([&] { return check_orbit(*mission, *processor, options.db); })
+      .and_then([&] { return computed_without_fault(*processor, options.db); })
+      .map([&](bool sound) { return *done && sound; });
 }
 
 }  // namespace spindrift

@@ -91,6 +91,9 @@ Expected<void> replay(const ReplayOptions& options) {
   if (!sent) {
     return Unexpected{sent.error()};
   }
+  if (auto read = telemetry->check_read(); !read) {
+    return read;
+  }
   if (options.json) {
     nlohmann::json object = sent->json();
     object["input_rejected"] = bad.count;

@@ -254,20 +254,27 @@ Expected<void> take_up_last_runs(const std::filesystem::path& db,
   return {};
 }
 
-/// Restores open alerts before anything is computed, only of runs of the same mode: alerts left
-/// open by a rehearsal must not wake anybody.
+/// Restores open alerts before anything is computed, and how many changes there were, only of runs
+/// of the same mode: alerts left open by a rehearsal must not wake anybody.
 Expected<void> take_up_alerts(const std::filesystem::path& db, RunMode mode, AlertDesk& desk,
                               ConsoleFeed* feed) {
-  return find_alerts(db).map([&](const std::vector<StoredAlert>& alerts) {
-    for (const StoredAlert& stored : alerts) {
-      if (stored.mode == mode) {
-        desk.take_up(stored.spacecraft, stored.run_id, stored.alert);
-        if (feed != nullptr) {
-          feed->put(stored);
+  return find_alerts(db)
+      .map([&](const std::vector<StoredAlert>& alerts) {
+        for (const StoredAlert& stored : alerts) {
+          if (stored.mode == mode) {
+            desk.take_up(stored.spacecraft, stored.run_id, stored.alert);
+            if (feed != nullptr) {
+              feed->put(stored);
+            }
+          }
         }
-      }
-    }
-  });
+      })
+      .and_then([&] { return find_transitions(db, mode); })
+      .map([&](const std::vector<StoredTransition>& transitions) {
+        for (const auto& [spacecraft, t] : transitions) {
+          desk.take_up_transition(spacecraft, t);
+        }
+      });
 }
 
 /// A full pipe without a reader must not block a stopped service.
@@ -308,7 +315,7 @@ Expected<void> take_and_answer(const ServeOptions& options, const ServiceParts& 
   ActionInbox inbox{
       kinds_of(parts.missions), parts.db, parts.mode, parts.archive, parts.taken, actions};
   const auto requests = answer_requests(options.db, parts.archive, parts.desk, inbox);
-  const auto console = start_console(options, feed, parts.desk, parts.archive, inbox);
+  const auto console = start_console(options, feed, parts, inbox);
   if (!console) {
     return Unexpected{console.error()};
   }
@@ -390,6 +397,7 @@ Expected<void> serve(const ServeOptions& options) {
       .processor = *processor,
       .archive = archive,
       .desk = desk,
+      .webhook = webhook->get(),
       .problems = problems,
       .stop_signal = stop_signal,
       .failures = failures,

@@ -32,16 +32,17 @@ void show_verdict(ConsoleFeed& feed, const std::string& spacecraft, const std::s
 }
 
 Expected<std::unique_ptr<ConsoleServer>> start_console(const ServeOptions& options,
-                                                       ConsoleFeed* feed, AlertDesk& desk,
-                                                       Archive& archive, ActionInbox& inbox) {
+                                                       ConsoleFeed* feed, const ServiceParts& parts,
+                                                       ActionInbox& inbox) {
   if (feed == nullptr) {
     return nullptr;
   }
   auto console = ConsoleServer::start(
       {.address = options.console, .names = options.console_hosts, .db = options.db},
       {.feed = *feed,
-       .desk = desk,
-       .archive = archive,
+       .desk = parts.desk,
+       .archive = parts.archive,
+       .webhook = parts.webhook,
        .act = [&inbox](const nlohmann::json& action) { return inbox.submit(action); }});
   if (console) {
     spdlog::info("console {}", (*console)->url());

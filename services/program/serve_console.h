@@ -15,6 +15,7 @@
 #include "services/mission/mission.h"
 #include "services/program/commands.h"
 #include "services/serving/action_inbox.h"
+#include "services/serving/service_run.h"
 
 namespace spindrift {
 
@@ -32,7 +33,7 @@ void show_verdict(ConsoleFeed& feed, const std::string& spacecraft, const std::s
 
 /// Logs the console's address. @return Null if `feed` is; the errors of ConsoleServer::start.
 Expected<std::unique_ptr<ConsoleServer>> start_console(const ServeOptions& options,
-                                                       ConsoleFeed* feed, AlertDesk& desk,
-                                                       Archive& archive, ActionInbox& inbox);
+                                                       ConsoleFeed* feed, const ServiceParts& parts,
+                                                       ActionInbox& inbox);
 
 }  // namespace spindrift

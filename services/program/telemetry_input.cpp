@@ -144,8 +144,18 @@ Expected<SampleBatch> TelemetryInput::next() {
     for (const RejectedInput& row : batch->rejected) {
       bad_rows_.collect(row);
     }
+    has_read_ = has_read_ || count_of(batch->samples) > 0;
   }
   return batch;
+}
+
+Expected<void> TelemetryInput::check_read() const {
+  if (has_read_ || bad_rows_.count == 0) {
+    return {};
+  }
+  const RejectedInput& row = bad_rows_.first.front();
+  return refused(fmt::format("nothing of the telemetry can be read: {}:{}: {}", row.source,
+                             row.line, row.reason));
 }
 
 std::optional<RunNotice> TelemetryInput::find_preferred(Mission& mission) const {

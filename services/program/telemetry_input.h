@@ -60,6 +60,8 @@ class TelemetryInput {
   /// Returns the hash over all bytes of the files, with the errors of InputFile.
   Expected<std::string> sha256() const;
   const BadRows& bad_rows() const { return bad_rows_; }  ///< Bad rows returned so far.
+  /// @return InvalidConfiguration with the first bad row if rows came, and all of them were bad.
+  Expected<void> check_read() const;
   std::uint64_t bytes_given() const { return stream_.bytes_given(); }
   std::uint64_t bytes_total() const { return stream_.bytes_total(); }
 
@@ -71,6 +73,7 @@ class TelemetryInput {
   TelemetryStream stream_;
   SampleBatch first_;  ///< First batch, until next() returns it.
   BadRows bad_rows_;
+  bool has_read_ = false;  ///< Whether a sample was returned.
 };
 
 }  // namespace spindrift

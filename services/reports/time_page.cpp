@@ -19,7 +19,9 @@ constexpr double kFirstPanel = 66.0;
 constexpr double kPanelTitle = 20.0;
 constexpr double kBetweenPanels = 18.0;
 constexpr double kLineOfText = 15.0;
-constexpr double kLetter = 6.6;  // Approximate width of a letter, px.
+constexpr double kLetter = 6.6;      // Approximate width of a letter, px.
+constexpr double kNameLetter = 7.4;  // Of a letter of the names of curves, at most on average.
+constexpr double kNameGap = 8.0;
 constexpr double kBar = 16.0;
 constexpr double kBetweenBars = 5.0;
 constexpr double kSeam = 0.7;  // Gap between states of the same colour, px.
@@ -208,7 +210,11 @@ void TimePage::name_curves(const std::vector<Curve>& curves, const Scale& y) {
   }
   spread(heights, bottom_);
   for (std::size_t i = 0; i < names.size(); ++i) {
-    svg_.text({kRight + 8.0, heights[i]}, names[i].text, {.colour = names[i].curve->colour});
+    // A name that is too long for the margin begins within the panel.
+    const double end = kRight + kNameGap + kNameLetter * static_cast<double>(names[i].text.size());
+    const bool fits = end < kPageWidth;
+    svg_.text({fits ? kRight + kNameGap : kPageWidth - kNameGap, heights[i]}, names[i].text,
+              {.colour = names[i].curve->colour, .anchor = fits ? Anchor::Start : Anchor::End});
   }
 }
 

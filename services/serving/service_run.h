@@ -26,6 +26,8 @@
 
 namespace spindrift {
 
+class Webhook;
+
 struct Told {
   OtherServices others;
   RehearsalClocks clocks;
@@ -43,6 +45,7 @@ struct ServiceParts {
   Processor& processor;
   Archive& archive;
   AlertDesk& desk;
+  const Webhook* webhook;  ///< Null when alerts are sent nowhere.
   Problems& problems;
   StopSignal& stop_signal;
   ThreadFailures& failures;

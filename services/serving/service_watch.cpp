@@ -9,6 +9,7 @@
 
 #include "pipelines/time/time_span.h"
 #include "pipelines/time/utc.h"
+#include "services/alerts/webhook.h"
 #include "services/base/leap_tables.h"
 #include "services/base/wall_clock.h"
 
@@ -110,6 +111,7 @@ ServiceState ServiceWatch::state_of_service(Instant now) {
           .pass_t = t_,
           .silent_s = std::nullopt,
           .late_s = std::nullopt,
+          .undelivered_s = parts_.webhook ? parts_.webhook->deliveries().failing_s(now) : 0.0,
           .backlog_s = backlog_.update(now, heard_.sessions.samples(), archive.samples_committed),
           .write_failed = failed,
           .free_gib = free_gib(parts_.db),

@@ -12,6 +12,7 @@
 
 #include "pipelines/spin/types/coded_frame.h"
 #include "pipelines/spin/types/spin_rate.h"
+#include "services/telemetry/plausible.h"
 #include "services/telemetry/telemetry.h"
 
 namespace spindrift {
@@ -37,21 +38,26 @@ struct Telemetry<CodedFrame> {
       Column{"south_in_s", delay_of(PulseChannel::SouthIn)},
       Column{"south_out_s", delay_of(PulseChannel::SouthOut)}};
 
+  static std::string likely_ms(double value_s, double longest_s) {
+    return likely_unit(value_s > longest_s && 1e-3 * value_s <= longest_s, "ms");
+  }
+
   /// A period must lie in (0, 60] s, a delay in [0, 2] periods, or in [0, 60] s without a period.
   static std::string why_impossible(const CodedFrame& frame) {
     // The conditions are written so that NaN fails.
     if (frame.period_s && !(*frame.period_s > 0.0 && *frame.period_s <= kLongestPeriod_s)) {
-      return fmt::format("period_s = {}: must be above 0, at most {} s", *frame.period_s,
-                         kLongestPeriod_s);
+      return fmt::format("period_s = {}: must be above 0, at most {} s{}", *frame.period_s,
+                         kLongestPeriod_s, likely_ms(*frame.period_s, kLongestPeriod_s));
     }
     const double longest_s =
         frame.period_s ? *frame.period_s * kLongestDelay_periods : kLongestPeriod_s;
     for (std::size_t channel = 0; channel < kPulseChannels; ++channel) {
       const auto& delay_s = frame.delay_s.at(channel);
       if (delay_s && !(*delay_s >= 0.0 && *delay_s <= longest_s)) {
-        return fmt::format("{}_s = {}: must be 0 to {}", kPulseChannelNames.at(channel), *delay_s,
+        return fmt::format("{}_s = {}: must be 0 to {}{}", kPulseChannelNames.at(channel), *delay_s,
                            frame.period_s ? fmt::format("two periods, {} s", longest_s)
-                                          : fmt::format("{} s", kLongestPeriod_s));
+                                          : fmt::format("{} s", kLongestPeriod_s),
+                           likely_ms(*delay_s, longest_s));
       }
     }
     return {};

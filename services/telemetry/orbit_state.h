@@ -40,15 +40,18 @@ struct Telemetry<TimedOrbitState> {
   static constexpr double kFarthest_km = 2.0e6;
   /// A body that stays near the Earth is slower.
   static constexpr double kFastest_km_s = 20.0;
+  static constexpr double kSlowest_km_s = 0.1;  ///< At the apogee of the highest orbits.
 
   static std::string why_impossible(const TimedOrbitState& sample) {
     const auto& [position_km, velocity_km_s] = sample.state;
     if (!is_between(position_km, kNearest_km, kFarthest_km)) {
       return impossible("x_km, y_km, z_km", position_km,
-                        "be 6300 to 2000000 km from the centre of the Earth");
+                        "be 6300 to 2000000 km from the centre of the Earth") +
+             likely_unit(is_between(1e-3 * position_km, kNearest_km, kFarthest_km), "m");
     }
     if (!(is_at_most(velocity_km_s, kFastest_km_s) && velocity_km_s.norm() > 0.0)) {
-      return impossible("vx_km_s, vy_km_s, vz_km_s", velocity_km_s, "be above 0, at most 20 km/s");
+      return impossible("vx_km_s, vy_km_s, vz_km_s", velocity_km_s, "be above 0, at most 20 km/s") +
+             likely_unit(is_between(1e-3 * velocity_km_s, kSlowest_km_s, kFastest_km_s), "m/s");
     }
     return {};
   }

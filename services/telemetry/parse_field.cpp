@@ -6,6 +6,7 @@
 #include <system_error>
 
 #include "services/telemetry/csv.h"
+#include "services/telemetry/likely_cause.h"
 #include "services/telemetry/parse_row.h"
 #include "services/telemetry/telemetry_time.h"
 
@@ -28,12 +29,13 @@ std::string parse_field(std::string_view column, std::string_view field, TaiTime
   const char* const end = field.data() + field.size();
   const auto [stop, failure] = std::from_chars(field.data(), end, t_tai_ns);
   if (failure == std::errc::invalid_argument || stop != end) {
-    return fmt::format("{} = {}: must be an integer", column, quoted(field));
+    return fmt::format("{} = {}: must be an integer{}", column, quoted(field), likely_time(field));
   }
   t = tai_from_ns(t_tai_ns);
   if (failure != std::errc{} || !is_telemetry_time(t)) {
-    return fmt::format("{} = {}: must lie in the years 1972 to 2099, [{}, {}) ns", column,
-                       quoted(field), tai_ns(kEarliestTelemetry), tai_ns(kLatestTelemetry));
+    return fmt::format("{} = {}: must lie in the years 1972 to 2099, [{}, {}) ns{}", column,
+                       quoted(field), tai_ns(kEarliestTelemetry), tai_ns(kLatestTelemetry),
+                       likely_time(field));
   }
   return {};
 }

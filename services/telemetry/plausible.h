@@ -25,6 +25,13 @@ inline std::string impossible(std::string_view names,
   return fmt::format("{} = {}: must {}", names, text, allowed);
 }
 
+/// Returns the end of a reason for a value that is a thousand times as large as it may be.
+/// @param fits Whether a thousandth of the value were possible. @param unit Unit that the value has
+///        then.
+inline std::string likely_unit(bool fits, std::string_view unit) {
+  return fits ? fmt::format("; looks like {}", unit) : std::string{};
+}
+
 /// Like the two checks below, written so that NaN fails.
 inline bool is_unit(const Eigen::Ref<const Eigen::VectorXd>& values) {
   return std::abs(values.norm() - 1.0) <= kUnitTolerance;

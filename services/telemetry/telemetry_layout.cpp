@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "pipelines/core/shown.h"
+#include "services/telemetry/likely_cause.h"
 
 namespace spindrift {
 namespace {
@@ -56,8 +57,9 @@ Expected<TelemetryLayout> read_layout(FileLines& lines, const std::filesystem::p
   if (!kind) {
     return Unexpected{
         {ErrorCode::InvalidConfiguration,
-         fmt::format("{}:{}: header {}: must be one of {}; a column spacecraft may be added",
-                     shown(path.string()), header.number, quoted(header.text), all_headers())}};
+         fmt::format("{}:{}: header {}: must be one of {}; a column spacecraft may be added{}",
+                     shown(path.string()), header.number, quoted(header.text), all_headers(),
+                     likely_separator(header.text, count))}};
   }
   return TelemetryLayout{.kind = *kind, .columns = count, .spacecraft_column = spacecraft_column};
 }

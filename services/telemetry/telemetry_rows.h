@@ -20,6 +20,7 @@
 #include "pipelines/core/expected.h"
 #include "pipelines/core/shown.h"
 #include "services/telemetry/csv.h"
+#include "services/telemetry/likely_cause.h"
 #include "services/telemetry/parse_row.h"
 #include "services/telemetry/rejected_input.h"
 #include "services/telemetry/spacecraft_id.h"
@@ -124,8 +125,9 @@ Expected<TelemetryRow<Value>> TelemetryRows<Value>::row_from(const FileLine& lin
   }
   CsvFields fields{line.text};
   if (fields.count() != layout_.columns) {
-    return refused_row(fmt::format("row {}: has {} columns, must have {} as the header",
-                                   quoted(line.text), fields.count(), layout_.columns));
+    return refused_row(fmt::format("row {}: has {} columns, must have {} as the header{}",
+                                   quoted(line.text), fields.count(), layout_.columns,
+                                   likely_separator(line.text, layout_.columns)));
   }
   TelemetryRow<Value> row{
       .value = {}, .line = static_cast<std::uint64_t>(line.number) & kRowLineBits, .spacecraft = 0};

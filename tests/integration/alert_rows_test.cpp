@@ -1,9 +1,12 @@
 // What is stored of alerts that come and go.
 
 #include <map>
+#include <memory>
 #include <string>
+#include <vector>
 
 #include "services/alerts/alert_desk.h"
+#include "services/alerts/stored_alerts.h"
 #include "tests/integration/archive_fixture.h"
 #include "tests/support/matchers.h"
 #include "tests/support/recorded_files.h"
@@ -17,16 +20,30 @@ class AlertRows : public testing::ArchiveFixture {
   AlertRows() : archive_{open()} {
     ArchiveBatch start = testing::start_of("run-1");
     start.start->mode = RunMode::Live;
-    desk_.evaluate(start);
+    desk_->evaluate(start);
     commit(*archive_, start);
-    desk_.note_stored({&start, 1});
+    desk_->note_stored({&start, 1});
+  }
+
+  void restart() {
+    desk_ = new_desk();
+    ArchiveBatch goes_on{.run_id = "run-1", .spacecraft_id = "SPINNER"};
+    goes_on.continuation.emplace();
+    desk_->evaluate(goes_on);
+    desk_->note_stored({&goes_on, 1});
+    for (const StoredAlert& stored : find_alerts(path()).value()) {
+      desk_->take_up(stored.spacecraft, stored.run_id, stored.alert);
+    }
+    for (const auto& [spacecraft, t] : find_transitions(path(), RunMode::Live).value()) {
+      desk_->take_up_transition(spacecraft, t);
+    }
   }
 
   /// Stores what a link raises and clears that has been silent for so long.
   void silent(double t_s, double silent_s) {
     const TaiTime t = shifted(tai_from_ns(kStart_ns), t_s);
     commit(*archive_,
-           desk_.evaluate({{"SPINNER", {.t = t, .pass_t = t, .silent_s = silent_s}}}, t));
+           desk_->evaluate({{"SPINNER", {.t = t, .pass_t = t, .silent_s = silent_s}}}, t));
   }
   void flap(int times, double every_s) {
     for (int i = 0; i < times; ++i) {
@@ -35,7 +52,12 @@ class AlertRows : public testing::ArchiveFixture {
     }
   }
 
-  AlertDesk desk_{{load_mission(kPasses / "nominal" / "mission.toml").value()}, RunMode::Live};
+  static std::unique_ptr<AlertDesk> new_desk() {
+    return std::make_unique<AlertDesk>(
+        std::vector{load_mission(kPasses / "nominal" / "mission.toml").value()}, RunMode::Live);
+  }
+
+  std::unique_ptr<AlertDesk> desk_ = new_desk();
   std::unique_ptr<Archive> archive_;
 };
 
@@ -59,6 +81,13 @@ TEST_F(AlertRows, AreAtMostAThousandAnHourWhateverHappens) {
   EXPECT_EQ(number("SELECT count FROM alert"), 3600);
   EXPECT_EQ(text("SELECT state FROM alert"), "cleared");
   EXPECT_EQ(count("alert_transition WHERE note LIKE '%changes before it are left out%'"), 1);
+}
+
+TEST_F(AlertRows, AreAtMostAThousandAnHourAlsoOverARestart) {
+  flap(400, 1.0);
+  restart();
+  flap(3600, 1.0);
+  EXPECT_EQ(count("alert_transition"), 500);
 }
 
 }  // namespace spindrift::alert_rows_test

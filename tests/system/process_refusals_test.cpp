@@ -18,7 +18,10 @@ TEST(Process, SaysWhyThereIsNoAxisWhereNoRowIsOfUse) {
   const auto log_of = [&](const std::string& rows, std::int64_t bad_rows) {
     const PassCopy pass{"nominal"};
     pass.folder.write("pulses.csv", header + rows);
-    const Ran program = succeeded(pass.arguments_here());
+    const Ran program =
+        bad_rows == 0
+            ? succeeded(pass.arguments_here())
+            : refused(pass.arguments_here(), {"spindrift: nothing of the telemetry can be read: "});
     EXPECT_EQ(count_rows(pass.db, "pulse"), 0);
     EXPECT_EQ(count_rows(pass.db, "rejected_input"), bad_rows);
     return program.log;
@@ -28,6 +31,28 @@ TEST(Process, SaysWhyThereIsNoAxisWhereNoRowIsOfUse) {
               HasSubstr(says + "0 bad rows, 2 samples of other spacecraft\n"));
   EXPECT_THAT(log_of(edge + "\n", 1),
               HasSubstr(says + "1 bad row, 0 samples of other spacecraft\n"));
+}
+
+TEST(Process, EndsWithABadStatusAndTheLikelyCauseWhereNothingCanBeRead) {
+  const PassCopy pass{"nominal"};
+  pass.folder.write("pulses.csv", "t_tai_ns,channel\n1795143637.568,sun1\n1795143638.568,sun1\n");
+  refused(pass.arguments_here(),
+          {"pulses.csv:2: t_tai_ns = \"1795143637.568\": must be an integer; "
+           "looks like s, not ns\n"});
+  EXPECT_EQ(count_rows(pass.db, "rejected_input"), 2);
+}
+
+TEST(Process, EndsWithABadStatusAndBothSpansWhereTheOrbitIsOfOtherDates) {
+  const PassCopy pass{"nominal"};
+  std::string oem = text_of(pass.folder.path() / "orbit.oem");
+  for (std::size_t at = 0; (at = oem.find("2026-11-", at)) != std::string::npos;) {
+    oem.replace(at, 8, "2026-10-");
+  }
+  pass.folder.write("orbit.oem", oem);
+  refused(pass.arguments_here(), {"SPINNER: the orbit covers 2026-10-",
+                                  ", and the telemetry "
+                                  "2026-11-20T03:00:00Z to 2026-11-20T03:0"});
+  EXPECT_EQ(count_rows(pass.db, "pulse"), 3600);
 }
 
 TEST(Process, RefusesBadRowsWhenStrict) {

@@ -117,6 +117,13 @@ TEST_F(OperatorActions, AreStoredAmongTheSamplesWithTheTimeThatTelemetryHadReach
   EXPECT_GT(left_out(), 50);
 }
 
+TEST_F(OperatorActions, SaidBeforeTheTelemetryOfAReplayHoldForAllOfIt) {
+  const Serving replay{.db = path(), .partition = "replay", .mode = RunMode::Replay};
+  replay.receive(0, 0, {kNoNorthIn});
+  replay.receive(0, kAll, {}, true);
+  EXPECT_EQ(left_out(), count("pulse WHERE channel = 'north_in'"));
+}
+
 TEST_F(OperatorActions, AreRepeatedByARestartToTheBit) {
   expect_the_same_restarted(
       {kNoNorthIn,

@@ -165,6 +165,8 @@ inline std::vector<Fault> service_faults() {
        contradict},
       of_service("a second service", "service.twice",
                  [](ServiceState& state) { state.other_service = "spindrift gs2:4242"; }),
+      of_service("a webhook takes no alerts", "alerts.undelivered",
+                 [](ServiceState& state) { state.undelivered_s = 100.0; }),
       of_service("samples wait for the archive", "archive.backlog",
                  [](ServiceState& state) { state.backlog_s = 20.0; }),
       of_service("the archive does not write", "archive.write",

@@ -51,6 +51,14 @@ inline void interfere(std::vector<Sent>& sent, const Window& window) {
   sort(sent);
 }
 
+/// Every other edge of a channel is off.
+inline Spoil alternating(PulseChannel channel, double off_s) {
+  const auto is_of_it = [channel, turns = 0](const Sent& one) mutable {
+    return of({channel})(one) && ++turns % 2 == 0;
+  };
+  return moved(is_of_it, off_s);
+}
+
 /// The samples of the window are those of another pass.
 inline Spoil flown_as(const std::string& scenario) {
   return [scenario](std::vector<Sent>& sent, const Window& window) {
@@ -132,6 +140,12 @@ inline std::vector<Fault> spin_faults() {
        jittered(any_of_all, 0.02),
        60.0,
        minute},
+      {.name = "every other edge of sun1 off by 2 ms",
+       .keys = {"spin.period"},
+       .scenario = spinner,
+       .sensors = alternating(Sun1, 2e-3),
+       .within_s = 60.0,
+       .culprit = "sensor.contradicts:sun1"},
       {.name = "sun2 turned by 2 deg: the estimators",
        .keys = {"spin.disagree"},
        .scenario = spinner,

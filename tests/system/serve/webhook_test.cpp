@@ -38,6 +38,7 @@ class Receiver {
     return "http://127.0.0.1:" + std::to_string(acceptor_.local_endpoint().port()) +
            "/api/v2/alerts";
   }
+  int requests() const { return requests_; }
   std::vector<nlohmann::json> alerts() const {
     const std::lock_guard lock{mutex_};
     return alerts_;
@@ -53,6 +54,7 @@ class Receiver {
       boost::beast::flat_buffer buffer;
       http::request<http::string_body> request;
       http::read(socket, buffer, request);
+      ++requests_;
       {
         const std::lock_guard lock{mutex_};
         for (const auto& alert : nlohmann::json::parse(request.body())) {
@@ -71,13 +73,14 @@ class Receiver {
                                            {boost::asio::ip::make_address("127.0.0.1"), 0}};
   mutable std::mutex mutex_;
   std::vector<nlohmann::json> alerts_;
+  std::atomic<int> requests_ = 0;
   std::atomic<bool> stopping_ = false;
   std::thread thread_;
 };
 
 /// Runs a service with a webhook on a pass whose target attitude is far from the actual one.
 struct Told {
-  PassWith pass{kOffTarget};
+  PassWith pass{std::string{kOffTarget} + "[alerts.\"alerts.undelivered\"]\nseconds = 3.0\n"};
   bus::BusConfig bus = bus_of_its_own();
   std::filesystem::path db = pass.folder.path() / "served.db";
   Serving service;
@@ -169,12 +172,17 @@ TEST(Webhook, IsNotToldWhatARehearsalHasLeftOpen) {
   stop_in_order(service);
 }
 
-TEST(Webhook, ThatRefusesIsSaidAndHoldsNobodyUp) {
+/// In the four seconds to the alert it is asked at once and after 1 and 3 s.
+TEST(Webhook, ThatRefusesIsSaidAskedLessAndLessOftenAndHoldsNobodyUp) {
   const Receiver receiver{http::status::internal_server_error};
   Told told{receiver, "live"};
   told.send_pass();
   EXPECT_TRUE(told.service.says("does not take them: it answers with status 500"))
       << told.service.log();
+  EXPECT_TRUE(eventually([&] {
+    return count_rows(told.db, "alert WHERE key = 'alerts.undelivered'") == 1;
+  })) << told.service.log();
+  EXPECT_LE(receiver.requests(), 4);
   stop_in_order(told.service);
 }
 

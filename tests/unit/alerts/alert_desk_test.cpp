@@ -1,5 +1,6 @@
 #include "services/alerts/alert_desk.h"
 
+#include <algorithm>
 #include <map>
 #include <memory>
 #include <string>
@@ -164,6 +165,33 @@ TEST(AlertDesk, TakesLimitsOfResultsFromTheirTimeOnInEveryRunThatIsToldOfThem) {
   }
 }
 
+TEST(AlertDesk, TakesLimitsByTheTimeOfWhatIsJudgedWhateverCameBeforeIt) {
+  for (const double t_s : {9.0, 10.0}) {
+    Served served;
+    ArchiveBatch said = batch_of_run();
+    said.actions.push_back(limit("link.contradiction", {{"samples", 2.0}}, 10.0));
+    served.desk.evaluate(said);
+    ArchiveBatch batch = batch_of_run();
+    batch.products = {
+        SpinEstimate{.t = at(20.0),
+                     .estimator = SpinEstimator::Batch,
+                     .axis_icrf = Eigen::Vector3d::UnitZ(),
+                     .covariance_rad2 = Eigen::Matrix2d::Identity() * 1e-8,
+                     .spin_rate_rad_s = 6.0,
+                     .spin_rate_sigma_rad_s = 0.1,
+                     .assessment = {Quality::Ok}},
+        SampleContradiction{.t = at(t_s),
+                            .by = {{.sender = Sender::Preferred, .name = "a"}, {.name = "b"}}}};
+    served.desk.evaluate(batch);
+    const auto open = served.desk.open();
+    EXPECT_EQ(
+        std::any_of(open.begin(), open.end(),
+                    [](const OpenAlert& one) { return one.alert.key == "link.contradiction:b"; }),
+        t_s < 10.0)
+        << t_s;
+  }
+}
+
 TEST(AlertDesk, OpensTheAlertAgainWithinItsHoldOffAsOperatorsSetIt) {
   Served served;
   ArchiveBatch said = batch_of_run();
@@ -282,6 +310,38 @@ class FasterThanItsModel : public ::testing::Test {
   GroundModels models_;
   PlacedOfKind<Pulse> pulses_;
 };
+
+/// The limit is said when the first half of the pass has come.
+TEST_F(FasterThanItsModel, IsHeldAgainstTheLimitThatAnOperatorSetsAlsoAfterARestart) {
+  constexpr double kNever = 1e6;
+  const std::size_t half = pulses_.size() / 2;
+  const TaiTime said_at = pulses_[half - 1].value.t;
+  const auto said = [&](ArchiveBatch batch) {
+    batch.actions.push_back(limit("model.departure", {{"sigmas", kNever}}, 0.0));
+    batch.actions.back().t = said_at;
+    return batch;
+  };
+  AlertDesk whole = desk();
+  ArchiveBatch start = beginning();
+  whole.evaluate(start);
+  send(whole, 0, half);
+  EXPECT_EQ(open_in(whole).size(), 1U);
+  ArchiveBatch action = said(batch_of_run());
+  whole.evaluate(action);
+  send(whole, half, pulses_.size());
+  EXPECT_THAT(open_in(whole), IsEmpty());
+
+  AlertDesk restarted = desk();
+  ArchiveBatch goes_on = said(batch_of_run());
+  goes_on.continuation.emplace();
+  restarted.evaluate(goes_on);
+  PlacedValues before;
+  before.of<Pulse>().assign(pulses_.begin(), pulses_.begin() + static_cast<std::ptrdiff_t>(half));
+  restarted.go_on("SPINNER", "run", before);
+  EXPECT_EQ(open_in(restarted).size(), 1U);
+  send(restarted, half, pulses_.size());
+  EXPECT_THAT(open_in(restarted), IsEmpty());
+}
 
 TEST_F(FasterThanItsModel, IsToldAsADepartureAndTheSameAfterARestart) {
   AlertDesk whole = desk();

@@ -63,7 +63,7 @@ TEST(AlertWords, GiveAMinuteAndMoreAsADuration) {
 
 TEST(AlertWords, SayInShortWhatAnAlertIsAbout) {
   EXPECT_EQ(words_of("data.outdated:leap_seconds"), "the table of leap seconds is old");
-  EXPECT_EQ(words_of("channel.silent:sun2"), "silent channel that should give something (sun2)");
+  EXPECT_EQ(words_of("channel.silent:sun2"), "nothing from sun2");
   EXPECT_EQ(words_of("spin.nutation"), "half-angle of the nutation");
   EXPECT_EQ(words_of("link.restarted:gs1"),
             "sessions that the source began in the last minute (gs1)");
@@ -77,6 +77,26 @@ TEST(AlertWords, NameTheServiceThatRunsBesideThisOne) {
             "another service publishes results of the spacecraft in this partition (spindrift "
             "gs2:4242) at 2026-11-20T03:00:00.000Z: stop one of the two; `spindrift doctor` says "
             "who is on the bus");
+}
+
+TEST(AlertWords, NameTheThingWhoseValueTheyGive) {
+  auto silent = change(AlertCode::ChannelSilent, Change::Raised, 5.0);
+  silent.about = "sun";
+  silent.evidence.value = 5.0;
+  silent.evidence.unit = "s";
+  EXPECT_EQ(sentence_of(silent),
+            "nothing from sun for 5 s, limit 5 at 2026-11-20T03:00:00.000Z: look at sensor and "
+            "telemetry link");
+  auto lies = change(AlertCode::SensorContradicts, Change::Raised, 5.0);
+  lies.about = "star";
+  EXPECT_THAT(sentence_of(lies), StartsWith("a sensor contradicts others beyond what the mission "
+                                            "file allows (star): 1.25 deg, limit 5 at "));
+}
+
+TEST(AlertWords, SayNothingOfTheValueOfAMerePresence) {
+  auto lost = change(AlertCode::AttitudeLost, Change::Raised, 1.0);
+  lost.evidence.is_presence = true;
+  EXPECT_THAT(sentence_of(lost), StartsWith("the answer in force is LOST at "));
 }
 
 TEST(AlertWords, SayWhatEndsAndWhen) {

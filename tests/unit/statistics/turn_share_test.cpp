@@ -23,6 +23,19 @@ TEST(TurnShare, CountsItemsWithoutATurnWithTheLastOne) {
   EXPECT_EQ(share.count(3, false), 25.0);
 }
 
+TEST(TurnShare, KeepsTheTurnsCountedWhenTheWindowIsOfOtherLength) {
+  TurnShare share{3, 6};
+  for (const int turn : {1, 2, 3}) {
+    share.count(turn, turn == 1);
+  }
+  share.set_turns(2);
+  EXPECT_EQ(share.count(4, true), 0.0);
+  share.set_turns(4);
+  EXPECT_FALSE(share.count(5, true));
+  EXPECT_FALSE(share.count(6, true));
+  EXPECT_EQ(share.count(7, false), 75.0);
+}
+
 TEST(TurnShare, WithoutTurnsSoManyItemsAreOne) {
   TurnShare share{2, 6};
   for (int item = 0; item < 12; ++item) {

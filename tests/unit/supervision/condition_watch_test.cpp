@@ -48,6 +48,16 @@ TEST(ConditionWatch, RaisesAndClearsOnlyWhatIsHeldForSoLong) {
   EXPECT_TRUE(watch.update(at(27), false));
 }
 
+TEST(ConditionWatch, GivesThePresenceOfAThingAsItsEvidence) {
+  ConditionWatch watch{AlertCode::ServiceTwice, "services"};
+  EXPECT_EQ(watch.update(at(0), false)->evidence.value, 0.0);
+  const auto raised = watch.update(at(1), true).value();
+  EXPECT_EQ(raised.evidence.value, 1.0);
+  EXPECT_EQ(raised.evidence.limit, 1.0);
+  EXPECT_EQ(raised.evidence.unit, "services");
+  EXPECT_FALSE(watch.update(at(60), true));
+}
+
 TEST(ConditionWatch, RenewsWhatHasMovedByATenthAtMostEveryTenSeconds) {
   ConditionWatch watch = a_watch();
   const auto read = [&](double t_s, double value) {

@@ -126,13 +126,15 @@ TEST_F(ServiceConditionsTest, RaiseTheShareOfImpossibleSamples) {
 TEST_F(ServiceConditionsTest, RaiseWhatIsWrongWithTheServiceAndItsHost) {
   service_.evaluate(0, 1, [](auto& one, int /*t_s*/) {
     one.other_service = "another";
+    one.undelivered_s = 60.0;
     one.backlog_s = 10.0;
     one.write_failed = true;
     one.free_gib = 0.5;
     one.clock_step_s = -3600.0;
     one.data_ends = {{"orbit", {at(3600.0)}}, {"leap_seconds", {at(0.0), AlertSeverity::Info}}};
   });
-  EXPECT_EQ(service_.raised, (Raised{{"archive.backlog", "warning"},
+  EXPECT_EQ(service_.raised, (Raised{{"alerts.undelivered", "warning"},
+                                     {"archive.backlog", "warning"},
                                      {"archive.disk", "warning"},
                                      {"archive.write", "critical"},
                                      {"clock.jump", "warning"},

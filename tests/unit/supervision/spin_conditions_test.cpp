@@ -363,6 +363,22 @@ TEST_F(SpinConditionsTest, RaiseSharesOfTheLastHundredRevolutions) {
   EXPECT_EQ(pass_.raised, (Keys{"spin.period", "spin.rejection"}));
 }
 
+/// A turn without a usable sun1 edge has a period, which is refused, and no revolution.
+TEST_F(SpinConditionsTest, CountPeriodsOfTurnsWhoseSunEdgeIsRefused) {
+  for (int revolution = 0; revolution < 120; ++revolution) {
+    if (revolution % 2 == 0) {
+      give_period(pass_, revolution);
+    } else {
+      pass_.evaluate(SpinMeasurement{.revolution = revolution,
+                                     .quantity = SpinQuantity::Period,
+                                     .value = 1.0,
+                                     .sigma = 1e-4,
+                                     .rejected_by = Rejection::Phase});
+    }
+  }
+  EXPECT_EQ(pass_.raised, Keys{"spin.period"});
+}
+
 PulseUse left_over(double t_s, PulseChannel channel, Rejection rejection) {
   return {.pulse = {.t = at(t_s), .channel = channel}, .revolution = {}, .rejected_by = rejection};
 }
