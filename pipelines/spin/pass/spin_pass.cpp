@@ -298,6 +298,7 @@ void SpinPass::consider(const Revolution& revolution, SpinOutput& out) {
   }
   screen(candidate);
   settle(candidate, out);
+  search_the_sky(revolution);
   recent_.push_back(std::move(candidate));
   if (recent_.size() > static_cast<std::size_t>(config_.screening.window)) {
     recent_.pop_front();
@@ -316,6 +317,7 @@ void SpinPass::compare_sensors(const Revolution& revolution, SpinOutput& out) {
     return;
   }
   contradictions_.add({.block = *block, .sky = *sky});
+  only_axis_.add({.block = *block, .sky = *sky});
   const bool is_answered = answer_ && is_unopposed(answer_->assessment.quality);
   if (!is_answered || block->has_shifted || contradictions_.found()) {
     contradictions_.compare(config_, axes_to_try_icrf());
@@ -340,6 +342,17 @@ std::vector<Eigen::Vector3d> SpinPass::axes_to_try_icrf() const {
 void SpinPass::doubt_where_sensors_contradict(SpinEstimate& estimate) const {
   if (const auto& found = contradictions_.found()) {
     doubt(estimate.assessment, reason_of(*found));
+  }
+}
+
+/// Searches the axis that grazing fixes may all lack.
+void SpinPass::search_the_sky(const Revolution& revolution) {
+  if (!sequential_.may_lack_the_axis()) {
+    return;
+  }
+  const auto sky = sun_earth_.sky(revolution.t_start);
+  if (const auto found_icrf = only_axis_.search(config_); found_icrf && sky) {
+    sequential_.settle_by_search(*found_icrf, revolution, *sky);
   }
 }
 
@@ -686,6 +699,7 @@ void SpinPass::apply(TaiTime t, const MarkManoeuvre& /*action*/) {
   restarts_handled_ = 0;
   blocks_ = {};
   contradictions_ = {};
+  only_axis_ = {};
 }
 
 void SpinPass::forget_prior(TaiTime t) {

@@ -51,10 +51,11 @@ bool Hypotheses::contradicted_by(const StartingPoint& point) const {
 
 bool Hypotheses::closed() const {
   // Stray edges may make a false fix, even twice.
-  return !all_.empty() && !provisional_ && published().eliminated_another &&
+  return is_only_one_ ||
+         (!all_.empty() && !provisional_ && published().eliminated_another &&
          published().fixes >= 5 &&
          std::all_of(all_.begin() + 1, all_.end(),
-                     [](const Hypothesis& other) { return other.late; });
+                     [](const Hypothesis& other) { return other.late; }));
 }
 
 /// Where all fixes are near-tangent the edges must fit as well, since filters that began to one
@@ -82,6 +83,7 @@ bool Hypotheses::try_start(const StartingPoint& point, const SpinConfig& config,
   }
   all_.push_back(std::move(added));
   settled_ = false;
+  is_only_one_ = false;
   return true;
 }
 
@@ -110,6 +112,12 @@ void Hypotheses::settle_at(const StartingPoint& point) {
     all_.erase(all_.begin() + 1, all_.end());
     settled_ = true;
   }
+}
+
+void Hypotheses::settle_by_search(const StartingPoint& only) {
+  settle_at(only);
+  is_only_one_ = settled_;
+  provisional_ = provisional_ && !is_only_one_;
 }
 
 void Hypotheses::prefer_at(const StartingPoint& point) {

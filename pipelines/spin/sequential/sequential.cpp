@@ -20,6 +20,8 @@ constexpr std::size_t kMostHypotheses = 8;
 constexpr int kFewestNearTangent = 20;
 constexpr double kRecentFixes = 50.0;  // Averaging length of the near-tangent share.
 constexpr double kNearlyAll = 0.8;
+// Sigma in each direction of an axis that only a search found: the edges soon tell more.
+constexpr double kSearched_rad = 0.5 * kRadPerDeg;
 // The mean squared innovation of `recent` edges, 1 if all is well, tests the stated noise. From a
 // gated share of a fifth on, gated edges count as noise.
 constexpr RecordRules kEdgeRules{
@@ -70,6 +72,21 @@ std::optional<SpinEstimate> SequentialEstimator::update(const Revolution& revolu
                       .assessment = assess(),
                       .alignment_rad2 = alignment_rad2(),
                       .shift_icrf = shift_icrf()};
+}
+
+void SequentialEstimator::settle_by_search(const Eigen::Vector3d& only_icrf,
+                                           const Revolution& revolution, const Sky& sky) {
+  const StartingPoint only{
+      .axis_icrf = only_icrf,
+      .covariance_rad2 = kSearched_rad * kSearched_rad * Eigen::Matrix2d::Identity()};
+  const bool by_prior = hypotheses_.published().preferred_by_prior;
+  if (hypotheses_.contradicted_by(only)) {
+    const SpinFix found{.axis_icrf = only_icrf, .resolution = Resolution::Dispersion};
+    begin(found, {&only, 1}, revolution, sky);
+  }
+  hypotheses_.settle_by_search(only);
+  prior_refuted_ =
+      prior_refuted_ || (by_prior && !hypotheses_.published().preferred_by_prior);
 }
 
 /// @return True when filters began here.
