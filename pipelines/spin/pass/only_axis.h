@@ -2,8 +2,8 @@
 /// Searches the whole sky for the only axis that explains the edges of a pass, where the fixes of
 /// single revolutions may all lack it.
 ///
-/// The axis is fitted to blocks of mean edges with the phase of each block free. As the Earth moves,
-/// the edges of some minutes leave one axis, although every revolution leaves several.
+/// The axis is fitted to blocks of mean edges with the phase of each block free. As the Earth
+/// moves, the edges of some minutes leave one axis, although every revolution leaves several.
 
 #pragma once
 

@@ -41,6 +41,7 @@
 #include "pipelines/spin/pass/pass_notices.h"
 #include "pipelines/spin/screening/screening.h"
 #include "pipelines/spin/sequential/sequential.h"
+#include "pipelines/spin/sequential/starting_points.h"
 #include "pipelines/spin/telemetry_order/interference.h"
 #include "pipelines/spin/telemetry_order/pulse_reorder_window.h"
 #include "pipelines/spin/telemetry_order/time_grid.h"
@@ -109,7 +110,7 @@ class SpinPass {
   void consider(const Revolution& revolution, SpinOutput& out);
   void compare_sensors(const Revolution& revolution, SpinOutput& out);
   std::vector<Eigen::Vector3d> axes_to_try_icrf() const;
-  void search_the_sky(const Revolution& revolution);
+  void search_the_sky();
   void doubt_where_sensors_contradict(SpinEstimate& estimate) const;
   void settle_first(SpinOutput& out);
   void settle(Candidate& candidate, SpinOutput& out);
@@ -135,6 +136,7 @@ class SpinPass {
   void apply(TaiTime t, const MarkManoeuvre& action);
   template <class Other>
   void apply(TaiTime /*t*/, const Other& /*of edges, or of none*/) {}
+  std::vector<StartingPoint> roots_of(const AxisCandidates& found) const;
   void choose_root(TaiTime t, const AxisCandidates& candidates);
   void forget_prior(TaiTime t);
   void begin_anew(TaiTime t);

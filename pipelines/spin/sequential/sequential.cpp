@@ -20,8 +20,6 @@ constexpr std::size_t kMostHypotheses = 8;
 constexpr int kFewestNearTangent = 20;
 constexpr double kRecentFixes = 50.0;  // Averaging length of the near-tangent share.
 constexpr double kNearlyAll = 0.8;
-// Sigma in each direction of an axis that only a search found: the edges soon tell more.
-constexpr double kSearched_rad = 0.5 * kRadPerDeg;
 // The mean squared innovation of `recent` edges, 1 if all is well, tests the stated noise. From a
 // gated share of a fifth on, gated edges count as noise.
 constexpr RecordRules kEdgeRules{
@@ -74,19 +72,10 @@ std::optional<SpinEstimate> SequentialEstimator::update(const Revolution& revolu
                       .shift_icrf = shift_icrf()};
 }
 
-void SequentialEstimator::settle_by_search(const Eigen::Vector3d& only_icrf,
-                                           const Revolution& revolution, const Sky& sky) {
-  const StartingPoint only{
-      .axis_icrf = only_icrf,
-      .covariance_rad2 = kSearched_rad * kSearched_rad * Eigen::Matrix2d::Identity()};
+void SequentialEstimator::settle_by_search(const Eigen::Vector3d& only_icrf) {
   const bool by_prior = hypotheses_.published().preferred_by_prior;
-  if (hypotheses_.contradicted_by(only)) {
-    const SpinFix found{.axis_icrf = only_icrf, .resolution = Resolution::Dispersion};
-    begin(found, {&only, 1}, revolution, sky);
-  }
-  hypotheses_.settle_by_search(only);
-  prior_refuted_ =
-      prior_refuted_ || (by_prior && !hypotheses_.published().preferred_by_prior);
+  hypotheses_.settle_by_search(only_icrf);
+  prior_refuted_ = prior_refuted_ || (by_prior && !hypotheses_.published().preferred_by_prior);
 }
 
 /// @return True when filters began here.
@@ -300,9 +289,13 @@ Assessment SequentialEstimator::assess_ambiguous() const {
   const std::size_t count = hypotheses_.count();
   Assessment assessment{Quality::Ambiguous};
   if (count > 1) {
-    const RaDec other = ra_dec_of(hypotheses_.all()[1].filter.axis_icrf());
+    const SpinFilter& filter = hypotheses_.all()[1].filter;
+    const RaDec other = ra_dec_of(filter.axis_icrf());
     assessment.reasons.push_back(
-        {OtherAxis, {{"ra_deg", degrees(other.ra_rad)}, {"dec_deg", degrees(other.dec_rad)}}});
+        {OtherAxis,
+         {{"ra_deg", degrees(other.ra_rad)},
+          {"dec_deg", degrees(other.dec_rad)},
+          {"sigma_deg", degrees(std::sqrt(filter.total_covariance_rad2().trace()))}}});
   }
   if (hypotheses_.provisional()) {
     assessment.reasons.push_back({FixesNearTangent});

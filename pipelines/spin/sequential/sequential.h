@@ -62,11 +62,9 @@ class SequentialEstimator {
   /// not be among them.
   bool may_lack_the_axis() const { return hypotheses_.provisional() && !hypotheses_.empty(); }
 
-  /// Settles on the only axis in the sky that explains the edges, which a filter follows or begins
-  /// to. There must be filters.
-  /// @param revolution The last one.
-  void settle_by_search(const Eigen::Vector3d& only_icrf, const Revolution& revolution,
-                        const Sky& sky);
+  /// Settles on the only axis in the sky that explains the edges, if a filter follows it. There
+  /// must be filters.
+  void settle_by_search(const Eigen::Vector3d& only_icrf);
 
   /// Sets the noise of the edges to come and the grid of their times.
   void hear(const PulseNoise& noise) { config_.noise = noise; }
@@ -103,6 +101,8 @@ class SequentialEstimator {
     return hypotheses_.published().filter.axis_of_alignment_icrf() * alignment_root_;
   }
   bool has_begun() const { return !hypotheses_.empty(); }
+  /// Returns the axes that filters follow, the published one first; empty before the first fix.
+  std::vector<StartingPoint> followed() const { return hypotheses_.followed(); }
   std::optional<Hypotheses::Rival> rival() const { return hypotheses_.rival(); }
 
   /// Returns the axis if the edges settled it among several.
