@@ -176,7 +176,7 @@ TEST_F(PassNoticesTest, WithoutAnyRevolutionThePeriodIsWhatIsMissing) {
 TEST(PassNotices, TheEndSaysWhyTheAxisIsAmbiguous) {
   EXPECT_THAT(said_of_ambiguous({Quality::Ambiguous}, {}, {}),
               StartsWith("the axis is ambiguous to the end, for want of good sun2 edges: a prior "
-                         "in the mission file would choose"));
+                         "in the mission file, or an operator, would choose"));
 }
 
 TEST(PassNotices, WhereTheMissionHasAPriorTheEndSaysWhyItDoesNotSettleTheAxis) {
