@@ -69,7 +69,7 @@ enum class ReasonCode {
   PriorRefuted,         ///< -
   RestartedGated,       ///< -
   RestartedByFixes,     ///< -
-  OtherAxis,            ///< ra_deg, dec_deg
+  OtherAxis,            ///< ra_deg, dec_deg, sigma_deg
   MoreAxes,             ///< count
   FixesNearTangent,     ///< -
   NothingSettled,       ///< -

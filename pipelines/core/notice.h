@@ -36,10 +36,10 @@ enum class NoticeCode {
   RevolutionsContradict,   ///< -
   FixContradictsItself,    ///< -
   HealthyBeamSilent,       ///< beam
-  PriorContradicted,       ///< t_tai_ns
+  PriorContradicted,       ///< t_tai_ns, prior_from
   RootFarFromAll,          ///< t_tai_ns, limit_deg, ra_deg, dec_deg, deg (of the nearest candidate)
   BatchLeavesOut,          ///< t_tai_ns, edges, action
-  PriorFar,                ///< t_tai_ns, deg, sigmas
+  PriorFar,                ///< t_tai_ns, deg, sigmas, prior_from
   AxisMoved,               ///< t_tai_ns, deg
   MeanNeverBegan,          ///< fixes, near_tangent, ambiguous, not_accepted
   SequentialNeverBegan,    ///< -
@@ -47,11 +47,11 @@ enum class NoticeCode {
   NotFinite,               ///< table, column
   AmbiguousNoPrior,        ///< geometry_case
   AmbiguousNearTangent,    ///< geometry_case
-  AmbiguousPriorNoHelp,    ///< geometry_case
-  AmbiguousAgainstPrior,   ///< geometry_case
-  AmbiguousFarFromPrior,   ///< geometry_case
-  AmbiguousNearPrior,      ///< geometry_case, prior_sigma_deg
-  AmbiguousPriorNotBorne,  ///< geometry_case
+  AmbiguousPriorNoHelp,    ///< geometry_case, prior_from
+  AmbiguousAgainstPrior,   ///< geometry_case, prior_from
+  AmbiguousFarFromPrior,   ///< geometry_case, prior_from
+  AmbiguousNearPrior,      ///< geometry_case, prior_from, prior_sigma_deg
+  AmbiguousPriorNotBorne,  ///< geometry_case, prior_from
   LateSamples,             ///< -
   SamplesOutOfTime,        ///< -
   FieldWithoutOrbit,       ///< t_tai_ns

@@ -7,7 +7,8 @@ std::string sensor_name_of(SampleSource source) {
 }
 
 std::string culprit_name_of(const SensorContradiction& contradiction) {
-  return contradiction.culprit ? sensor_name_of(*contradiction.culprit) : "unknown";
+  return contradiction.culprit ? sensor_name_of(*contradiction.culprit)
+                               : std::string{kUnknownCulprit};
 }
 
 std::vector<std::string> opponents_of(const SensorContradiction& contradiction) {

@@ -26,6 +26,8 @@ struct SensorContradiction {
 
 /// Returns the name of a sensor in the key of an alert; an orbit state stands for the orbit.
 std::string sensor_name_of(SampleSource source);
+/// Stands for the culprit where nothing tells which of the sensors it is.
+inline constexpr std::string_view kUnknownCulprit = "unknown";
 /// Returns the name of the culprit, or `unknown`.
 std::string culprit_name_of(const SensorContradiction& contradiction);
 /// Returns the names of the sensors in `with`.

@@ -18,17 +18,15 @@ namespace spindrift {
 /// The error of a magnetometer stands still in body axes or scatters; that of
 /// an orbit, at whose place the field is another one, stands still in ICRF.
 class FieldDeparture {
-public:
+ public:
   enum class Of { Unknown, Magnetometer, Orbit };
 
   /// @param off_body_nt Measured field minus that of the model. @param noise_nt
   /// Noise per axis.
-  void add(TaiTime t, const Eigen::Quaterniond &q_icrf_body,
-           const Eigen::Vector3d &off_body_nt, double noise_nt) {
-    const double left =
-        last_ ? std::exp(-elapsed_s(last_->t, t) / kRecent_s) : 0.0;
-    const Eigen::Vector3d step_nt =
-        off_body_nt - (last_ ? last_->off_body_nt : off_body_nt);
+  void add(TaiTime t, const Eigen::Quaterniond& q_icrf_body, const Eigen::Vector3d& off_body_nt,
+           double noise_nt) {
+    const double left = last_ ? std::exp(-elapsed_s(last_->t, t) / kRecent_s) : 0.0;
+    const Eigen::Vector3d step_nt = off_body_nt - (last_ ? last_->off_body_nt : off_body_nt);
     count_ = left * count_ + 1.0;
     noise_nt2_ = left * noise_nt2_ + 3.0 * noise_nt * noise_nt;
     squares_nt2_ = left * squares_nt2_ + off_body_nt.squaredNorm();
@@ -54,7 +52,7 @@ public:
     return in_body_nt2 < in_icrf_nt2 ? Of::Magnetometer : Of::Orbit;
   }
 
-private:
+ private:
   static constexpr double kRecent_s = 60.0;
   static constexpr double kFewest = 10.0;
   // Variances over that of the noise or of the other frame, beyond chance.
@@ -67,11 +65,11 @@ private:
   };
   std::optional<Last> last_;
   double count_ = 0.0;
-  double noise_nt2_ = 0.0;   ///< Expected sum of squares by noise.
-  double squares_nt2_ = 0.0; ///< Sum of the squares of the differences.
-  double steps_nt2_ = 0.0;   ///< Sum of half the squares of their changes.
+  double noise_nt2_ = 0.0;    ///< Expected sum of squares by noise.
+  double squares_nt2_ = 0.0;  ///< Sum of the squares of the differences.
+  double steps_nt2_ = 0.0;    ///< Sum of half the squares of their changes.
   Eigen::Vector3d body_nt_ = Eigen::Vector3d::Zero();
   Eigen::Vector3d icrf_nt_ = Eigen::Vector3d::Zero();
 };
 
-} // namespace spindrift
+}  // namespace spindrift

@@ -46,7 +46,7 @@ constexpr double kUnsettled_s = 4.0;
 
 double squared(double value) { return value * value; }
 
-TurnPerPairError with(const TurnPerError &per_error) {
+TurnPerPairError with(const TurnPerError& per_error) {
   TurnPerPairError all = TurnPerPairError::Zero();
   all.leftCols<kFilterErrors>() = per_error;
   return all;
@@ -54,20 +54,18 @@ TurnPerPairError with(const TurnPerError &per_error) {
 
 /// Returns the small turn from the attitude in which the direction is
 /// `expected_body` to the one in which it is `seen_body`.
-Vector3d turn_between(const Vector3d &seen_body,
-                      const Vector3d &expected_body) {
+Vector3d turn_between(const Vector3d& seen_body, const Vector3d& expected_body) {
   return rotation_vector_of(shortest_turn(seen_body, expected_body));
 }
 
 /// Returns the information of a direction on the turns across it.
-Matrix3d across(const Vector3d &body, double variance_rad2) {
-  return information_of(
-      {.body = body, .ref = {}, .sigma_rad = std::sqrt(variance_rad2)});
+Matrix3d across(const Vector3d& body, double variance_rad2) {
+  return information_of({.body = body, .ref = {}, .sigma_rad = std::sqrt(variance_rad2)});
 }
 
-} // namespace
+}  // namespace
 
-SensorContradictions::SensorContradictions(const ThreeAxisConfig &config)
+SensorContradictions::SensorContradictions(const ThreeAxisConfig& config)
     : pairs_{{{kStar, kGyro},
               {kSun, kGyro},
               {kStar, kSun},
@@ -83,11 +81,10 @@ SensorContradictions::SensorContradictions(const ThreeAxisConfig &config)
   }
 }
 
-void SensorContradictions::turn(const RateSpan &span, double turn_rad2) {
+void SensorContradictions::turn(const RateSpan& span, double turn_rad2) {
   const Vector3d turn_rad = turned_rad(span, Vector3d::Zero());
   const double change_rad_s = (span.to_rad_s - span.from_rad_s).norm();
-  carried_.q_start_body =
-      (carried_.q_start_body * quaternion_by(turn_rad)).normalized();
+  carried_.q_start_body = (carried_.q_start_body * quaternion_by(turn_rad)).normalized();
   carried_.rate_rad_s = span.to_rad_s;
   carried_.turned_rad += turn_rad.norm();
   carried_.noise_rad2 += turn_rad2;
@@ -102,7 +99,7 @@ void SensorContradictions::note_scatter(TaiTime t, double noise_rad_s) {
   }
 }
 
-void SensorContradictions::add(TaiTime t, const ObservedAttitude &seen) {
+void SensorContradictions::add(TaiTime t, const ObservedAttitude& seen) {
   const Fix fix{.t = t, .seen = seen, .carried = carried_};
   const std::optional<Fix> from = std::exchange(fix_, fix);
   const double length_s = from ? elapsed_s(from->t, t) : 0.0;
@@ -114,14 +111,13 @@ void SensorContradictions::add(TaiTime t, const ObservedAttitude &seen) {
   const Vector3d turned_rad =
       rotation_vector_of(from->seen.q_icrf_body.conjugate() * seen.q_icrf_body);
   const Vector3d rate_rad_s = turned_rad / length_s;
-  const std::optional<Vector3d> before_rad_s =
-      std::exchange(star_rate_rad_s_, rate_rad_s);
+  const std::optional<Vector3d> before_rad_s = std::exchange(star_rate_rad_s_, rate_rad_s);
   if (before_rad_s) {
     const Arc arc{.from = *from,
                   .length_s = length_s,
                   .turned_rad = turned_rad,
                   .change_rad_s = (rate_rad_s - *before_rad_s).norm()};
-    for (const auto &direction : {sun_, field_}) {
+    for (const auto& direction : {sun_, field_}) {
       if (direction && direction->seen.t >= from->t) {
         compare_star(arc, direction->seen);
       }
@@ -130,7 +126,7 @@ void SensorContradictions::add(TaiTime t, const ObservedAttitude &seen) {
   decide(t);
 }
 
-void SensorContradictions::add(const SeenDirection &seen) {
+void SensorContradictions::add(const SeenDirection& seen) {
   const Direction now{.seen = seen, .carried = carried_};
   if (seen.kind == kField) {
     // The noise includes the field of crust and currents, which does not
@@ -152,39 +148,33 @@ void SensorContradictions::add(const SeenDirection &seen) {
   decide(seen.t);
 }
 
-void SensorContradictions::compare_star_and_gyro(const Fix &from,
-                                                 const Fix &to) {
-  if (from.carried.losses != to.carried.losses ||
-      to.carried.turned_rad == 0.0) {
+void SensorContradictions::compare_star_and_gyro(const Fix& from, const Fix& to) {
+  if (from.carried.losses != to.carried.losses || to.carried.turned_rad == 0.0) {
     return;
   }
   const double length_s = elapsed_s(from.t, to.t);
   const Eigen::Quaterniond by_gyro =
       from.carried.q_start_body.conjugate() * to.carried.q_start_body;
-  const Eigen::Quaterniond by_star =
-      from.seen.q_icrf_body.conjugate() * to.seen.q_icrf_body;
+  const Eigen::Quaterniond by_star = from.seen.q_icrf_body.conjugate() * to.seen.q_icrf_body;
   const Vector3d gyro_rad = rotation_vector_of(by_gyro);
   const Matrix3d back = by_gyro.conjugate().toRotationMatrix();
-  const double variance_rad2 =
-      squared(from.seen.sigma_rad) + squared(to.seen.sigma_rad) +
-      to.carried.noise_rad2 - from.carried.noise_rad2 +
-      squared(to.carried.bend_rad - from.carried.bend_rad);
-  PairComparison compared{
-      .turn_rad = rotation_vector_of(by_gyro.conjugate() * by_star) / length_s,
-      .information = squared(length_s) / variance_rad2 * Matrix3d::Identity(),
-      .freedom = 3,
-      .per_error = with(star_per_error(to.carried.rate_rad_s) -
-                        turned(star_per_error(from.carried.rate_rad_s),
-                               gyro_rad, back, right_jacobian(gyro_rad))) /
-                   length_s};
+  const double variance_rad2 = squared(from.seen.sigma_rad) + squared(to.seen.sigma_rad) +
+                               to.carried.noise_rad2 - from.carried.noise_rad2 +
+                               squared(to.carried.bend_rad - from.carried.bend_rad);
+  PairComparison compared{.turn_rad = rotation_vector_of(by_gyro.conjugate() * by_star) / length_s,
+                          .information = squared(length_s) / variance_rad2 * Matrix3d::Identity(),
+                          .freedom = 3,
+                          .per_error = with(star_per_error(to.carried.rate_rad_s) -
+                                            turned(star_per_error(from.carried.rate_rad_s),
+                                                   gyro_rad, back, right_jacobian(gyro_rad))) /
+                                       length_s};
   compared.per_error.middleCols<3>(GyroBiasError).setIdentity();
   add(to.t, kStar, kGyro, compared);
 }
 
 /// Interpolates the attitude at the direction. A rate that changes between the
 /// fixes moves it.
-void SensorContradictions::compare_star(const Arc &arc,
-                                        const SeenDirection &seen) {
+void SensorContradictions::compare_star(const Arc& arc, const SeenDirection& seen) {
   const double part = elapsed_s(arc.from.t, seen.t) / arc.length_s;
   const double gyro_rad = carried_.turned_rad - arc.from.carried.turned_rad;
   if (std::max(arc.turned_rad.norm(), gyro_rad) > kLongestTurn_rad) {
@@ -194,74 +184,61 @@ void SensorContradictions::compare_star(const Arc &arc,
       arc.from.seen.q_icrf_body * quaternion_by(part * arc.turned_rad);
   const double bend_rad = arc.change_rad_s * arc.length_s * part * (1.0 - part);
   const Vector3d rate_rad_s = arc.turned_rad / arc.length_s;
-  const double variance_rad2 = squared(arc.from.seen.sigma_rad) +
-                               squared(seen.direction.sigma_rad) +
-                               squared(bend_rad);
+  const double variance_rad2 =
+      squared(arc.from.seen.sigma_rad) + squared(seen.direction.sigma_rad) + squared(bend_rad);
   if (seen.kind == kField) {
     departure_.add(seen.t, q_icrf_body,
-                   seen.direction.body -
-                       q_icrf_body.conjugate() * seen.direction.ref,
+                   seen.direction.body - q_icrf_body.conjugate() * seen.direction.ref,
                    seen.direction.sigma_rad * seen.direction.ref.norm());
   }
   add(seen.t, kStar, seen.kind,
-      {.turn_rad = turn_between(seen.direction.body,
-                                q_icrf_body.conjugate() * seen.direction.ref),
+      {.turn_rad = turn_between(seen.direction.body, q_icrf_body.conjugate() * seen.direction.ref),
        .information = across(seen.direction.body, variance_rad2),
        .freedom = 2,
-       .per_error = direction_errors(seen, rate_rad_s) -
-                    with(star_per_error(rate_rad_s))});
+       .per_error = direction_errors(seen, rate_rad_s) - with(star_per_error(rate_rad_s))});
 }
 
-void SensorContradictions::compare_with_gyro(const Direction &from,
-                                             const Direction &to) {
+void SensorContradictions::compare_with_gyro(const Direction& from, const Direction& to) {
   const double length_s = elapsed_s(from.seen.t, to.seen.t);
   const Eigen::Quaterniond by_gyro =
       from.carried.q_start_body.conjugate() * to.carried.q_start_body;
-  if (length_s > kLongestArc_s ||
-      to.carried.turned_rad == from.carried.turned_rad) {
+  if (length_s > kLongestArc_s || to.carried.turned_rad == from.carried.turned_rad) {
     return;
   }
   const Vector3d gyro_rad = rotation_vector_of(by_gyro);
   const Matrix3d back = by_gyro.conjugate().toRotationMatrix();
-  const double variance_rad2 =
-      squared(from.seen.direction.sigma_rad) +
-      squared(to.seen.direction.sigma_rad) + to.carried.noise_rad2 -
-      from.carried.noise_rad2 +
-      squared(to.carried.bend_rad - from.carried.bend_rad);
+  const double variance_rad2 = squared(from.seen.direction.sigma_rad) +
+                               squared(to.seen.direction.sigma_rad) + to.carried.noise_rad2 -
+                               from.carried.noise_rad2 +
+                               squared(to.carried.bend_rad - from.carried.bend_rad);
   const TurnPerError at_begin =
-      direction_errors(from.seen, from.carried.rate_rad_s)
-          .leftCols<kFilterErrors>();
+      direction_errors(from.seen, from.carried.rate_rad_s).leftCols<kFilterErrors>();
   PairComparison compared{
-      .turn_rad = turn_between(to.seen.direction.body,
-                               by_gyro.conjugate() * from.seen.direction.body) /
-                  length_s,
-      .information =
-          squared(length_s) * across(to.seen.direction.body, variance_rad2),
+      .turn_rad =
+          turn_between(to.seen.direction.body, by_gyro.conjugate() * from.seen.direction.body) /
+          length_s,
+      .information = squared(length_s) * across(to.seen.direction.body, variance_rad2),
       .freedom = 2,
-      .per_error =
-          (direction_errors(to.seen, to.carried.rate_rad_s) -
-           with(turned(at_begin, gyro_rad, back, right_jacobian(gyro_rad)))) /
-          length_s};
+      .per_error = (direction_errors(to.seen, to.carried.rate_rad_s) -
+                    with(turned(at_begin, gyro_rad, back, right_jacobian(gyro_rad)))) /
+                   length_s};
   compared.per_error.middleCols<3>(GyroBiasError).setIdentity();
   add(to.seen.t, kSun, kGyro, compared);
 }
 
 /// Interpolates the direction to the Sun at the last field. Only the angle
 /// between the two counts.
-void SensorContradictions::compare_with_field(const Direction &from,
-                                              const Direction &to) {
+void SensorContradictions::compare_with_field(const Direction& from, const Direction& to) {
   const double length_s = elapsed_s(from.seen.t, to.seen.t);
-  if (!field_ || field_->seen.t < from.seen.t || length_s <= 0.0 ||
-      length_s > kLongestArc_s) {
+  if (!field_ || field_->seen.t < from.seen.t || length_s <= 0.0 || length_s > kLongestArc_s) {
     return;
   }
-  const SeenDirection &field = field_->seen;
+  const SeenDirection& field = field_->seen;
   const double part = elapsed_s(from.seen.t, field.t) / length_s;
   const Vector3d first = from.seen.direction.body.normalized();
   const Vector3d last = to.seen.direction.body.normalized();
   const double turned_rad =
-      std::max(angle_between_rad(first, last),
-               to.carried.turned_rad - from.carried.turned_rad);
+      std::max(angle_between_rad(first, last), to.carried.turned_rad - from.carried.turned_rad);
   const Vector3d sun = ((1.0 - part) * first + part * last).normalized();
   const Vector3d normal = sun.cross(field.direction.body.normalized());
   if (turned_rad > kLongestTurn_rad || normal.norm() < kLeastSine) {
@@ -270,16 +247,13 @@ void SensorContradictions::compare_with_field(const Direction &from,
   const Vector3d axis = normal.normalized();
   const double bend_rad =
       part * (1.0 - part) *
-      (turned_rad * turned_rad +
-       length_s * (to.carried.change_rad_s - from.carried.change_rad_s));
-  const double variance_rad2 = squared(to.seen.direction.sigma_rad) +
-                               squared(field.direction.sigma_rad) +
-                               squared(bend_rad);
+      (turned_rad * turned_rad + length_s * (to.carried.change_rad_s - from.carried.change_rad_s));
+  const double variance_rad2 =
+      squared(to.seen.direction.sigma_rad) + squared(field.direction.sigma_rad) + squared(bend_rad);
   SeenDirection between = to.seen;
   between.direction.body = sun;
-  const double wider_rad =
-      angle_between_rad(sun, field.direction.body) -
-      angle_between_rad(to.seen.direction.ref, field.direction.ref);
+  const double wider_rad = angle_between_rad(sun, field.direction.body) -
+                           angle_between_rad(to.seen.direction.ref, field.direction.ref);
   add(field.t, kSun, kField,
       {.turn_rad = wider_rad * axis,
        .information = axis * axis.transpose() / variance_rad2,
@@ -289,30 +263,27 @@ void SensorContradictions::compare_with_field(const Direction &from,
 }
 
 /// The strength takes the place of a turn about the first axis.
-void SensorContradictions::compare_strength(const SeenDirection &field) {
+void SensorContradictions::compare_strength(const SeenDirection& field) {
   if (!field.stronger) {
     return;
   }
   const double sigma = field.direction.sigma_rad;
   const Vector3d along = field.direction.body.normalized();
-  PairComparison compared{.turn_rad =
-                              *field.stronger * sigma * Vector3d::UnitX(),
+  PairComparison compared{.turn_rad = *field.stronger * sigma * Vector3d::UnitX(),
                           .information = Vector3d{1.0, 0.0, 0.0}.asDiagonal(),
                           .freedom = 1,
                           .per_error = TurnPerPairError::Zero()};
   compared.information /= squared(sigma);
-  compared.per_error.row(0).segment<3>(MagnetometerBiasError) =
-      along / field.direction.ref.norm();
+  compared.per_error.row(0).segment<3>(MagnetometerBiasError) = along / field.direction.ref.norm();
   compared.per_error.row(0).segment<3>(FieldModelError) = along;
   add(field.t, kField, kOrbit, compared);
 }
 
-TurnPerPairError
-SensorContradictions::direction_errors(const SeenDirection &seen,
-                                       const Vector3d &rate_rad_s) const {
+TurnPerPairError SensorContradictions::direction_errors(const SeenDirection& seen,
+                                                        const Vector3d& rate_rad_s) const {
   const Vector3d along = seen.direction.body.normalized();
-  TurnPerPairError per_error = with(direction_per_error(
-      seen.kind, seen.direction.ref.norm() * along, rate_rad_s));
+  TurnPerPairError per_error =
+      with(direction_per_error(seen.kind, seen.direction.ref.norm() * along, rate_rad_s));
   if (seen.kind == kField) {
     per_error.middleCols<3>(FieldModelError) = -cross_matrix(along);
   }
@@ -320,18 +291,16 @@ SensorContradictions::direction_errors(const SeenDirection &seen,
 }
 
 void SensorContradictions::add(TaiTime t, SampleKind one, SampleKind other,
-                               const PairComparison &compared) {
-  const auto pair =
-      std::find_if(pairs_.begin(), pairs_.end(), [&](const Pair &is) {
-        return is.has(one) && is.has(other);
-      });
+                               const PairComparison& compared) {
+  const auto pair = std::find_if(pairs_.begin(), pairs_.end(),
+                                 [&](const Pair& is) { return is.has(one) && is.has(other); });
   pair->test.add(t, compared, prior_);
 }
 
 void SensorContradictions::decide(TaiTime t) {
-  const auto worst = std::max_element(
-      pairs_.begin(), pairs_.end(), [&](const Pair &a, const Pair &b) {
-        const auto weight = [&](const Pair &pair) {
+  const auto worst =
+      std::max_element(pairs_.begin(), pairs_.end(), [&](const Pair& a, const Pair& b) {
+        const auto weight = [&](const Pair& pair) {
           return pair.test.contradicts(t) ? pair.test.sigmas() : 0.0;
         };
         return weight(a) < weight(b);
@@ -342,19 +311,17 @@ void SensorContradictions::decide(TaiTime t) {
     return;
   }
   std::optional<SampleKind> culprit = culprit_of(*worst, t);
-  if (!culprit && found_ && found_->culprit &&
-      worst->has(kind_of(*found_->culprit))) {
+  if (!culprit && found_ && found_->culprit && worst->has(kind_of(*found_->culprit))) {
     culprit = kind_of(*found_->culprit);
   }
-  SensorContradiction now{
-      .culprit = {},
-      .with = {},
-      .off = {"angle_deg", degrees(worst->test.turn_rad().norm())},
-      .sigmas = worst->test.sigmas(),
-      .since = found_ ? found_->since : t};
+  SensorContradiction now{.culprit = {},
+                          .with = {},
+                          .off = {"angle_deg", degrees(worst->test.turn_rad().norm())},
+                          .sigmas = worst->test.sigmas(),
+                          .since = found_ ? found_->since : t};
   if (culprit) {
     now.culprit = source_of(*culprit);
-    for (const Pair &pair : pairs_) {
+    for (const Pair& pair : pairs_) {
       if (pair.has(*culprit) && pair.test.contradicts(t)) {
         now.with.push_back(source_of(pair.other(*culprit)));
       }
@@ -365,10 +332,9 @@ void SensorContradictions::decide(TaiTime t) {
   found_ = std::move(now);
 }
 
-double SensorContradictions::most_sigmas_without(SampleKind kind,
-                                                 TaiTime t) const {
+double SensorContradictions::most_sigmas_without(SampleKind kind, TaiTime t) const {
   double most = 0.0;
-  for (const Pair &pair : pairs_) {
+  for (const Pair& pair : pairs_) {
     if (!pair.has(kind) && pair.test.is_tested(t)) {
       most = std::max(most, pair.test.sigmas());
     }
@@ -380,28 +346,24 @@ double SensorContradictions::most_sigmas_without(SampleKind kind,
 /// each other if that sensor were as far off as it is accused to be. A wrong
 /// rate adds up to a turn. Any direction of the field that agrees vouches for
 /// the orbit.
-bool SensorContradictions::is_vouched_for(SampleKind kind, const Pair &accused,
-                                          TaiTime t) const {
+bool SensorContradictions::is_vouched_for(SampleKind kind, const Pair& accused, TaiTime t) const {
   const bool by_rate = accused.has(kGyro);
   const bool by_strength = accused.has(kOrbit);
-  return std::any_of(pairs_.begin(), pairs_.end(), [&](const Pair &pair) {
+  return std::any_of(pairs_.begin(), pairs_.end(), [&](const Pair& pair) {
     if (!pair.test.agrees(t) || pair.has(kOrbit)) {
       return false;
     }
     if (by_strength) {
       return kind == kOrbit && pair.has(kField);
     }
-    if (!pair.has(kind) || pair.has(accused.other(kind)) ||
-        (pair.has(kGyro) && !by_rate)) {
+    if (!pair.has(kind) || pair.has(accused.other(kind)) || (pair.has(kGyro) && !by_rate)) {
       return false;
     }
-    const double rate_to_turn =
-        by_rate && !pair.has(kGyro) ? accused.test.lasting_s() : 1.0;
-    const double expected = pair.test.sigmas_if(
-        rate_to_turn * accused.test.lasting_turn_rad(),
-        accused.test.weight(prior_) / squared(rate_to_turn), prior_);
-    return expected >= kVouched &&
-           pair.test.sigmas() <= kVouchedShare * expected;
+    const double rate_to_turn = by_rate && !pair.has(kGyro) ? accused.test.lasting_s() : 1.0;
+    const double expected =
+        pair.test.sigmas_if(rate_to_turn * accused.test.lasting_turn_rad(),
+                            accused.test.weight(prior_) / squared(rate_to_turn), prior_);
+    return expected >= kVouched && pair.test.sigmas() <= kVouchedShare * expected;
   });
 }
 
@@ -409,8 +371,7 @@ bool SensorContradictions::is_noisy() const {
   return gyro_noise_rad_s_ > kScatter * stated_noise_rad_s_;
 }
 
-std::optional<SensorContradiction>
-SensorContradictions::scatter(TaiTime t) const {
+std::optional<SensorContradiction> SensorContradictions::scatter(TaiTime t) const {
   if (!is_noisy()) {
     return std::nullopt;
   }
@@ -422,32 +383,28 @@ SensorContradictions::scatter(TaiTime t) const {
 }
 
 /// A magnetometer that is turned measures the right strength.
-std::optional<SampleKind>
-SensorContradictions::field_or_orbit(TaiTime t) const {
+std::optional<SampleKind> SensorContradictions::field_or_orbit(TaiTime t) const {
   const auto strength =
-      std::find_if(pairs_.begin(), pairs_.end(),
-                   [](const Pair &pair) { return pair.has(kOrbit); });
+      std::find_if(pairs_.begin(), pairs_.end(), [](const Pair& pair) { return pair.has(kOrbit); });
   if (!strength->test.is_tested(t) || strength->test.agrees(t)) {
     return kField;
   }
   switch (departure_.whose()) {
-  case FieldDeparture::Of::Magnetometer:
-    return kField;
-  case FieldDeparture::Of::Orbit:
-    return kOrbit;
-  case FieldDeparture::Of::Unknown:
-    break;
+    case FieldDeparture::Of::Magnetometer:
+      return kField;
+    case FieldDeparture::Of::Orbit:
+      return kOrbit;
+    case FieldDeparture::Of::Unknown:
+      break;
   }
   if (found_ && found_->culprit == source_of(kOrbit)) {
     return kOrbit;
   }
-  return found_ && elapsed_s(found_->since, t) >= kUnturned_s
-             ? std::optional{kField}
-             : std::nullopt;
+  return found_ && elapsed_s(found_->since, t) >= kUnturned_s ? std::optional{kField}
+                                                              : std::nullopt;
 }
 
-std::optional<SampleKind> SensorContradictions::culprit_of(const Pair &worst,
-                                                           TaiTime t) const {
+std::optional<SampleKind> SensorContradictions::culprit_of(const Pair& worst, TaiTime t) const {
   if (gyro_unit_is_wrong_ && worst.has(kGyro)) {
     return kGyro;
   }
@@ -473,4 +430,4 @@ std::optional<SampleKind> SensorContradictions::culprit_of(const Pair &worst,
   return first ? worst.second : worst.first;
 }
 
-} // namespace spindrift
+}  // namespace spindrift

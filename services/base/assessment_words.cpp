@@ -1,10 +1,12 @@
 #include "services/base/assessment_words.h"
 
+#include <algorithm>
 #include <array>
-#include <optional>
+#include <string_view>
 #include <variant>
 #include <vector>
 
+#include "pipelines/observation/sensor_contradiction.h"
 #include "services/base/decimals.h"
 #include "services/base/filled.h"
 
@@ -33,7 +35,7 @@ constexpr std::array<Pattern<ReasonCode>, kReasonCodes> kReasonPatterns{{
     {PriorRefuted, "prior refuted"},
     {RestartedGated, "restart: edges gated"},
     {RestartedByFixes, "restarted by fixes"},
-    {OtherAxis, "or ra {ra_deg:.2f} dec {dec_deg:.2f} deg"},
+    {OtherAxis, "or ra {ra_deg:.{decimals}f} dec {dec_deg:.{decimals}f} deg"},
     {MoreAxes, "or {count} more"},
     {FixesNearTangent, "or another axis: all fixes graze the limb"},
     {NothingSettled, "no fix has settled it"},
@@ -82,15 +84,25 @@ constexpr std::array<Pattern<ReasonCode>, kReasonCodes> kReasonPatterns{{
 static_assert(are_by_code(kReasonPatterns));
 
 /// Returns the decimals for `decimals` of a pattern, from the sigma among the reason's values.
-std::optional<NamedValue> decimals_of(const Reason& reason) {
-  constexpr int kLeast = 3;
+NamedValue decimals_of(const Reason& reason) {
+  constexpr std::int64_t kWithoutSigma = 2;
   for (const auto& [name, value] : reason.values) {
     const auto* const number = std::get_if<double>(&value);
     if (number != nullptr && name.starts_with("sigma")) {
-      return NamedValue{"decimals", std::int64_t{decimals_for(*number, kLeast)}};
+      return {"decimals", std::int64_t{decimals_for(*number, kWithoutSigma)}};
     }
   }
-  return std::nullopt;
+  return {"decimals", kWithoutSigma};
+}
+
+/// Returns the pattern of the reason; without a culprit no sensor is called wrong.
+std::string_view pattern_of(const Reason& reason) {
+  const bool has_no_culprit =
+      reason.code == Contradicted &&
+      std::any_of(reason.values.begin(), reason.values.end(), [](const NamedValue& value) {
+        return value == NamedValue{"sensor", std::string{kUnknownCulprit}};
+      });
+  return has_no_culprit ? "sensors contradict" : pattern_of(kReasonPatterns, reason.code);
 }
 
 /// Returns the plural endings `s` and `es` of a pattern, empty for a `count` of one.
@@ -108,10 +120,8 @@ std::string words_of(const Reason& reason) {
   constexpr int kWholeSeconds = 0;
   std::vector<NamedValue> values = endings_of(reason);
   values.insert(values.end(), reason.values.begin(), reason.values.end());
-  if (auto decimals = decimals_of(reason)) {
-    values.push_back(*std::move(decimals));
-  }
-  return filled(pattern_of(kReasonPatterns, reason.code), values, kWholeSeconds);
+  values.push_back(decimals_of(reason));
+  return filled(pattern_of(reason), values, kWholeSeconds);
 }
 
 }  // namespace

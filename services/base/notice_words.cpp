@@ -117,14 +117,14 @@ constexpr std::array<NoticePattern, kNoticeCodes> kNoticePatterns{{
      "the {beam} beam, said to be healthy, is silent where the axis says it must see the "
      "Earth: such fixes are not accepted; if the beam has failed, say healthy = false"},
     {PriorContradicted, "prior_contradicted",
-     "{t_tai_ns}: the edges contradict the prior of the mission: the axis is another one, the "
+     "{t_tai_ns}: the edges contradict the prior of the {prior_from}: the axis is another one, the "
      "mean begins anew"},
     {RootFarFromAll, "root_far_from_all",
      "{t_tai_ns}: no candidate lies within {limit_deg:.0f} deg of the chosen axis: the nearest is "
      "ra {ra_deg:.2f} dec {dec_deg:.2f} deg, {deg:.1f} deg away; the choice waits for one"},
     {BatchLeavesOut, "batch_leaves_out", "{t_tai_ns}: batch leaves out {edges} edges by {action}"},
     {PriorFar, "prior_far",
-     "{t_tai_ns}: the axis is {deg:.1f} deg from the prior of the mission (spin.prior), "
+     "{t_tai_ns}: the axis is {deg:.1f} deg from the prior of the {prior_from}, "
      "{sigmas:.0f} times the sigma of both: the edges decide without it"},
     {AxisMoved, "axis_moved",
      "{t_tai_ns}: the axis is {deg:.2f} deg from the mean so far: it has moved, or the mean "
@@ -145,8 +145,8 @@ constexpr std::array<NoticePattern, kNoticeCodes> kNoticePatterns{{
      "results are withheld: {column} of {table} is not a finite number. The samples are stored; "
      "look for a value in the mission file that no instrument has"},
     {AmbiguousNoPrior, "ambiguous_no_prior",
-     "the axis is ambiguous to the end{missing}: a prior in the mission file would choose "
-     "among the candidates"},
+     "the axis is ambiguous to the end{missing}: a prior in the mission file, or an "
+     "operator, would choose among the candidates"},
     {AmbiguousNearTangent, "ambiguous_near_tangent",
      "the axis is ambiguous to the end{missing}: nearly all fixes are near-tangent: the true axis "
      "may be "
@@ -154,21 +154,21 @@ constexpr std::array<NoticePattern, kNoticeCodes> kNoticePatterns{{
     {AmbiguousPriorNoHelp, "ambiguous_prior_no_help",
      "the axis is ambiguous to the end{missing}: nearly all fixes are near-tangent: the true axis "
      "may be "
-     "missing among their candidates, so that the prior of the mission (spin.prior) does not "
+     "missing among their candidates, so that the prior of the {prior_from} does not "
      "settle it"},
     {AmbiguousAgainstPrior, "ambiguous_against_prior",
-     "the axis is ambiguous to the end{missing}: the edges contradict the prior of the mission "
-     "(spin.prior)"},
+     "the axis is ambiguous to the end{missing}: the edges contradict the prior of the "
+     "{prior_from}"},
     {AmbiguousFarFromPrior, "ambiguous_far_from_prior",
-     "the axis is ambiguous to the end{missing}: the prior of the mission (spin.prior) does "
+     "the axis is ambiguous to the end{missing}: the prior of the {prior_from} does "
      "not settle it: no candidate is within three sigmas of it"},
     {AmbiguousNearPrior, "ambiguous_near_prior",
-     "the axis is ambiguous to the end{missing}: the prior of the mission (spin.prior) does "
+     "the axis is ambiguous to the end{missing}: the prior of the {prior_from} does "
      "not settle it: within its sigma of {prior_sigma_deg:g} deg, several candidates are "
      "equally near to it"},
     {AmbiguousPriorNotBorne, "ambiguous_prior_not_borne",
      "the axis is ambiguous to the end{missing}: the edges do not bear out the candidate that "
-     "the prior of the mission (spin.prior) chooses"},
+     "the prior of the {prior_from} chooses"},
     {LateSamples, "late_samples",
      "samples arrive after their time was processed: they are stored and left out"},
     {SamplesOutOfTime, "samples_out_of_time",

@@ -9,13 +9,13 @@
 namespace spindrift {
 
 std::string sentence_of(const Disagreement& disagreement) {
-  constexpr int kLeast = 3;
+  constexpr int kWithoutSigma = 3;
   const double sigma_deg = disagreement.apart_deg / disagreement.apart_sigmas;
   return fmt::format(
       "{} and {} disagree: their axes are {:.{}f} deg apart, {:.1f} times the sigma of their "
       "difference",
-      disagreement.one, disagreement.other, disagreement.apart_deg, decimals_for(sigma_deg, kLeast),
-      disagreement.apart_sigmas);
+      disagreement.one, disagreement.other, disagreement.apart_deg,
+      decimals_for(sigma_deg, kWithoutSigma), disagreement.apart_sigmas);
 }
 
 std::vector<RunNotice> told_disagreements(const std::filesystem::path& db,

@@ -11,6 +11,7 @@
 #include "pipelines/time/tai_time.h"
 #include "pipelines/time/time_span.h"
 #include "pipelines/time/utc.h"
+#include "services/base/decimals.h"
 
 namespace spindrift {
 namespace {
@@ -90,24 +91,27 @@ std::string time_of_day(TaiTime t) {
 
 void add_answer(const PassVerdict& verdict, std::vector<Part>& parts) {
   if (verdict.ra_deg && verdict.dec_deg) {
-    parts.push_back(
-        {Need::Axis, fmt::format("ra {:.3f} dec {:.3f}", *verdict.ra_deg, *verdict.dec_deg)});
+    constexpr int kMost = 3;
+    const int decimals = std::min(kMost, decimals_for(verdict.sigma_deg.value_or(0.0), kMost));
+    parts.push_back({Need::Axis, fmt::format("ra {:.{}f} dec {:.{}f}", *verdict.ra_deg, decimals,
+                                             *verdict.dec_deg, decimals)});
   }
   if (!verdict.estimator.empty()) {
     parts.push_back({Need::Estimator, verdict.estimator});
   }
   const std::string quality =
       std::string{verdict.quality ? name_of(*verdict.quality) : "no answer"};
-  parts.push_back({Need::Quality, verdict.sigma_deg
-                                      ? fmt::format("{} {:.2g}deg", quality, *verdict.sigma_deg)
-                                      : quality});
+  parts.push_back(
+      {Need::Quality, verdict.sigma_deg
+                          ? fmt::format("{} {}deg", quality, to_its_digits(*verdict.sigma_deg, 2))
+                          : quality});
   if (verdict.t) {
     parts.push_back({Need::AsOf, "of " + time_of_day(*verdict.t)});
   }
   if (verdict.separation) {
     parts.push_back(
-        {Need::Separation, fmt::format("T1 {} {:.2g}deg", name_of(verdict.separation->quality),
-                                       verdict.separation->sigma_deg)});
+        {Need::Separation, fmt::format("T1 {} {}deg", name_of(verdict.separation->quality),
+                                       to_its_digits(verdict.separation->sigma_deg, 2))});
   }
 }
 

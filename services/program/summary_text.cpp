@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -85,16 +86,24 @@ std::string fixes_text(const RunSummary& summary) {
   return text;
 }
 
+/// Formats a number to its own decimals in a column of up to `most`, below the points of the
+/// others.
+std::string in_column(double value, int decimals, int most, int width) {
+  const std::string text = fmt::format("{:.{}f}", value, decimals);
+  const int missing = most - decimals + (decimals == 0 && most > 0 ? 1 : 0);
+  return fmt::format("{:>{}}{:{}}", text, width - missing, "", missing);
+}
+
 std::string axis_text(const RunSummary& summary) {
   if (summary.estimates.empty()) {
     return "  spin axis    not determined\n";
   }
-  int angle = 4;  // Number of decimals of angles.
-  int rate = 6;
+  int angle = 0;  // Most decimals of angles.
+  int rate = 0;
   for (const auto& [estimator, estimate] : summary.estimates) {
     const Readable shown = readable(estimate);
-    angle = decimals_for(shown.sigma_deg, angle);
-    rate = decimals_for(shown.sigma_rpm, rate);
+    angle = std::max(angle, decimals_for(shown.sigma_deg, 4));
+    rate = std::max(rate, decimals_for(shown.sigma_rpm, 6));
   }
   std::string text = fmt::format(
       "  spin axis    ICRF, deg   {:>{}}  {:>{}}  {:>{}}  {:>{}}  {:>{}}\n", "RA", angle + 5, "Dec",
@@ -102,11 +111,13 @@ std::string axis_text(const RunSummary& summary) {
   std::string origins;
   for (const auto& [estimator, estimate] : summary.estimates) {
     const Readable shown = readable(estimate);
-    text +=
-        fmt::format("               {:<12}{:{}.{}f}  {:+{}.{}f}  {:{}.{}f}  {:{}.{}f}  {:{}.{}f}\n",
-                    name_of(estimator), shown.ra_deg, angle + 5, angle, shown.dec_deg, angle + 6,
-                    angle, shown.sigma_deg, angle + 3, angle, shown.rpm, rate + 10, rate,
-                    shown.sigma_rpm, rate + 3, rate);
+    const int of_angle = decimals_for(shown.sigma_deg, 4);
+    const int of_rate = decimals_for(shown.sigma_rpm, 6);
+    text += fmt::format("               {:<12}{}  {}  {}  {}  {:.{}f}\n", name_of(estimator),
+                        in_column(shown.ra_deg, of_angle, angle, angle + 5),
+                        in_column(shown.dec_deg, of_angle, angle, angle + 6),
+                        in_column(shown.sigma_deg, of_angle, angle, angle + 3),
+                        in_column(shown.rpm, of_rate, rate, rate + 10), shown.sigma_rpm, of_rate);
     origins += fmt::format("  {:<13}{}  {}\n", name_of(estimator), shown.utc,
                            sentence_of(estimate.assessment));
   }

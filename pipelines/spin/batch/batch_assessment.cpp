@@ -115,8 +115,12 @@ Assessment assess(const BatchSolution& solution, const BatchDoubts& doubts) {
   if (doubts.alternate_axis_icrf) {
     assessment.quality = Quality::Ambiguous;
     const RaDec other = ra_dec_of(*doubts.alternate_axis_icrf);
+    // Mirror solutions are known about equally well.
     reasons.push_back(
-        {OtherAxis, {{"ra_deg", degrees(other.ra_rad)}, {"dec_deg", degrees(other.dec_rad)}}});
+        {OtherAxis,
+         {{"ra_deg", degrees(other.ra_rad)},
+          {"dec_deg", degrees(other.dec_rad)},
+          {"sigma_deg", degrees(std::sqrt(solution.estimate.covariance_rad2.trace()))}}});
   }
   reasons.push_back({Edges, {{"count", solution.edges}}});
   if (doubts.left_out) {

@@ -23,8 +23,8 @@ class BiasPriors {
   /// Returns the sigmas that the mission file states; of a bias of which it states nothing that of
   /// its range.
   SensorBiases stated() const;
-  /// Returns the sigmas of the biases that `batch` estimates. Without names a bias is estimated only
-  /// where the edges show more than the mission file states, and has that of its range.
+  /// Returns the sigmas of the biases that `batch` estimates. Without names a bias is estimated
+  /// only where the edges show more than the mission file states, and has that of its range.
   SensorBiases of_estimated() const;
   /// Returns what is left of the alignment's covariance where biases are estimated, each of which
   /// takes up its own direction of the errors.

@@ -31,7 +31,7 @@ struct PassInformation {
   /// Slopes times residuals; the step -(information^-1 score) of the unknowns makes it zero.
   Eigen::Matrix<double, kBatchUnknowns, 1> score = Eigen::Matrix<double, kBatchUnknowns, 1>::Zero();
   Considered<kBatchUnknowns, kSpinConsidered> considered = {};  ///< Terms of model_allowance.h.
-  SensorBiases bias_sigmas = range_sigmas();                ///< Priors of the biases.
+  SensorBiases bias_sigmas = range_sigmas();                    ///< Priors of the biases.
   double squares = 0.0;                                         ///< Sum of the squared residuals.
   std::int64_t edges = 0;
   std::int64_t outliers = 0;  ///< Number of outliers, not counted in `edges`.

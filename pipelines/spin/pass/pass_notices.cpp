@@ -137,7 +137,7 @@ void PassNotices::fix_contradicts_itself() { say_once({NoticeCode::FixContradict
 /// Notes that the axis chosen by the prior is not the one that the edges show.
 void PassNotices::prior_contradicted(TaiTime t) {
   prior_contradicted_ = true;
-  say_first(NoticeCode::PriorContradicted, {NoticeCode::PriorContradicted, {at(t)}});
+  say_first(NoticeCode::PriorContradicted, {NoticeCode::PriorContradicted, {at(t), prior_from_}});
 }
 
 void PassNotices::root_far_from_all(TaiTime t, const Eigen::Vector3d& nearest_icrf,
@@ -153,6 +153,7 @@ void PassNotices::root_far_from_all(TaiTime t, const Eigen::Vector3d& nearest_ic
 
 void PassNotices::prior_set(const SpinPrior& prior) {
   config_.prior = prior;
+  prior_from_.value = "operator";
   prior_verdict_.reset();
   prior_contradicted_ = false;
   said_.erase(NoticeCode::PriorContradicted);
@@ -169,9 +170,11 @@ void PassNotices::estimated(const SpinEstimate& estimate) {
   const double sigma_rad =
       std::hypot(config_.prior->sigma_rad, std::sqrt(estimate.covariance_rad2.trace()));
   if (apart_rad > std::hypot(kContradictionSigmas * sigma_rad, kModelLimit_rad)) {
-    say_first(NoticeCode::PriorContradicted,
-              {NoticeCode::PriorFar,
-               {at(estimate.t), {"deg", degrees(apart_rad)}, {"sigmas", apart_rad / sigma_rad}}});
+    say_first(NoticeCode::PriorContradicted, {NoticeCode::PriorFar,
+                                              {at(estimate.t),
+                                               {"deg", degrees(apart_rad)},
+                                               {"sigmas", apart_rad / sigma_rad},
+                                               prior_from_}});
   }
 }
 
@@ -269,21 +272,23 @@ Notice PassNotices::why_ambiguous() const {
   using enum NoticeCode;
   const NamedValue of_case{"geometry_case", std::int64_t{last_case_}};
   if (fixes_near_tangent_) {
-    return {config_.prior ? AmbiguousPriorNoHelp : AmbiguousNearTangent, {of_case}};
+    return config_.prior ? Notice{AmbiguousPriorNoHelp, {of_case, prior_from_}}
+                         : Notice{AmbiguousNearTangent, {of_case}};
   }
   if (!config_.prior) {
     return {AmbiguousNoPrior, {of_case}};
   }
   if (prior_contradicted_) {
-    return {AmbiguousAgainstPrior, {of_case}};
+    return {AmbiguousAgainstPrior, {of_case, prior_from_}};
   }
   if (prior_verdict_ == PriorVerdict::FarFromAll) {
-    return {AmbiguousFarFromPrior, {of_case}};
+    return {AmbiguousFarFromPrior, {of_case, prior_from_}};
   }
   if (prior_verdict_ == PriorVerdict::NearSeveral) {
-    return {AmbiguousNearPrior, {of_case, {"prior_sigma_deg", degrees(config_.prior->sigma_rad)}}};
+    return {AmbiguousNearPrior,
+            {of_case, prior_from_, {"prior_sigma_deg", degrees(config_.prior->sigma_rad)}}};
   }
-  return {AmbiguousPriorNotBorne, {of_case}};
+  return {AmbiguousPriorNotBorne, {of_case, prior_from_}};
 }
 
 void PassNotices::say_what_the_axis_lacks(const SequentialEstimator& sequential) {

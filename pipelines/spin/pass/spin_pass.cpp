@@ -298,6 +298,7 @@ void SpinPass::consider(const Revolution& revolution, SpinOutput& out) {
   }
   screen(candidate);
   settle(candidate, out);
+  search_the_sky();
   recent_.push_back(std::move(candidate));
   if (recent_.size() > static_cast<std::size_t>(config_.screening.window)) {
     recent_.pop_front();
@@ -316,6 +317,7 @@ void SpinPass::compare_sensors(const Revolution& revolution, SpinOutput& out) {
     return;
   }
   contradictions_.add({.block = *block, .sky = *sky});
+  only_axis_.add({.block = *block, .sky = *sky});
   const bool is_answered = answer_ && is_unopposed(answer_->assessment.quality);
   if (!is_answered || block->has_shifted || contradictions_.found()) {
     contradictions_.compare(config_, axes_to_try_icrf());
@@ -340,6 +342,16 @@ std::vector<Eigen::Vector3d> SpinPass::axes_to_try_icrf() const {
 void SpinPass::doubt_where_sensors_contradict(SpinEstimate& estimate) const {
   if (const auto& found = contradictions_.found()) {
     doubt(estimate.assessment, reason_of(*found));
+  }
+}
+
+/// Searches the axis that grazing fixes may all lack.
+void SpinPass::search_the_sky() {
+  if (!sequential_.may_lack_the_axis()) {
+    return;
+  }
+  if (const auto found_icrf = only_axis_.search(config_)) {
+    sequential_.settle_by_search(*found_icrf);
   }
 }
 
@@ -628,31 +640,48 @@ void SpinPass::apply(TaiTime /*t*/, const ChooseRoot& action) {
   notices_.root_to_choose();
 }
 
-/// Sets a prior at the chosen root, with a third of the distance to the next candidate as sigma.
-/// Candidates that noise does not separate are no choice, and none that is far off is meant.
+/// Returns the axes among which an operator chooses: those of the fix, or those that the filters
+/// follow where noise scatters the fix.
+std::vector<StartingPoint> SpinPass::roots_of(const AxisCandidates& found) const {
+  if (found.near_tangent) {
+    return sequential_.followed();
+  }
+  std::vector<StartingPoint> roots;
+  for (const AxisCandidate& root : found.candidates) {
+    roots.push_back({.axis_icrf = root.axis_icrf, .covariance_rad2 = root.total_covariance_rad2()});
+  }
+  return roots;
+}
+
+/// Sets a prior at the chosen root, with a third of the distance to the next one as sigma. Roots
+/// that noise does not separate are no choice, and none that is far off is meant.
 void SpinPass::choose_root(TaiTime t, const AxisCandidates& found) {
-  if (!root_to_choose_ || found.told_apart || found.candidates.size() < 2) {
+  if (!root_to_choose_ || found.told_apart) {
     return;
   }
-  std::vector<AxisCandidate> candidates = found.candidates;
+  std::vector<StartingPoint> roots = roots_of(found);
+  if (roots.size() < 2) {
+    return;
+  }
   const auto chosen = std::min_element(
-      candidates.begin(), candidates.end(),
-      [&wanted = root_to_choose_->axis_icrf](const AxisCandidate& a, const AxisCandidate& b) {
+      roots.begin(), roots.end(),
+      [&wanted = root_to_choose_->axis_icrf](const StartingPoint& a, const StartingPoint& b) {
         return angle_between_rad(wanted, a.axis_icrf) < angle_between_rad(wanted, b.axis_icrf);
       });
-  const AxisCandidate root = *chosen;
+  const StartingPoint root = *chosen;
+  const double sigma_rad = std::sqrt(root.covariance_rad2.trace());
   const double apart_rad = angle_between_rad(root.axis_icrf, root_to_choose_->axis_icrf);
-  if (apart_rad > kMeant_rad + kPriorSigmas * std::sqrt(root.total_covariance_rad2().trace())) {
+  if (apart_rad > kMeant_rad + kPriorSigmas * sigma_rad) {
     notices_.root_far_from_all(t, root.axis_icrf, apart_rad, kMeant_rad);
     return;
   }
-  candidates.erase(chosen);
+  roots.erase(chosen);
   std::vector<Eigen::Vector3d> others_icrf;
-  for (const AxisCandidate& other : candidates) {
+  for (const StartingPoint& other : roots) {
     others_icrf.push_back(other.axis_icrf);
   }
   const SpinPrior prior = prior_choosing(root.axis_icrf, others_icrf);
-  if (prior.sigma_rad > std::sqrt(root.total_covariance_rad2().trace())) {
+  if (prior.sigma_rad > sigma_rad) {
     apply(t, SetPrior{prior});
   }
 }
@@ -686,6 +715,7 @@ void SpinPass::apply(TaiTime t, const MarkManoeuvre& /*action*/) {
   restarts_handled_ = 0;
   blocks_ = {};
   contradictions_ = {};
+  only_axis_ = {};
 }
 
 void SpinPass::forget_prior(TaiTime t) {

@@ -72,6 +72,12 @@ std::optional<SpinEstimate> SequentialEstimator::update(const Revolution& revolu
                       .shift_icrf = shift_icrf()};
 }
 
+void SequentialEstimator::settle_by_search(const Eigen::Vector3d& only_icrf) {
+  const bool by_prior = hypotheses_.published().preferred_by_prior;
+  hypotheses_.settle_by_search(only_icrf);
+  prior_refuted_ = prior_refuted_ || (by_prior && !hypotheses_.published().preferred_by_prior);
+}
+
 /// @return True when filters began here.
 bool SequentialEstimator::apply_fix(const SpinFix& fix, const Revolution& revolution,
                                     const Sky& sky) {
@@ -283,9 +289,13 @@ Assessment SequentialEstimator::assess_ambiguous() const {
   const std::size_t count = hypotheses_.count();
   Assessment assessment{Quality::Ambiguous};
   if (count > 1) {
-    const RaDec other = ra_dec_of(hypotheses_.all()[1].filter.axis_icrf());
+    const SpinFilter& filter = hypotheses_.all()[1].filter;
+    const RaDec other = ra_dec_of(filter.axis_icrf());
     assessment.reasons.push_back(
-        {OtherAxis, {{"ra_deg", degrees(other.ra_rad)}, {"dec_deg", degrees(other.dec_rad)}}});
+        {OtherAxis,
+         {{"ra_deg", degrees(other.ra_rad)},
+          {"dec_deg", degrees(other.dec_rad)},
+          {"sigma_deg", degrees(std::sqrt(filter.total_covariance_rad2().trace()))}}});
   }
   if (hypotheses_.provisional()) {
     assessment.reasons.push_back({FixesNearTangent});

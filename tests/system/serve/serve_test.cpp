@@ -203,6 +203,7 @@ TEST(Serve, StopsAcceptingLoudlyWhenTheDiskIsFullAndEndsWithOne) {
            message.find("(SQLite code ") != std::string::npos;
   }));
   EXPECT_TRUE(service.program().says("the archive still does not store"));
+  EXPECT_THAT(service.log(), Not(HasSubstr("no telemetry")));
   EXPECT_EQ(service.stop(), 1);
   EXPECT_THAT(service.log(), HasSubstr("rows that were accepted are not in archive"));
   replay.signal(SIGKILL);

@@ -192,6 +192,26 @@ TEST(AlertDesk, TakesLimitsByTheTimeOfWhatIsJudgedWhateverCameBeforeIt) {
   }
 }
 
+TEST(AlertDesk, RaisesNothingOfQualityBeforeAosAndBehindLos) {
+  Mission mission = spinner();
+  mission.contact = Contact{.from = at(0.0), .to = at(100.0)};
+  Served served{mission};
+  EXPECT_THAT(served.silent(-600.0, 3600.0), IsEmpty());
+  ArchiveBatch pass = batch_of_run();
+  for (const double t_s : {50.0, 99.0}) {
+    pass.products.emplace_back(SpinEstimate{.t = at(t_s),
+                                            .estimator = SpinEstimator::Sequential,
+                                            .axis_icrf = Eigen::Vector3d::UnitZ(),
+                                            .covariance_rad2 = Eigen::Matrix2d::Identity(),
+                                            .spin_rate_rad_s = 6.0,
+                                            .spin_rate_sigma_rad_s = 0.1,
+                                            .assessment = {Quality::Ambiguous}});
+  }
+  served.desk.evaluate(pass);
+  EXPECT_THAT(served.silent(3600.0, 3501.0), IsEmpty());
+  EXPECT_THAT(served.desk.open(), IsEmpty());
+}
+
 TEST(AlertDesk, OpensTheAlertAgainWithinItsHoldOffAsOperatorsSetIt) {
   Served served;
   ArchiveBatch said = batch_of_run();

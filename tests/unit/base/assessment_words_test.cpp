@@ -35,6 +35,11 @@ TEST(AssessmentWords, NameTheWrongSensor) {
             "DOUBTFUL, star wrong");
 }
 
+TEST(AssessmentWords, CallNoSensorWrongWhereNothingTellsWhich) {
+  EXPECT_EQ(sentence_of({Quality::Doubtful, {{Contradicted, {{"sensor", "unknown"}}}}}),
+            "DOUBTFUL, sensors contradict");
+}
+
 TEST(AssessmentWords, CountOneOfAThing) {
   const auto one_of = [](ReasonCode code) { return Reason{code, {{"count", std::int64_t{1}}}}; };
   EXPECT_EQ(sentence_of({Quality::Doubtful,
@@ -67,10 +72,11 @@ TEST(AssessmentWords, ShowValuesToTheDigitsOfTheirSigma) {
            {{Bias,
              {{"bias", "north_chord"}, {"value", -0.00031}, {"sigma", 4.2e-5}, {"unit", "deg"}}},
             {Coning, {{"deg", 0.00123}, {"sigma_deg", 2.1e-4}}},
+            {OtherAxis, {{"ra_deg", 181.504}, {"dec_deg", -53.176}, {"sigma_deg", 2.3}}},
             {Nutation, {{"deg", 0.00042}, {"period_s", 2.5}}},
             {NoConing, {{"detectable_deg", 0.00037}}}}}),
-      "OK, north_chord -0.000310 +/- 0.000042 deg, coning 0.00123 +/- 0.00021 deg, nutation "
-      "0.00042 deg, period 2.500 s, no coning above 0.00037 deg");
+      "OK, north_chord -0.000310 +/- 0.000042 deg, coning 0.00123 +/- 0.00021 deg, or ra 181.5 dec "
+      "-53.2 deg, nutation 0.00042 deg, period 2.500 s, no coning above 0.00037 deg");
 }
 
 TEST(AssessmentWords, StandWithoutAValueThatADamagedArchiveLost) {

@@ -15,19 +15,20 @@ TEST(NoticeWords, ListChannelsAndShowTimesToTheMillisecond) {
   EXPECT_EQ(
       sentence_of({SilentChannels, {{"channels", std::vector<std::string>{"sun2", "north_in"}}}}),
       "no edge at all came from sun2, north_in");
-  EXPECT_EQ(
-      sentence_of({PriorContradicted, {{"t_tai_ns", std::int64_t{1'795'143'637'000'000'000}}}}),
-      "2026-11-20T03:00:00.000Z: the edges contradict the prior of the mission: the axis is "
-      "another one, the mean begins anew");
+  EXPECT_EQ(sentence_of({PriorContradicted,
+                         {{"t_tai_ns", std::int64_t{1'795'143'637'000'000'000}},
+                          {"prior_from", "mission"}}}),
+            "2026-11-20T03:00:00.000Z: the edges contradict the prior of the mission: the axis is "
+            "another one, the mean begins anew");
 }
 
 TEST(NoticeWords, SayWhichEdgesAnAmbiguousAxisLacks) {
   EXPECT_EQ(sentence_of({AmbiguousNoPrior, {{"geometry_case", std::int64_t{7}}}}),
             "the axis is ambiguous to the end, for want of good sun1 edges: a prior in the mission "
-            "file would choose among the candidates");
-  EXPECT_EQ(sentence_of({AmbiguousAgainstPrior, {{"geometry_case", std::int64_t{1}}}}),
-            "the axis is ambiguous to the end: the edges contradict the prior of the mission "
-            "(spin.prior)");
+            "file, or an operator, would choose among the candidates");
+  EXPECT_EQ(sentence_of({AmbiguousAgainstPrior,
+                         {{"geometry_case", std::int64_t{1}}, {"prior_from", "mission"}}}),
+            "the axis is ambiguous to the end: the edges contradict the prior of the mission");
 }
 
 TEST(NoticeWords, NameEachCodeByItself) {

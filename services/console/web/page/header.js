@@ -55,7 +55,9 @@ export function drawHeader(craft, service, since_s, stale) {
   say('quality', `${mark} ${craft.quality ?? (waiting ? 'WAITING' : 'NO ANSWER')}`, tone);
   const asOf = craft.answer_utc ? `${craft.estimator} at ${craft.answer_utc.replace(/^.*T/, '').replace(/\.\d+Z$/, 'Z')}` : craft.estimator;
   say('why', craft.quality ? [asOf, craft.why].filter(Boolean).join(': ') : waiting ? 'for the first telemetry' : 'no estimator has one yet');
-  say('case', Number.isFinite(craft.geometry_case) ? `case ${craft.geometry_case}, dual solution ${settled[craft.resolution] ?? '–'}` : '',
-    craft.resolution === 'AMBIGUOUS' ? 'warn' : 'dim');
+  // The answer may rest on more than the last fix, which alone leaves two axes.
+  const isOpen = craft.resolution === 'AMBIGUOUS' && !['OK', 'CONVERGING'].includes(craft.quality);
+  const dual = craft.resolution === 'AMBIGUOUS' && !isOpen ? 'last fix alone leaves it open' : settled[craft.resolution] ?? '–';
+  say('case', Number.isFinite(craft.geometry_case) ? `case ${craft.geometry_case}, dual solution: ${dual}` : '', isOpen ? 'warn' : 'dim');
   drawGo(craft.go, stale);
 }

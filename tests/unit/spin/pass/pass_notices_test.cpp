@@ -176,7 +176,7 @@ TEST_F(PassNoticesTest, WithoutAnyRevolutionThePeriodIsWhatIsMissing) {
 TEST(PassNotices, TheEndSaysWhyTheAxisIsAmbiguous) {
   EXPECT_THAT(said_of_ambiguous({Quality::Ambiguous}, {}, {}),
               StartsWith("the axis is ambiguous to the end, for want of good sun2 edges: a prior "
-                         "in the mission file would choose"));
+                         "in the mission file, or an operator, would choose"));
 }
 
 TEST(PassNotices, WhereTheMissionHasAPriorTheEndSaysWhyItDoesNotSettleTheAxis) {
@@ -190,8 +190,7 @@ TEST(PassNotices, WhereTheMissionHasAPriorTheEndSaysWhyItDoesNotSettleTheAxis) {
               EndsWith("within its sigma of 28.6479 deg, several candidates are equally near to "
                        "it"));
   EXPECT_THAT(said(PriorVerdict::Chooses), HasSubstr("the edges do not bear out the candidate"));
-  EXPECT_THAT(said({}, true),
-              EndsWith("the edges contradict the prior of the mission (spin.prior)"));
+  EXPECT_THAT(said({}, true), EndsWith("the edges contradict the prior of the mission"));
 }
 
 TEST(PassNotices, WhereAllFixesAreNearTangentNoPriorIsSaidToSettleTheAxis) {
@@ -199,7 +198,7 @@ TEST(PassNotices, WhereAllFixesAreNearTangentNoPriorIsSaidToSettleTheAxis) {
   EXPECT_THAT(said_of_ambiguous(near_tangent, {}, {}), EndsWith("no prior would settle it"));
   const SpinPrior prior{.axis_icrf = Eigen::Vector3d::UnitX(), .sigma_rad = 0.009};
   EXPECT_THAT(said_of_ambiguous(near_tangent, prior, PriorVerdict::Chooses),
-              EndsWith("the prior of the mission (spin.prior) does not settle it"));
+              EndsWith("the prior of the mission does not settle it"));
 }
 
 TEST_F(PassNoticesTest, TheEndSaysWhyNoFixIsInTheMean) {
@@ -276,9 +275,11 @@ TEST(PassNotices, APriorThatIsFarFromTheAxisIsNamedOnceThoughNothingHadToBeChose
   estimate.axis_icrf = {std::cos(0.2), std::sin(0.2), 0.0};
   notices.estimated(estimate);
   notices.estimated(estimate);
-  EXPECT_THAT(
-      taken(notices),
-      ElementsAre(HasSubstr("11.5 deg from the prior of the mission (spin.prior), 12 times")));
+  EXPECT_THAT(taken(notices),
+              ElementsAre(HasSubstr("11.5 deg from the prior of the mission, 12 times")));
+  notices.prior_set(*config.prior);
+  notices.estimated(estimate);
+  EXPECT_THAT(taken(notices), ElementsAre(HasSubstr("from the prior of the operator, 12 times")));
 }
 
 }  // namespace spindrift::testing::pass_notices_test

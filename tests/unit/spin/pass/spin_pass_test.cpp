@@ -316,8 +316,11 @@ TEST(SpinPass, SaysInTheEndWhichChannelsWereSilentThroughout) {
 
 TEST(SpinPass, SaysInTheEndWhyThereIsNoMeanAndWhyThePriorDoesNotSettleTheAxis) {
   RecordedPass pass = recorded_pass("north-only");
-  std::erase_if(pass.pulses,
-                [](const Pulse& pulse) { return pulse.channel == PulseChannel::Sun2; });
+  // The edges of two minutes do not settle the axis.
+  const TaiTime start = shifted(pass.pulses.front().t, 480.0);
+  std::erase_if(pass.pulses, [&](const Pulse& pulse) {
+    return pulse.channel == PulseChannel::Sun2 || pulse.t < start;
+  });
   pass.config.prior = SpinPrior{.axis_icrf = -pass.true_axis_icrf, .sigma_rad = kRadPerDeg};
   const SpinOutput output = run(pass);
   const auto fixes = all_of<SpinFix>(output);
@@ -335,38 +338,96 @@ TEST(SpinPass, SaysInTheEndWhyThereIsNoMeanAndWhyThePriorDoesNotSettleTheAxis) {
   EXPECT_TRUE(testing::has(output.notices, NoticeCode::AmbiguousPriorNoHelp));
 }
 
-/// In this pass, without north beam and sun2, all fixes graze the limb, and two axes stay open for
-/// minutes.
-TEST(SpinPass, WhatAnOperatorKnowsOfTheAxisSettlesItUnlessTheEdgesOverruleIt) {
-  RecordedPass pass = recorded_pass("nominal");
-  const TaiTime acted = shifted(pass.pulses.front().t, 60.0);
-  std::erase_if(pass.pulses, [&](const Pulse& pulse) {
-    using enum PulseChannel;
-    return pulse.channel == Sun2 || pulse.channel == NorthIn || pulse.channel == NorthOut ||
-           seconds_between(acted, pulse.t) > 120.0;
-  });
-  const auto run_with = [&](const std::optional<SpinAction>& action) {
-    SpinPass spin{pass.config, pass.orbit};
+/// Holds a pass without north beam and sun2, whose fixes all graze, so that several axes stay open
+/// for minutes.
+struct GrazingPass : RecordedPass {
+  TaiTime acted;  ///< Time of the action.
+
+  explicit GrazingPass(double until_s) : RecordedPass{recorded_pass("nominal")} {
+    const TaiTime began = pulses.front().t;
+    acted = shifted(began, 60.0);
+    std::erase_if(pulses, [&](const Pulse& pulse) {
+      using enum PulseChannel;
+      return pulse.channel == Sun2 || pulse.channel == NorthIn || pulse.channel == NorthOut ||
+             seconds_between(began, pulse.t) > until_s;
+    });
+  }
+  SpinOutput run_with(const std::optional<SpinAction>& action) const {
+    SpinPass spin{config, orbit};
     if (action) {
       spin.act(acted, *action);
     }
-    return run(std::move(spin), pass.pulses);
-  };
-  EXPECT_EQ(sequential_of(run_with(std::nullopt)).assessment.quality, Quality::Ambiguous);
+    return run(std::move(spin), pulses);
+  }
+  /// Returns an axis off the true one by 17 deg.
+  Eigen::Vector3d wrong_icrf() const {
+    return Eigen::AngleAxisd{0.3, true_axis_icrf.unitOrthogonal()} * true_axis_icrf;
+  }
+};
+
+TEST(SpinPass, WhatAnOperatorKnowsOfTheAxisSettlesItUnlessTheEdgesOverruleIt) {
+  const GrazingPass pass{180.0};
+  EXPECT_EQ(sequential_of(pass.run_with(std::nullopt)).assessment.quality, Quality::Ambiguous);
   for (const SpinAction& action :
        {SpinAction{ChooseRoot{pass.true_axis_icrf}},
         SpinAction{SetPrior{{.axis_icrf = pass.true_axis_icrf, .sigma_rad = kRadPerDeg}}}}) {
-    const SpinEstimate settled = sequential_of(run_with(action));
+    const SpinEstimate settled = sequential_of(pass.run_with(action));
     EXPECT_EQ(settled.assessment.quality, Quality::Ok);
     EXPECT_LT(error_rad(pass, settled), 3.0 * sigma_rad(settled));
   }
-  const Eigen::Vector3d wrong_icrf =
-      Eigen::AngleAxisd{0.3, pass.true_axis_icrf.unitOrthogonal()} * pass.true_axis_icrf;
-  const SpinOutput overruled = run_with(ChooseRoot{wrong_icrf});
+  const SpinOutput overruled =
+      pass.run_with(SetPrior{{.axis_icrf = pass.wrong_icrf(), .sigma_rad = 3.0 * kRadPerDeg}});
   EXPECT_TRUE(testing::has(overruled.notices, NoticeCode::PriorContradicted));
   const SpinEstimate left = sequential_of(overruled);
   EXPECT_EQ(left.assessment.quality, Quality::Ambiguous);
   EXPECT_LT(error_rad(pass, left), 3.0 * sigma_rad(left));
+}
+
+TEST(SpinPass, ARootIsChosenAmongTheFollowedAxesAndNotAmongGrazingFixes) {
+  const GrazingPass pass{100.0};
+  const SpinOutput chosen = pass.run_with(ChooseRoot{pass.true_axis_icrf});
+  const SpinOutput refused = pass.run_with(ChooseRoot{pass.wrong_icrf()});
+  int ok = 0;
+  for (const SpinOutput* const output : {&chosen, &refused}) {
+    for (const SpinEstimate& estimate : all_of<SpinEstimate>(*output)) {
+      if (is_unopposed(estimate.assessment.quality)) {
+        EXPECT_LT(error_rad(pass, estimate), 3.0 * sigma_rad(estimate));
+        ++ok;
+      }
+    }
+  }
+  EXPECT_GT(ok, 35);
+  EXPECT_FALSE(testing::has(chosen.notices, NoticeCode::RootFarFromAll));
+  EXPECT_TRUE(testing::has(refused.notices, NoticeCode::RootFarFromAll));
+}
+
+TEST(SpinPass, WhereAllFixesGrazeTheOnlyAxisInTheSkyThatExplainsTheEdgesSettlesIt) {
+  const GrazingPass pass{300.0};
+  const SpinOutput output = pass.run_with(std::nullopt);
+  const SpinEstimate settled = sequential_of(output);
+  EXPECT_EQ(settled.assessment.quality, Quality::Ok);
+  EXPECT_LT(error_rad(pass, settled), 3.0 * sigma_rad(settled));
+  EXPECT_EQ(all_of<AxisChoice>(output).back().settled_by, SettledBy::Edges);
+}
+
+/// The excluded channels leave grazing fixes only, and the manoeuvre leaves only these.
+TEST(SpinPass, AManoeuvreMarkedAfterExclusionsIsSettledAgain) {
+  const RecordedPass pass = recorded_pass("nominal");
+  const TaiTime began = pass.pulses.front().t;
+  using enum PulseChannel;
+  for (const std::set<PulseChannel>& excluded : {std::set{Sun2}, std::set{Sun2, NorthIn}}) {
+    SpinPass spin{pass.config, pass.orbit};
+    for (const PulseChannel channel : excluded) {
+      spin.act(shifted(began, 100.0), ExcludeChannel<PulseChannel>{channel});
+    }
+    spin.act(shifted(began, 150.0), MarkManoeuvre{});
+    std::vector<Pulse> pulses = pass.pulses;
+    std::erase_if(pulses,
+                  [&](const Pulse& pulse) { return seconds_between(began, pulse.t) > 300.0; });
+    const SpinEstimate settled = sequential_of(run(std::move(spin), pulses));
+    EXPECT_EQ(settled.assessment.quality, Quality::Ok);
+    EXPECT_LT(error_rad(pass, settled), 3.0 * sigma_rad(settled));
+  }
 }
 
 TEST(SpinPass, ARootFarFromAllCandidatesIsNotTakenAndTheNearestIsNamed) {
