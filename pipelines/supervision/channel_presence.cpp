@@ -67,15 +67,22 @@ ConditionChanges ChannelPresence::evaluate(const Pulse& edge, std::span<const Ax
   return changes;
 }
 
-/// Restarts the count when a channel comes into view. An axis that hides the other slit or the
-/// other end of the chord, which comes, is not the true one.
+/// Restarts the count when a channel comes into view. A chord has two ends, and where slit 2 sees
+/// the Sun, slit 1 does: whatever the axis. An axis that hides the other slit or the other end of
+/// the chord, which comes, is not the true one.
 bool ChannelPresence::is_silent(PulseChannel channel, TaiTime t, std::span<const AxisSeen> axes) {
-  if (axes.empty() || missed(channel) <= limit_) {
+  if (missed(channel) <= limit_) {
     return false;
   }
   Channel& one = channels_[index_of(channel)];
   const PulseChannel partner = partner_of(channel);
   const bool partner_comes = missed(partner) <= 0.5 * limit_;
+  if (partner_comes && channel != PulseChannel::Sun2) {
+    return true;
+  }
+  if (axes.empty()) {
+    return false;
+  }
   bool in_view = false;
   for (const AxisSeen& axis : axes) {
     if (partner_comes && !is_in_view(partner, t, axis)) {

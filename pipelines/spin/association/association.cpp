@@ -230,6 +230,18 @@ bool Associator::is_of_all_channels(const PulseTrain& comb) const {
                      [&](double period_s) { return !is_another_period(period_s, comb.period_s); });
 }
 
+/// Tells whether more of the other channels have kept to the clock than have left it while the
+/// reference gave the edges of the comb: then the reference is wrong, not the rate.
+bool Associator::others_keep_to_the_clock(const PulseTrain& comb) const {
+  int keep = 0;
+  for (const PulseChannel channel : kChannels) {
+    if (channel != reference_ && phases_.knows(channel)) {
+      keep += phases_.in_a_row(channel) >= static_cast<int>(comb.edges) ? 1 : -1;
+    }
+  }
+  return keep > 0;
+}
+
 /// Tells whether an edge of the reference at `t` lies within the limits of its expectation.
 /// @param most_turns Absolute limit.
 bool Associator::lies_within(double most_turns, double turn, TaiTime t) const {
@@ -254,7 +266,7 @@ void Associator::restart_after_step(const Pulse& pulse) {
   const double noise_s = edge_sigma_s(config_.noise, reference_);
   rate_step_.add(pulse.t, is_good_reference(pulse));
   const auto comb = rate_step_.new_pulse_train(clock_->scale() * noise_s, clock_->period_s());
-  if (!comb ||
+  if (!comb || others_keep_to_the_clock(*comb) ||
       (is_another_period(comb->period_s, clock_->period_s()) && !is_of_all_channels(*comb))) {
     return;
   }

@@ -217,13 +217,13 @@ Solved solve(const Equations& sum) {
   return solved;
 }
 
-/// Returns the mean azimuth of each channel behind its expected one.
-std::array<double, kPulseChannels> mean_off_rad(const AxisState& state,
-                                                std::span<const BlockUnderSky> blocks,
-                                                const Unknowns& errors) {
-  std::array<double, kPulseChannels> sum{};
-  std::array<int, kPulseChannels> count{};
+/// Returns the azimuths of each channel behind its expected one in each block.
+std::vector<BlockFit::Azimuths> off_rad(const AxisState& state,
+                                        std::span<const BlockUnderSky> blocks,
+                                        const Unknowns& errors) {
+  std::vector<BlockFit::Azimuths> all;
   for (const BlockUnderSky& block : blocks) {
+    all.emplace_back().fill(std::numeric_limits<double>::quiet_NaN());
     double missing = 0.0;
     std::vector<ComparedPoint> points = state.compare(block, missing);
     for (ComparedPoint& point : points) {
@@ -231,14 +231,10 @@ std::array<double, kPulseChannels> mean_off_rad(const AxisState& state,
     }
     const double phase_rad = phase_of(points);
     for (const ComparedPoint& point : points) {
-      sum.at(index_of(point.channel)) += wrapped_rad(point.off_rad + phase_rad);
-      ++count.at(index_of(point.channel));
+      all.back().at(index_of(point.channel)) = wrapped_rad(point.off_rad + phase_rad);
     }
   }
-  for (std::size_t i = 0; i < kPulseChannels; ++i) {
-    sum.at(i) /= count.at(i);
-  }
-  return sum;
+  return all;
 }
 
 constexpr int kPlaces = 600;
@@ -283,8 +279,23 @@ std::optional<BlockFit> fit_axis(const SpinConfig& config, std::span<const Block
     next = state;
     next.move(step);
   }
-  best->off_rad = mean_off_rad(state, blocks, solve(equations(state, blocks)).errors);
+  best->off_rad = off_rad(state, blocks, solve(equations(state, blocks)).errors);
   return best;
+}
+
+BlockFit::Azimuths mean_of(std::span<const BlockFit::Azimuths> off_rad) {
+  BlockFit::Azimuths mean{};
+  for (std::size_t i = 0; i < kPulseChannels; ++i) {
+    int count = 0;
+    for (const BlockFit::Azimuths& one : off_rad) {
+      if (!std::isnan(one.at(i))) {
+        mean.at(i) += one.at(i);
+        ++count;
+      }
+    }
+    mean.at(i) /= count;
+  }
+  return mean;
 }
 
 SkyOfAxes::SkyOfAxes(const SpinConfig& config, const BlockUnderSky& seen) {

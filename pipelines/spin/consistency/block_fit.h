@@ -38,9 +38,13 @@ struct BlockFit {
   double squares;  ///< Chi-square.
   int freedom;     ///< Its degrees of freedom.
   double late_s;   ///< Lateness of all times against the orbit; zero unless that is omitted.
-  /// Mean azimuth of each channel behind its expected one, rad; NaN without points.
-  std::array<double, kPulseChannels> off_rad;
+  using Azimuths = std::array<double, kPulseChannels>;
+  /// Azimuths of each channel behind its expected one, rad, by block; NaN without a point.
+  std::vector<Azimuths> off_rad;
 };
+
+/// Returns the mean azimuth of each channel behind its expected one; NaN without points.
+BlockFit::Azimuths mean_of(std::span<const BlockFit::Azimuths> off_rad);
 
 /// @param start_icrf Axis to start from, unit vector.
 /// @return Empty if no axis near it fits at all, or the points are too few to test one.

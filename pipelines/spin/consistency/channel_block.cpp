@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "pipelines/frames/angle.h"
+#include "pipelines/spin/types/side.h"
 #include "pipelines/statistics/median.h"
 #include "pipelines/statistics/significance.h"
 #include "pipelines/time/time_span.h"
@@ -22,6 +23,8 @@ constexpr std::size_t kFewestToBend = 5;
 constexpr double kOfMedian = 1.2533;
 // Ratio to the stated noise that a few edges show only if there is more of it.
 constexpr double kLoud = 3.0;
+// Ratio to the scatter of all other sensors beyond which it cannot be the same nutation.
+constexpr double kFarLouder = 10.0;
 
 /// Returns whether an edge tells where its channel is: also where that is not its usual place.
 bool counts(const Revolution& revolution, PulseChannel channel) {
@@ -46,25 +49,59 @@ std::vector<double> delays_s(std::span<const Revolution> revolutions, const Revo
   return all;
 }
 
+/// Returns the standard deviation of single delays about their median, which a few strays do not
+/// change.
+double scatter_about_median_s(std::vector<double> delays) {
+  const double median_s = upper_median(delays);
+  std::transform(delays.begin(), delays.end(), delays.begin(),
+                 [median_s](double delay_s) { return std::abs(delay_s - median_s); });
+  return kSigmaPerMad * upper_median(delays);
+}
+
 /// Returns the standard deviation of single delays from their second differences, which neither an
-/// offset nor the motion of the Earth makes. A few strays may lie on a line: of less than
-/// kFewestToBend delays it is that about their median, of two that by their difference.
-double scatter_s(const std::vector<double>& delays) {
-  if (delays.size() == 2) {
-    return kSigmaPerMad * std::abs(delays[1] - delays[0]) / std::numbers::sqrt2;
-  }
-  if (delays.size() < kFewestToBend) {
-    std::vector<double> off = delays;
-    const double median_s = upper_median(off);
-    std::transform(off.begin(), off.end(), off.begin(),
-                   [median_s](double delay_s) { return std::abs(delay_s - median_s); });
-    return kSigmaPerMad * upper_median(off);
-  }
+/// offset nor the motion of the Earth makes.
+double scatter_about_line_s(const std::vector<double>& delays) {
   std::vector<double> bends;
   for (std::size_t i = 2; i < delays.size(); ++i) {
     bends.push_back(std::abs(delays[i] - 2.0 * delays[i - 1] + delays[i - 2]) / std::sqrt(6.0));
   }
   return kSigmaPerMad * upper_median(bends);
+}
+
+/// Returns the standard deviation of single delays. A few strays may lie on a line: of less than
+/// kFewestToBend delays it is that about their median, of two that by their difference.
+double scatter_s(const std::vector<double>& delays) {
+  if (delays.size() == 2) {
+    return kSigmaPerMad * std::abs(delays[1] - delays[0]) / std::numbers::sqrt2;
+  }
+  return delays.size() < kFewestToBend ? scatter_about_median_s(delays)
+                                       : scatter_about_line_s(delays);
+}
+
+std::optional<NoisyChannel> noisy_among(std::span<const std::vector<double>> delays,
+                                        const PulseNoise& noise) {
+  // Neither a stray nor the motion of the Earth alone makes both.
+  const auto of_most_s = [&](std::size_t i) {
+    return std::min(scatter_about_median_s(delays[i]), scatter_about_line_s(delays[i]));
+  };
+  const double stated_s =
+      std::max(edge_sigma_s(noise, PulseChannel::Sun1), edge_sigma_s(noise, PulseChannel::NorthIn));
+  for (std::size_t i = 0; i < kPulseChannels; ++i) {
+    const auto channel = static_cast<PulseChannel>(i);
+    double quiet_s = stated_s;
+    int others = 0;
+    for (std::size_t j = 0; j < kPulseChannels; ++j) {
+      if (!are_of_one_sensor(channel, static_cast<PulseChannel>(j)) && !delays[j].empty()) {
+        quiet_s = std::max(quiet_s, of_most_s(j));
+        ++others;
+      }
+    }
+    if (others >= 2 && of_most_s(i) > kFarLouder * quiet_s) {
+      return NoisyChannel{
+          .channel = channel, .scatter_s = of_most_s(i), .stated_s = edge_sigma_s(noise, channel)};
+    }
+  }
+  return std::nullopt;
 }
 
 /// Returns the scatter that at least two channels show beyond their noise: nutation.
@@ -90,12 +127,13 @@ ChannelPoint point_of(std::vector<double> delays, const Revolution& middle, cons
           .sigma_s = std::hypot(mean_s, grid_sigma_s(noise), common_s)};
 }
 
+/// Returns whether edges of a channel are off its usual place: one may be a stray.
 bool is_shifted(std::span<const Revolution> revolutions, PulseChannel channel) {
   const auto shifted =
       std::count_if(revolutions.begin(), revolutions.end(), [channel](const Revolution& one) {
         return one.edge_rejections.at(index_of(channel)) == Rejection::Phase;
       });
-  return 2 * shifted > std::ssize(revolutions);
+  return shifted >= 2;
 }
 
 ChannelBlock block_of(std::span<const Revolution> revolutions, const PulseNoise& noise) {
@@ -114,6 +152,7 @@ ChannelBlock block_of(std::span<const Revolution> revolutions, const PulseNoise&
     }
     block.has_shifted = block.has_shifted || is_shifted(revolutions, channel);
   }
+  block.noisy = noisy_among(delays, noise);
   return block;
 }
 

@@ -23,12 +23,21 @@ struct ChannelPoint {
   double sigma_s;  ///< Standard deviation by noise.
 };
 
+/// Holds a channel whose edges scatter as no motion of the body makes them: far more than stated,
+/// and than those of every other sensor.
+struct NoisyChannel {
+  PulseChannel channel;  ///< The first of its sensor.
+  double scatter_s;
+  double stated_s;
+};
+
 /// Holds the mean edges of some successive revolutions.
 struct ChannelBlock {
   TaiTime t;  ///< Start of the middle revolution.
   double rate_rad_s;
   std::vector<ChannelPoint> points;  ///< At most one per channel.
-  bool has_shifted = false;          ///< True if most edges of a channel are off its usual phase.
+  bool has_shifted = false;          ///< True if edges of a channel are off its usual phase.
+  std::optional<NoisyChannel> noisy = {};
 };
 
 /// Collects revolutions until they make a block: of five seconds, and of three revolutions.

@@ -27,6 +27,9 @@ constexpr double kUnlikely = 1e-2;
 // Chance by noise at which a contradiction ends.
 constexpr double kLikely = 1e-3;
 constexpr std::size_t kMostKept = 3;
+// Contradiction in sigmas from which on the past of a sensor is held against it: a weaker one may
+// be a motion of the axis that looks alike.
+constexpr double kStrong = 20.0;
 // Ratio of the misfit to noise up to which the rest may be said to agree.
 constexpr double kMostNoise = 4.0;
 
@@ -42,6 +45,14 @@ struct Suspect {
 /// Returns whether noise explains the misfit.
 bool fits(const BlockFit& fit, double noise) {
   return fit.freedom == 0 || fit.squares / noise < chi_square_beyond(kUnlikely, fit.freedom);
+}
+
+/// Returns whether the sensors beyond the rest add no more misfit than noise does.
+bool are_alike(const BlockFit& with_them, const BlockFit& rest) {
+  const double noise = std::max(1.0, rest.squares / std::max(rest.freedom, 1));
+  const int more = with_them.freedom - rest.freedom;
+  return noise <= kMostNoise && (more <= 0 || (with_them.squares - rest.squares) / noise <
+                                                  chi_square_beyond(kUnlikely, more));
 }
 
 /// Finds the best axis from known ones and from all over the sky.
@@ -156,8 +167,9 @@ NamedValue off_of(const Suspect& suspect) {
     return {"offset_s", suspect.fit->late_s};
   }
   double off_rad = 0.0;
+  const BlockFit::Azimuths mean_rad = mean_of(suspect.fit->off_rad);
   for (const SampleSource source : suspect.sources) {
-    const double of_one = std::abs(suspect.fit->off_rad.at(index_of(source)));
+    const double of_one = std::abs(mean_rad.at(index_of(source)));
     off_rad = std::isnan(of_one) ? off_rad : std::max(off_rad, of_one);
   }
   return {"angle_deg", degrees(off_rad)};
@@ -178,11 +190,28 @@ std::vector<SampleSource> others_than(const Suspect& culprit, const std::vector<
   return others;
 }
 
-/// Returns what contradicts what; empty if no single sensor explains it.
+/// Returns whether another axis in the newest block explains clearly more than any wrong sensor.
+bool has_moved(const AxisFinder& finder, const Blocks& blocks,
+               const std::vector<Suspect>& suspects) {
+  if (suspects.empty() || fits(*suspects.front().fit, 1.0)) {
+    return false;
+  }
+  const auto before = finder.best({blocks.begin(), std::prev(blocks.end())}, {});
+  const auto now = finder.best({blocks.back()}, {});
+  return before && now &&
+         excess(*before, 1.0) + excess(*now, 1.0) + kClearly < excess(*suspects.front().fit, 1.0);
+}
+
+struct Verdict {
+  SensorContradiction contradiction;
+  std::vector<Suspect> accused;  ///< Any of them may be wrong; empty if none of them explains it.
+};
+
+/// Returns what contradicts what; empty if noise explains it.
 /// @param together Fit with all sensors. @param chance Chance by which noise may explain it.
 /// @param suspects The likeliest first.
-std::optional<SensorContradiction> judge(const std::vector<Suspect>& suspects,
-                                         const BlockFit& together, double chance, TaiTime since) {
+std::optional<Verdict> judge(const std::vector<Suspect>& suspects, const BlockFit& together,
+                             double chance, TaiTime since) {
   if (suspects.empty()) {
     return std::nullopt;
   }
@@ -195,16 +224,18 @@ std::optional<SensorContradiction> judge(const std::vector<Suspect>& suspects,
   }
   const double least = excess(*best->fit, noise);
   // Where no single sensor explains most of the misfit, the two that explain most of it are named.
+  const bool is_explained = noise <= kMostNoise;
   const std::vector<Suspect> left =
-      noise > kMostNoise
-          ? std::vector(suspects.begin(),
-                        suspects.begin() + std::min<std::ptrdiff_t>(2, std::ssize(suspects)))
-          : remaining(suspects, least, noise);
-  SensorContradiction found{.culprit = {},
-                            .with = {},
-                            .off = off_of(left.front()),
-                            .sigmas = std::sqrt(gain),
-                            .since = since};
+      is_explained ? remaining(suspects, least, noise)
+                   : std::vector(suspects.begin(), suspects.begin() + std::min<std::ptrdiff_t>(
+                                                                          2, std::ssize(suspects)));
+  Verdict verdict{.contradiction = {.culprit = {},
+                                    .with = {},
+                                    .off = off_of(left.front()),
+                                    .sigmas = std::sqrt(gain),
+                                    .since = since},
+                  .accused = is_explained ? left : std::vector<Suspect>{}};
+  SensorContradiction& found = verdict.contradiction;
   if (left.size() == 1) {
     found.culprit = left.front().sources.front();
     found.with = others_than(left.front(), suspects);
@@ -214,7 +245,39 @@ std::optional<SensorContradiction> judge(const std::vector<Suspect>& suspects,
     }
     std::sort(found.with.begin(), found.with.end());
   }
-  return found;
+  return verdict;
+}
+
+/// Returns the blocks where those that were wrong count in the newest ones only.
+Blocks without(Blocks blocks, const OmittedSensors& wrong, std::ptrdiff_t newest) {
+  std::for_each(blocks.begin(), blocks.end() - newest, [&](BlockUnderSky& one) {
+    std::erase_if(one.block.points, [&](const ChannelPoint& point) {
+      const PulseChannel channel = point.edge.channel;
+      return wrong.channels[index_of(channel)] || (wrong.orbit && !sees_the_sun(channel));
+    });
+  });
+  return blocks;
+}
+
+/// Returns whether the channels are nearer to where they were before they were wrong than to where
+/// they were then, by the fit without them: whatever its axis, that tells the one from the other.
+/// @param since Number of blocks since they were wrong. @param newest Number of those of now.
+bool are_back(const BlockFit& fit, const OmittedSensors& wrong, std::ptrdiff_t since,
+              std::ptrdiff_t newest) {
+  const auto begin = fit.off_rad.end() - since;
+  const auto now = fit.off_rad.end() - newest;
+  const BlockFit::Azimuths right_rad = mean_of({fit.off_rad.begin(), begin});
+  const BlockFit::Azimuths wrong_rad = mean_of({begin, now});
+  const BlockFit::Azimuths now_rad = mean_of({now, fit.off_rad.end()});
+  double to_right_rad = 0.0;
+  double to_wrong_rad = 0.0;
+  for (std::size_t i = 0; i < kPulseChannels; ++i) {
+    if (wrong.channels[i]) {
+      to_right_rad += std::abs(wrapped_rad(now_rad.at(i) - right_rad.at(i)));
+      to_wrong_rad += std::abs(wrapped_rad(now_rad.at(i) - wrong_rad.at(i)));
+    }
+  }
+  return !(to_right_rad > to_wrong_rad);
 }
 
 }  // namespace
@@ -224,17 +287,24 @@ void ChannelContradictions::add(BlockUnderSky block) {
   forget_old();
 }
 
-/// Keeps the last minute and, during a contradiction, blocks evenly spread since it began.
+bool ChannelContradictions::is_due() const {
+  const auto lately = std::min<std::ptrdiff_t>(2, std::ssize(blocks_));
+  return found_ || std::any_of(blocks_.end() - lately, blocks_.end(),
+                               [](const BlockUnderSky& one) { return one.block.has_shifted; });
+}
+
+/// Keeps the last minute and, during a contradiction, the minute before it and blocks evenly spread
+/// since it began.
 void ChannelContradictions::forget_old() {
   const TaiTime recent = blocks_.back().block.t - kRecent;
-  while (!blocks_.empty() &&
-         blocks_.front().block.t < (since_ ? std::min(*since_, recent) : recent)) {
+  while (blocks_.front().block.t < (since_ ? std::min(*since_ - kRecent, recent) : recent)) {
     blocks_.pop_front();
   }
   if (blocks_.size() > kMostBlocks) {
     std::deque<BlockUnderSky> thinned;
     for (std::size_t i = 0; i < blocks_.size(); ++i) {
-      if (blocks_[i].block.t >= recent || i % 2 == 0) {
+      const TaiTime t = blocks_[i].block.t;
+      if (t >= recent || t < since_ || i % 2 == 0) {
         thinned.push_back(std::move(blocks_[i]));
       }
     }
@@ -244,7 +314,16 @@ void ChannelContradictions::forget_old() {
 
 void ChannelContradictions::compare(const SpinConfig& config,
                                     std::span<const Eigen::Vector3d> known_icrf) {
+  if (accuse_noisy()) {
+    return;
+  }
   const TaiTime now = blocks_.back().block.t;
+  std::vector<Eigen::Vector3d> starts{known_icrf.begin(), known_icrf.end()};
+  starts.insert(starts.end(), last_icrf_.begin(), last_icrf_.end());
+  if (found_ && agree_again(config, starts)) {
+    end();
+    return;
+  }
   if (since_ && compared_) {
     const double between_s = std::min(kGrown * seconds_between(*since_, now), kLongestBetween_s);
     if (seconds_between(*compared_, now) < between_s) {
@@ -252,44 +331,101 @@ void ChannelContradictions::compare(const SpinConfig& config,
     }
   }
   compared_ = now;
-  std::vector<Eigen::Vector3d> starts{known_icrf.begin(), known_icrf.end()};
-  starts.insert(starts.end(), last_icrf_.begin(), last_icrf_.end());
   const AxisFinder finder{config, std::move(starts), blocks_.back(), search_sky(now)};
-  const auto agreeing = finder.best(without(accused_, now - kRecent), {});
-  if (!agreeing || fits(*agreeing, 1.0)) {
-    end();
-    return;
-  }
   const Blocks all{blocks_.begin(), blocks_.end()};
   const auto together = finder.best(all, {});
-  const std::vector<Suspect> suspects = examined(finder, all);
-  since_ = since_.value_or(now);
-  found_ = judge(suspects, *together, found_ ? kLikely : kContradictionChance, *since_);
-  if (!found_) {
+  if (!together || fits(*together, 1.0)) {
     end();
     return;
   }
-  accused_ = suspects.front().omitted;
+  since_ = since_.value_or(now);
+  const std::vector<Suspect> suspects = examined(finder, all);
+  if (has_moved(finder, all, suspects)) {
+    blocks_.erase(blocks_.begin(), std::prev(blocks_.end()));
+    end();
+    return;
+  }
+  auto verdict = judge(suspects, *together, found_ ? kLikely : kContradictionChance, *since_);
+  if (!verdict) {
+    end();
+    return;
+  }
+  found_ = std::move(verdict->contradiction);
+  accused_.clear();
+  for (const Suspect& one : verdict->accused) {
+    accused_.push_back(one.omitted);
+  }
   last_icrf_.clear();
   for (std::size_t i = 0; i < std::min(suspects.size(), kMostKept); ++i) {
     last_icrf_.push_back(suspects[i].fit->axis_icrf);
   }
 }
 
-/// Returns the blocks where the sensors that were wrong up to `recent` do not count until then: if
-/// all agree in them, these sensors are right again.
-std::vector<BlockUnderSky> ChannelContradictions::without(const OmittedSensors& accused,
-                                                          TaiTime recent) const {
-  Blocks blocks{blocks_.begin(), blocks_.end()};
-  for (BlockUnderSky& one : blocks) {
-    if (one.block.t < recent) {
-      std::erase_if(one.block.points, [&](const ChannelPoint& point) {
-        const PulseChannel channel = point.edge.channel;
-        return accused.channels[index_of(channel)] || (accused.orbit && !sees_the_sun(channel));
-      });
+/// Returns whether the same channel scatters alone in the newest two blocks, and then accuses it.
+bool ChannelContradictions::accuse_noisy() {
+  const ChannelBlock& newest = blocks_.back().block;
+  const auto& noisy = newest.noisy;
+  if (!noisy || blocks_.size() < 2) {
+    return false;
+  }
+  const ChannelBlock& before = blocks_[blocks_.size() - 2].block;
+  if (!before.noisy || before.noisy->channel != noisy->channel) {
+    return false;
+  }
+  since_ = since_.value_or(before.t);
+  found_ = SensorContradiction{.culprit = source_of(noisy->channel),
+                               .with = {},
+                               .off = {"angle_deg", degrees(newest.rate_rad_s * noisy->scatter_s)},
+                               .sigmas = noisy->scatter_s / noisy->stated_s,
+                               .since = *since_};
+  accused_ = {{}};
+  for (const ChannelPoint& point : newest.points) {
+    if (are_of_one_sensor(noisy->channel, point.edge.channel)) {
+      accused_.front().channels.set(index_of(point.edge.channel));
+    } else {
+      found_->with.push_back(source_of(point.edge.channel));
     }
   }
-  return blocks;
+  return true;
+}
+
+/// Returns whether the sensors agree in so many of the newest blocks as would show the
+/// contradiction by themselves if it lasted, and then forgets what was wrong before. If no single
+/// sensor explains it, the body itself may have moved: then only the newest blocks have to agree.
+bool ChannelContradictions::agree_again(const SpinConfig& config,
+                                        const std::vector<Eigen::Vector3d>& starts_icrf) {
+  const AxisFinder finder{config, starts_icrf, blocks_.back(), false};
+  const auto since =
+      std::count_if(blocks_.begin(), blocks_.end(),
+                    [this](const BlockUnderSky& one) { return one.block.t >= *since_; });
+  const double share = std::pow(kContradictionSigmas / found_->sigmas, 2);
+  const auto newest =
+      std::clamp(static_cast<std::ptrdiff_t>(std::ceil(share * static_cast<double>(since))),
+                 std::ptrdiff_t{2}, std::ssize(blocks_));
+  if (newest >= since) {
+    return false;
+  }
+  const Blocks all{blocks_.begin(), blocks_.end()};
+  if (accused_.empty()) {
+    const auto fit = finder.best({all.end() - newest, all.end()}, {});
+    if (!fit || !fits(*fit, 1.0)) {
+      return false;
+    }
+    blocks_.erase(blocks_.begin(), blocks_.end() - newest);
+    return true;
+  }
+  for (const OmittedSensors& wrong : accused_) {
+    Blocks blocks = without(all, wrong, newest);
+    const auto rest = finder.best(wrong.orbit ? blocks : all, wrong);
+    const auto with_it = finder.best(blocks, {});
+    if (rest && with_it && are_alike(*with_it, *rest) &&
+        (found_->sigmas < kStrong || are_back(*rest, wrong, since, newest))) {
+      blocks_.assign(std::make_move_iterator(blocks.begin()),
+                     std::make_move_iterator(blocks.end()));
+      return true;
+    }
+  }
+  return false;
 }
 
 /// Returns whether to search the whole sky, which is slow: again and again before a contradiction
@@ -307,7 +443,7 @@ void ChannelContradictions::end() {
   found_.reset();
   searched_.reset();
   last_icrf_.clear();
-  accused_ = {};
+  accused_.clear();
 }
 
 }  // namespace spindrift

@@ -26,6 +26,10 @@ class ChannelContradictions {
   /// Adds a block later than those before.
   void add(BlockUnderSky block);
 
+  /// Returns whether a comparison may find anything new: edges have left their places lately, or
+  /// have contradicted each other so far.
+  bool is_due() const;
+
   /// Compares the edges up to now, at most some times a minute.
   /// @param known_icrf Axes that may be true; others are tried, too.
   void compare(const SpinConfig& config, std::span<const Eigen::Vector3d> known_icrf);
@@ -35,7 +39,8 @@ class ChannelContradictions {
 
  private:
   void forget_old();
-  std::vector<BlockUnderSky> without(const OmittedSensors& accused, TaiTime recent) const;
+  bool agree_again(const SpinConfig& config, const std::vector<Eigen::Vector3d>& starts_icrf);
+  bool accuse_noisy();
   bool search_sky(TaiTime now);
   void end();
 
@@ -44,7 +49,8 @@ class ChannelContradictions {
   std::optional<TaiTime> compared_;         ///< Time of the last comparison.
   std::optional<TaiTime> searched_;         ///< Time of the last search of the whole sky.
   std::vector<Eigen::Vector3d> last_icrf_;  ///< Likeliest axes of the last comparison.
-  OmittedSensors accused_;                  ///< The likeliest culprit of the last comparison.
+  /// Any of them may be the culprit by the last comparison; empty if none of them explains it.
+  std::vector<OmittedSensors> accused_;
   std::optional<SensorContradiction> found_;
 };
 

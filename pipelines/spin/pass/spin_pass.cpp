@@ -319,11 +319,11 @@ void SpinPass::compare_sensors(const Revolution& revolution, SpinOutput& out) {
   contradictions_.add({.block = *block, .sky = *sky});
   only_axis_.add({.block = *block, .sky = *sky});
   const bool is_answered = answer_ && is_unopposed(answer_->assessment.quality);
-  if (!is_answered || block->has_shifted || contradictions_.found()) {
+  if (!is_answered || contradictions_.is_due()) {
     contradictions_.compare(config_, axes_to_try_icrf());
-    out.products.emplace_back(
-        SensorsCompared{.t = revolution.t_start, .contradiction = contradictions_.found()});
   }
+  out.products.emplace_back(
+      SensorsCompared{.t = revolution.t_start, .contradiction = contradictions_.found()});
 }
 
 std::vector<Eigen::Vector3d> SpinPass::axes_to_try_icrf() const {

@@ -31,6 +31,12 @@ constexpr Side side_of(PulseChannel channel) {
   return is_north ? Side::North : Side::South;
 }
 
+/// Returns whether both are the same slit or ends of the same chord.
+constexpr bool are_of_one_sensor(PulseChannel one, PulseChannel other) {
+  return one == other ||
+         (!sees_the_sun(one) && !sees_the_sun(other) && side_of(one) == side_of(other));
+}
+
 /// The sensor of a side; empty when the mission has none.
 inline const std::optional<InfraredSensor>& sensor_of(const SpinConfig& config, Side side) {
   return side == Side::North ? config.north : config.south;

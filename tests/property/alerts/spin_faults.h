@@ -93,6 +93,9 @@ inline std::vector<Fault> spin_faults() {
   return {
       {"sun1 dead", silent("sun1"), spinner, dead(of({Sun1})), 15.0},
       {"sun2 dead", silent("sun2"), spinner, dead(of({Sun2})), 15.0},
+      {"sun1 dead from the start", silent("sun1"), spinner, dead(of({Sun1})), 15.0, whole, false},
+      {"south_out dead from the start", silent("south_out"), spinner, dead(of({SouthOut})), 15.0,
+       whole, false},
       {"north beam dead", silent("north_in"), spinner, dead(of({NorthIn, NorthOut})), 15.0},
       {"south beam dead", silent("south_in"), spinner, dead(of({SouthIn, SouthOut})), 15.0},
       {"north_out dead", silent("north_out"), spinner, dead(of({NorthOut})), 15.0},
@@ -146,11 +149,13 @@ inline std::vector<Fault> spin_faults() {
        .sensors = alternating(Sun1, 2e-3),
        .within_s = 60.0,
        .culprit = "sensor.contradicts:sun1"},
-      {.name = "sun2 turned by 2 deg: the estimators",
+      // More is soon a contradiction between sensors, which makes all estimators doubtful.
+      {.name = "sun2 turned by 0.14 deg: the estimators, by a narrow limit",
        .keys = {"spin.disagree"},
        .scenario = spinner,
-       .sensors = moved(of({Sun2}), 2.0 / 330.0),
+       .sensors = moved(of({Sun2}), 0.14 / 330.0),
        .within_s = 120.0,
+       .more_of_mission = "\n[alerts.\"spin.disagree\"]\nsigmas = 2.0\n",
        .culprit = "sensor.contradicts:sun2"}};
 }
 
@@ -186,7 +191,8 @@ inline std::vector<Fault> lies_of_a_spinner() {
     add_one("late by a second", late_by_a_second(of(sensor.channels)));
   }
   faults.push_back(
-      {"sun1 and sun2 swapped", contradicts("sun2"), spinner, swapped(Sun1, Sun2), kMinute_s});
+      // Both lie: no single sensor explains it.
+      {"sun1 and sun2 swapped", contradicts("unknown"), spinner, swapped(Sun1, Sun2), kMinute_s});
   faults.push_back(
       {"north_in and north_out swapped", north, spinner, swapped(NorthIn, NorthOut), kMinute_s});
   faults.push_back(

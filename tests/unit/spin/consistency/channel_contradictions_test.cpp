@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -133,13 +134,58 @@ TEST(ChannelContradictions, NameAnOrbitThatIsLate) {
   EXPECT_NEAR(std::get<double>(found->off.value), -180.0, 40.0);
 }
 
-TEST(ChannelContradictions, EndAMinuteAfterTheChannelIsRightAgain) {
-  const auto until_20_s = [](const Pulse& edge) {
-    const bool is_early = seconds_between(kTransferStart, edge.t) < 20.0;
-    return edge.channel == NorthOut && is_early ? 0.03 : 0.0;
+/// An edge of the channel comes late between two times.
+Lateness late_between(PulseChannel channel, double late_s, double from_s, double to_s) {
+  return [=](const Pulse& edge) {
+    const double t_s = seconds_between(kTransferStart, edge.t);
+    return edge.channel == channel && t_s >= from_s && t_s < to_s ? late_s : 0.0;
   };
-  EXPECT_TRUE(found_with(40.0, until_20_s));
-  EXPECT_FALSE(found_with(110.0, until_20_s));
+}
+
+TEST(ChannelContradictions, EndWhenTheChannelHasBeenRightForTwoBlocks) {
+  EXPECT_TRUE(found_with(24.0, late_between(NorthOut, 0.03, 0.0, 20.0)));
+  EXPECT_FALSE(found_with(40.0, late_between(NorthOut, 0.03, 0.0, 20.0)));
+  EXPECT_FALSE(found_with(110.0, late_between(NorthOut, 0.03, 0.0, 20.0)));
+}
+
+/// After a minute the late slit alone would be taken for another axis.
+TEST(ChannelContradictions, RememberTheMinuteBeforeTheyBegan) {
+  const auto found = found_with(180.0, late_between(Sun2, 0.006, 60.0, 200.0));
+  ASSERT_TRUE(found);
+  EXPECT_EQ(culprit_name_of(*found), "sun2");
+  EXPECT_LT(seconds_between(kTransferStart, found->since), 75.0);
+}
+
+TEST(ChannelContradictions, NameAChannelThatScattersAlone) {
+  for (const PulseChannel channel : {Sun2, NorthOut}) {
+    std::mt19937_64 rng{48};
+    std::normal_distribution<double> noise_s{0.0, 0.05};
+    const auto found = found_with(50.0, [&](const Pulse& edge) {
+      const bool is_late = seconds_between(kTransferStart, edge.t) > 30.0;
+      return edge.channel == channel && is_late ? noise_s(rng) : 0.0;
+    });
+    ASSERT_TRUE(found) << name_of(channel);
+    EXPECT_EQ(culprit_name_of(*found), name_of(channel));
+    EXPECT_NEAR(std::get<double>(found->off.value), 18.0, 9.0);
+    EXPECT_EQ(found->with.size(), channel == Sun2 ? 5U : 4U);
+  }
+}
+
+TEST(ChannelContradictions, NameNoChannelWhereAllScatter) {
+  std::mt19937_64 rng{48};
+  std::normal_distribution<double> noise_s{0.0, 0.02};
+  EXPECT_FALSE(found_with(40.0, [&](const Pulse& /*edge*/) { return noise_s(rng); }));
+}
+
+TEST(ChannelContradictions, FindNoneWhenTheBodyHasMoved) {
+  Scene scene;
+  SpinningBody moved = scene.body;
+  moved.axis_icrf = Eigen::AngleAxisd{10.0 * kRadPerDeg, scene.body.axis_icrf.unitOrthogonal()} *
+                    scene.body.axis_icrf;
+  std::vector<Pulse> edges = scene.pulses(scene.body, 0.0, 30.0, scene.rng);
+  const std::vector<Pulse> later = scene.pulses(moved, 30.0, 90.0, scene.rng);
+  edges.insert(edges.end(), later.begin(), later.end());
+  EXPECT_FALSE(found_in(observed(scene.body.config, scene.orbit, edges), scene.body.config));
 }
 
 }  // namespace spindrift::channel_contradictions_test
