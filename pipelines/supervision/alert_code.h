@@ -44,6 +44,8 @@ enum class AlertCode {
   ArchiveBacklog,
   ArchiveWrite,
   ArchiveDisk,
+  ArchiveLog,
+  ClockDisagree,
   ClockJump,
   DataOutdated,  ///< Per item of reference data, such as the orbit.
 };
@@ -59,7 +61,7 @@ constexpr std::string_view name_of(AlertCode code) {
       "spin.no_answer",    "attitude.lost",      "attitude.doubtful", "attitude.no_answer",
       "attitude.diverged", "sensor.contradicts", "sensor.stuck",      "reconstruction.launcher",
       "model.departure",   "archive.backlog",    "archive.write",     "archive.disk",
-      "clock.jump",        "data.outdated"};
+      "archive.log",       "clock.disagree",     "clock.jump",        "data.outdated"};
   return kNames.at(static_cast<std::size_t>(code));
 }
 
@@ -101,6 +103,7 @@ constexpr bool bears_on_answer(AlertCode code) {
     case AlertCode::SpinRate:
     case AlertCode::ArchiveBacklog:
     case AlertCode::ArchiveDisk:
+    case AlertCode::ArchiveLog:
     case AlertCode::ClockJump:
     case AlertCode::DataOutdated:
       return false;
