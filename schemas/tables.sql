@@ -11,6 +11,15 @@ CREATE TABLE leap_second (
   tai_minus_utc_s INTEGER NOT NULL
 ) STRICT;
 
+-- Which write-ahead log is that of this file: salt-1 of its header, and that of the log before. A program that is to
+-- write refuses a log beside the file that has neither, since it was left of another file.
+CREATE TABLE own_log (
+  id          INTEGER PRIMARY KEY CHECK (id = 1),
+  salt        INTEGER NOT NULL,
+  salt_before INTEGER NOT NULL
+) STRICT;
+INSERT INTO own_log VALUES (1, abs(random()) % 4294967296, abs(random()) % 4294967296);
+
 CREATE TABLE spacecraft (
   spacecraft_id TEXT PRIMARY KEY,
   name          TEXT NOT NULL,
@@ -186,6 +195,16 @@ CREATE TABLE contradiction (
 CREATE TABLE stream_silence (
   run_id  TEXT NOT NULL REFERENCES run,
   arrival INTEGER NOT NULL,
+  PRIMARY KEY (run_id, arrival)
+) STRICT, WITHOUT ROWID;
+
+-- From the sample of this arrival on, the telemetry of this source was the clock by which the others are in time
+-- or left out, since none was in time by the clock of the host. NULL: the host's, or a rehearsal's, counts again.
+CREATE TABLE source_clock (
+  run_id  TEXT NOT NULL REFERENCES run,
+  arrival INTEGER NOT NULL,
+  source  TEXT,
+  session INTEGER,
   PRIMARY KEY (run_id, arrival)
 ) STRICT, WITHOUT ROWID;
 

@@ -45,6 +45,8 @@ enum class AlertCode {
   ArchiveBacklog,
   ArchiveWrite,
   ArchiveDisk,
+  ArchiveLog,
+  ClockDisagree,
   ClockJump,
   DataOutdated,  ///< Per item of reference data, such as the orbit.
 };
@@ -84,6 +86,8 @@ constexpr std::string_view name_of(AlertCode code) {
                                                                 "archive.backlog",
                                                                 "archive.write",
                                                                 "archive.disk",
+                                                                "archive.log",
+                                                                "clock.disagree",
                                                                 "clock.jump",
                                                                 "data.outdated"};
   return kNames.at(static_cast<std::size_t>(code));
@@ -128,6 +132,7 @@ constexpr bool bears_on_answer(AlertCode code) {
     case AlertCode::SpinRate:
     case AlertCode::ArchiveBacklog:
     case AlertCode::ArchiveDisk:
+    case AlertCode::ArchiveLog:
     case AlertCode::ClockJump:
     case AlertCode::DataOutdated:
       return false;

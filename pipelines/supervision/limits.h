@@ -58,6 +58,8 @@ struct AlertLimits {
   double departure_sigmas = 5.0;
   double backlog_s = 10.0;
   double disk_gib = 1.0;
+  double log_mib = 256.0;
+  double host_within_s = 60.0;  ///< Of [time].
   double clock_jump_s = 1.0;
   /// By AlertCode: a condition that returns within it is the same occurrence.
   std::array<double, kAlertCodes> hold_off_s = every_code(60.0);

@@ -32,6 +32,8 @@ ServiceConditions::ServiceConditions(const AlertLimits& limits, std::optional<Co
       backlog_{AlertCode::ArchiveBacklog, "s"},
       write_{AlertCode::ArchiveWrite, "failures"},
       disk_{AlertCode::ArchiveDisk, "GiB"},
+      log_{AlertCode::ArchiveLog, "MiB"},
+      disagree_{AlertCode::ClockDisagree, "s", kNotForAMoment},
       clock_{AlertCode::ClockJump, "s", {.raise_s = 0.0, .clear_s = 60.0}} {}
 
 ConditionChanges ServiceConditions::evaluate(const ServiceState& state) {
@@ -71,6 +73,9 @@ void ServiceConditions::see_link(const ServiceState& state, ConditionChanges& ch
   if (state.late_s) {
     add(late_.update(state.t, {.value = *state.late_s, .limit = limits_.link_late_s}), changes);
     add(ahead_.update(state.t, {.value = -*state.late_s, .limit = limits_.link_late_s}), changes);
+    add(disagree_.update(state.t,
+                         {.value = std::abs(*state.late_s), .limit = limits_.host_within_s}),
+        changes);
   }
   const double received = received_count_.rise_at(state.t, state.received);
   const double rejected = rejected_count_.rise_at(state.t, state.rejected);
@@ -96,6 +101,7 @@ void ServiceConditions::see_link(const ServiceState& state, ConditionChanges& ch
 void ServiceConditions::see_archive(const ServiceState& state, ConditionChanges& changes) {
   add(backlog_.update(state.t, {.value = state.backlog_s, .limit = limits_.backlog_s}), changes);
   add(write_.update(state.t, state.write_failed), changes);
+  add(log_.update(state.t, {.value = state.log_mib, .limit = limits_.log_mib}), changes);
   if (state.free_gib) {
     add(disk_.see_least(state.t, {.value = *state.free_gib, .limit = limits_.disk_gib}), changes);
   }

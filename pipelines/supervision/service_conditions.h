@@ -44,6 +44,7 @@ struct ServiceState {
   double backlog_s = 0.0;      ///< Time for which the oldest sample has waited to be committed.
   bool write_failed = false;
   std::optional<double> free_gib = {};  ///< Free space of the archive; empty if unknown.
+  double log_mib = 0.0;                 ///< What the archive's log has and its file has not.
   double clock_step_s = 0.0;            ///< Step of the wall clock since the previous state.
   std::map<std::string, DataEnd> data_ends = {};  ///< Ends of validity by item, such as "orbit".
 };
@@ -85,6 +86,8 @@ class ServiceConditions {
   ConditionWatch backlog_;
   ConditionWatch write_;
   ConditionWatch disk_;
+  ConditionWatch log_;
+  ConditionWatch disagree_;
   ConditionWatch clock_;
   RiseOfLastMinute received_count_;
   RiseOfLastMinute rejected_count_;

@@ -161,7 +161,8 @@ ArchiveStatistics Archive::statistics() const {
           .commit_p99_ms = commit_durations_.percentile_ms(99),
           .commits = commits_,
           .failure = failure_,
-          .failures = failures_};
+          .failures = failures_,
+          .log_mib = log_mib_};
 }
 
 void Archive::run() {
@@ -307,6 +308,7 @@ void Archive::note_success(std::span<const ArchiveBatch> batches, double duratio
       commit_durations_.add(duration_ms);
       commits_.add(duration_ms * 1e-3);
     }
+    log_mib_ = store_->log_mib();
     rows_committed_ += row_count(batches);
     for (const ArchiveBatch& batch : batches) {
       samples_committed_ += count_of(batch.samples);

@@ -56,6 +56,7 @@ struct ArchiveStatistics {
   DurationHistogram commits = {};       ///< Durations of all transactions.
   std::optional<Error> failure;         ///< Set while writing fails, or after it stopped.
   std::uint64_t failures = 0;           ///< Number of failed writes.
+  double log_mib = 0.0;                 ///< Length of the write-ahead log after the last commit.
 };
 
 /// An archive open for writing. Everything queued goes into one transaction, and the next
@@ -138,6 +139,7 @@ class Archive {
   std::uint64_t rows_committed_ = 0;
   std::uint64_t samples_committed_ = 0;
   std::uint64_t failures_ = 0;
+  double log_mib_ = 0.0;
   std::size_t rows_lost_ = 0;
   RecentDurations commit_durations_;
   DurationHistogram commits_;

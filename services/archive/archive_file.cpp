@@ -6,6 +6,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstdio>
 #include <fstream>
@@ -114,7 +115,7 @@ Expected<void> ArchiveFile::in_place() const {
   return {};
 }
 
-Expected<void> ArchiveFile::undamaged(std::int64_t most_bytes) {
+Expected<void> ArchiveFile::undamaged(const std::function<std::int64_t()>& sqlite_bytes) {
   if (damage_) {
     return Unexpected{*damage_};
   }
@@ -126,7 +127,9 @@ Expected<void> ArchiveFile::undamaged(std::int64_t most_bytes) {
   std::string header(kHeaderBytes, '\0');
   const bool is_ours =
       pread(file_, header.data(), header.size(), 0) == kHeaderBytes && is_header_of_archive(header);
-  if (is_ours && status->st_size >= seen_bytes_ && status->st_size <= most_bytes) {
+  // Asked after the file, so that a checkpoint by another program between the two is no damage.
+  const auto [least_bytes, most_bytes] = std::minmax({seen_bytes_, sqlite_bytes()});
+  if (is_ours && status->st_size >= least_bytes && status->st_size <= most_bytes) {
     seen_bytes_ = status->st_size;
     return {};
   }
@@ -138,7 +141,7 @@ Expected<void> ArchiveFile::undamaged(std::int64_t most_bytes) {
                   "sqlite3 reads what is left, and start again: front-ends send again what they "
                   "keep",
                   path.string(), is_ours ? "an archive" : "no archive", status->st_size,
-                  seen_bytes_, most_bytes, names_[1].path.string())};
+                  least_bytes, most_bytes, names_[1].path.string())};
   return Unexpected{*damage_};
 }
 

@@ -8,6 +8,7 @@
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <utility>
 
@@ -38,9 +39,10 @@ class ArchiveFile {
   /// @return Unavailable, with the reason, when a name leads to no file or to another file.
   Expected<void> in_place() const;
 
-  /// @param most_bytes Size above which the file cannot have grown by SQLite's writing.
+  /// @param sqlite_bytes Returns the size that the database has by SQLite, which the file reaches
+  /// with the next checkpoint: a larger one, or after VACUUM a smaller one.
   /// @return Unavailable, now and ever after, when the file itself was truncated or overwritten.
-  Expected<void> undamaged(std::int64_t most_bytes);
+  Expected<void> undamaged(const std::function<std::int64_t()>& sqlite_bytes);
 
   /// Returns a name that another file occupies. An empty log or an index that a reader creates in
   /// place of a missing one does not count.

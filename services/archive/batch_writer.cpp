@@ -86,6 +86,9 @@ BatchWriter::BatchWriter(SQLite::Database& database)
                        " t_tai_ns, made_utc, by, action, arguments, note)"
                        " VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?) ON CONFLICT DO NOTHING"},
       stream_silence_{database, "INSERT INTO stream_silence (run_id, arrival) VALUES (?, ?)"},
+      source_clock_{database,
+                    "INSERT OR REPLACE INTO source_clock (run_id, arrival, source, session)"
+                    " VALUES (?, ?, ?, ?)"},
       rejected_input_{database,
                       "INSERT INTO rejected_input (run_id, source, session, line, reason, samples)"
                       " VALUES (?, ?, ?, ?, ?, ?) ON CONFLICT DO NOTHING"},
@@ -146,6 +149,9 @@ void BatchWriter::insert(const ArchiveBatch& batch) {
   }
   for (const RunPlace arrival : batch.silences) {
     execute(stream_silence_, batch.run_id, arrival);
+  }
+  for (const SourceClock& clock : batch.clocks) {
+    insert(batch.run_id, clock);
   }
   for (const RejectedInput& rejected : batch.rejected) {
     insert(batch.run_id, rejected);
@@ -240,6 +246,16 @@ void BatchWriter::insert(const std::string& run_id, const OperatorAction& action
   execute(operator_action_, action.action_id, action.spacecraft, run_id, action.arrival,
           tai_ns(action.t.value()), action.made_utc, action.by, action.action, action.arguments,
           action.note);
+}
+
+void BatchWriter::insert(const std::string& run_id, const SourceClock& clock) {
+  std::optional<std::string> source;
+  std::optional<std::int64_t> session;
+  if (clock.source) {
+    source = clock.source->source;
+    session = static_cast<std::int64_t>(clock.source->session);
+  }
+  execute(source_clock_, run_id, clock.arrival, source, session);
 }
 
 void BatchWriter::insert(const std::string& run_id, const RejectedInput& rejected) {

@@ -92,6 +92,7 @@ class BatchWriter {
   template <class Value>
   void insert(const ArchiveBatch& batch, const ArrivedSample<Value>& sample, Came came);
   void insert(const std::string& run_id, const OperatorAction& action);
+  void insert(const std::string& run_id, const SourceClock& clock);
   void insert(const std::string& run_id, const RejectedInput& rejected);
   void insert(const std::string& run_id, const SourceCount& count);
   bool is_live(const std::string& run_id);
@@ -109,6 +110,7 @@ class BatchWriter {
   std::vector<SQLite::Statement> samples_;  ///< One per kind of telemetry, in kTelemetryKind order.
   SQLite::Statement operator_action_;
   SQLite::Statement stream_silence_;
+  SQLite::Statement source_clock_;
   SQLite::Statement rejected_input_;
   SQLite::Statement source_count_;
   ContradictionWriter contradictions_;

@@ -31,6 +31,9 @@ class Checkpointer {
   Checkpointer(Checkpointer&&) = delete;
   Checkpointer& operator=(Checkpointer&&) = delete;
 
+  /// Returns the length of the log after the last commit.
+  int log_frames() const { return log_frames_; }
+
  private:
   enum class State { Idle, Asked, Done, Stopped };
 

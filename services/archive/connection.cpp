@@ -1,5 +1,6 @@
 #include "services/archive/connection.h"
 
+#include <SQLiteCpp/Transaction.h>
 #include <fmt/format.h>
 #include <sqlite3.h>
 
@@ -9,6 +10,7 @@
 #include <system_error>
 #include <utility>
 
+#include "services/archive/own_log.h"
 #include "services/archive/schema.h"
 
 namespace spindrift {
@@ -175,7 +177,7 @@ Error archive_error(const std::string& path, const SQLite::Exception& exception)
                       exception.getExtendedErrorCode())};
 }
 
-Expected<SQLite::Database> open_for_writing(const std::filesystem::path& path) {
+Expected<SQLite::Database> open_for_writing(const std::filesystem::path& path, const OwnLog& log) {
   if (const auto ours = refuse_foreign_file(path); !ours) {
     return Unexpected{ours.error()};
   }
@@ -200,7 +202,10 @@ Expected<SQLite::Database> open_for_writing(const std::filesystem::path& path) {
     database.exec(
         "PRAGMA synchronous = FULL; PRAGMA foreign_keys = ON; PRAGMA journal_size_limit = "
         "268435456; PRAGMA cache_size = -65536");
+    SQLite::Transaction first{database, SQLite::TransactionBehavior::IMMEDIATE};
+    log.expect_new(database);
     refresh_leap_seconds(database);
+    first.commit();
     return database;
   } catch (const SQLite::Exception& exception) {
     return Unexpected{archive_error(path.string(), exception)};

@@ -15,6 +15,8 @@
 
 namespace spindrift {
 
+class OwnLog;
+
 /// Checks the header of the file without changing anything. An absent or empty file is accepted,
 /// since it may become an archive. @return InvalidConfiguration, with advice, when `path` is not an
 /// archive or has another schema than this program's.
@@ -34,10 +36,11 @@ Unexpected no_archive_at(const std::filesystem::path& path, std::string_view why
 Expected<void> refuse_no_file(const std::filesystem::path& path);
 
 /// Opens the one connection that writes; creates the file if absent. It uses WAL with a sync at
-/// every commit. The caller must hold the archive's WriteLock.
+/// every commit. The caller must hold the archive's WriteLock, and `log` must have been made
+/// before.
 /// @return InvalidConfiguration when the file is not an archive or has another schema (the file is
 /// then untouched); Unavailable when it cannot be opened.
-Expected<SQLite::Database> open_for_writing(const std::filesystem::path& path);
+Expected<SQLite::Database> open_for_writing(const std::filesystem::path& path, const OwnLog& log);
 
 /// Opens a connection that cannot write, for use by one thread. When nobody writes the archive and
 /// no file may be created beside it, the archive is read as immutable.

@@ -64,6 +64,12 @@ struct SourceCount {
   std::int64_t disordered = 0;
 };
 
+/// Says whose telemetry is the clock of the others from an arrival on.
+struct SourceClock {
+  RunPlace arrival;
+  std::optional<Origin> source;  ///< Empty: the host's clock counts again.
+};
+
 /// The unit of submission. It is stored as a whole or not at all, in the order of the members.
 /// The first batch of a run carries `start`, its last one `finished_utc`. A sample that the archive
 /// already holds is not stored again, unless it has another value (table contradiction). A product
@@ -83,6 +89,7 @@ struct ArchiveBatch {
   std::string preferred_source = {};
   TelemetryValues moved = {};  ///< Stored samples that the run takes now, with their new arrival.
   std::vector<RunPlace> silences = {};  ///< Each is the arrival of the sample after it.
+  std::vector<SourceClock> clocks = {};
   std::vector<RejectedInput> rejected = {};
   std::vector<Product> products = {};
   bool stores_residuals = true;  ///< Whether products store residuals in the estimators.
@@ -96,7 +103,8 @@ struct ArchiveBatch {
 inline std::size_t row_count(const ArchiveBatch& batch) {
   return count_of(batch.samples) + count_of(batch.moved) + batch.rejected.size() +
          batch.products.size() + batch.source_counts.size() + batch.silences.size() +
-         batch.actions.size() + (batch.start ? 1 : 0) + (batch.finished_utc ? 1 : 0);
+         batch.clocks.size() + batch.actions.size() + (batch.start ? 1 : 0) +
+         (batch.finished_utc ? 1 : 0);
 }
 
 }  // namespace spindrift

@@ -25,7 +25,6 @@ void make_schema(SQLite::Database& database) {
 }
 
 void refresh_leap_seconds(SQLite::Database& database) {
-  SQLite::Transaction transaction{database, SQLite::TransactionBehavior::IMMEDIATE};
   SQLite::Statement insert{database, "INSERT OR REPLACE INTO leap_second VALUES (?, ?)"};
   for (const LeapSecond& leap : leap_seconds()) {
     insert.bind(1, tai_ns(leap.start));
@@ -33,7 +32,6 @@ void refresh_leap_seconds(SQLite::Database& database) {
     insert.exec();
     insert.reset();
   }
-  transaction.commit();
 }
 
 }  // namespace spindrift

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "services/archive/connection.h"
+#include "services/base/contained.h"
 
 namespace spindrift {
 
@@ -20,31 +21,52 @@ Expected<std::unique_ptr<Store>> Store::open(const std::filesystem::path& path) 
   if (!file) {
     return Unexpected{file.error()};
   }
-  auto database = open_for_writing(path);
+  if (auto own = OwnLog::refuse_other(path); !own) {
+    return Unexpected{own.error()};
+  }
+  OwnLog log{path};
+  auto database = open_for_writing(path, log);
   if (!database) {
     return Unexpected{database.error()};
   }
   try {
-    return std::unique_ptr<Store>{new Store{std::move(*file), std::move(*database)}};
+    return std::unique_ptr<Store>{
+        new Store{std::move(*file), std::move(*database), std::move(log)}};
   } catch (const SQLite::Exception& exception) {
     return Unexpected{archive_error(path.string(), exception)};
   }
 }
 
-Store::Store(ArchiveFile file, SQLite::Database database)
+Store::Store(ArchiveFile file, SQLite::Database database, OwnLog log)
     : file_{std::move(file)},
       database_{std::move(database)},
+      log_{std::move(log)},
       checkpointer_{database_},
       writer_{database_},
       bytes_{database_, "SELECT page_count * page_size FROM pragma_page_count, pragma_page_size"} {
   file_.note_log();
 }
 
+Expected<void> Store::write(std::span<const ArchiveBatch> batches) {
+  return writer_.write(batches).map([this] {
+    // What cannot be noted now is noted with the next commit.
+    static_cast<void>(contained("noting the log", [this] { log_.note(database_); }));
+  });
+}
+
+double Store::log_mib() const {
+  constexpr double kFramesPerMib = 256.0;
+  return checkpointer_.log_frames() / kFramesPerMib;
+}
+
 Expected<void> Store::undamaged() {
   try {
-    bytes_.executeStep();
-    auto whole = file_.undamaged(bytes_.getColumn(0).getInt64());
-    bytes_.reset();
+    auto whole = file_.undamaged([this] {
+      bytes_.executeStep();
+      const std::int64_t bytes = bytes_.getColumn(0).getInt64();
+      bytes_.reset();
+      return bytes;
+    });
     if (!whole) {
       leave_alone_when_closed();
     }

@@ -14,6 +14,7 @@
 #include "services/archive/archive_file.h"
 #include "services/archive/batch_writer.h"
 #include "services/archive/checkpointer.h"
+#include "services/archive/own_log.h"
 #include "services/archive/records.h"
 
 namespace spindrift {
@@ -25,7 +26,10 @@ class Store {
   static Expected<std::unique_ptr<Store>> open(const std::filesystem::path& path);
 
   /// @return Errors as BatchWriter::write.
-  Expected<void> write(std::span<const ArchiveBatch> batches) { return writer_.write(batches); }
+  Expected<void> write(std::span<const ArchiveBatch> batches);
+
+  /// Returns the length of the write-ahead log after the last commit.
+  double log_mib() const;
 
   const ArchiveFile& file() const { return file_; }
 
@@ -38,12 +42,13 @@ class Store {
 
  private:
   /// @throws SQLite::Exception
-  Store(ArchiveFile file, SQLite::Database database);
+  Store(ArchiveFile file, SQLite::Database database, OwnLog log);
   void leave_alone_when_closed();
 
   // The order matters: members are destroyed from the last to the first.
   ArchiveFile file_;
   SQLite::Database database_;
+  OwnLog log_;
   Checkpointer checkpointer_;
   BatchWriter writer_;
   SQLite::Statement bytes_;

@@ -92,6 +92,18 @@ void read_silences(const SQLite::Database& database, StoredPass& pass) {
   }
 }
 
+void read_clock(const SQLite::Database& database, StoredPass& pass) {
+  SQLite::Statement query{database,
+                          "SELECT source, session FROM source_clock WHERE run_id = ?"
+                          " ORDER BY arrival DESC LIMIT 1"};
+  query.bind(1, pass.run_id);
+  if (query.executeStep() && !query.getColumn(0).isNull()) {
+    pass.clock = Origin{.source = query.getColumn(0).getString(),
+                        .session = static_cast<std::uint64_t>(query.getColumn(1).getInt64()),
+                        .seq = 0};
+  }
+}
+
 void read_batches(const SQLite::Database& database, StoredPass& pass) {
   SQLite::Statement query{database,
                           "SELECT t_tai_ns FROM spin_batch WHERE run_id = ? ORDER BY t_tai_ns"};
@@ -221,6 +233,7 @@ Expected<std::vector<StoredPass>> find_stored_passes(const std::filesystem::path
     for (StoredPass& pass : passes) {
       read_source_counts(database, pass);
       read_silences(database, pass);
+      read_clock(database, pass);
       read_batches(database, pass);
       read_reconstructed(database, pass);
       if (!pass.next_arrival) {

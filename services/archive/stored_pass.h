@@ -50,6 +50,7 @@ struct StoredPass {
   /// Samples that the newest run left out; it may still take them.
   std::vector<LeftOut> left_out = {};
   std::vector<RunPlace> silences = {};  ///< Each is the arrival of the sample after it.
+  std::optional<Origin> clock = {};     ///< Source whose telemetry was the clock at last, if any.
 };
 
 /// Finds the runs of `spacecraft_id` that agree with `start` (mode, telemetry, program, mission

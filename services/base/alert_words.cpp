@@ -82,6 +82,10 @@ constexpr std::array<Words, kAlertCodes> kWords{{
     {ArchiveBacklog, "samples wait to be committed", "look at disk and load of this host"},
     {ArchiveWrite, "the archive does not store", "look at the log, and at the disk of the archive"},
     {ArchiveDisk, "free space at the archive", "make room"},
+    {ArchiveLog, "somebody reads on, so that the archive's log grows",
+     "end the program that reads the archive"},
+    {ClockDisagree, "no source is in time by the clock of this host",
+     "look at the clocks of front-end and host, unless what comes is recorded"},
     {ClockJump, "the clock of this host was stepped", "look at its time service"},
     {DataOutdated, "what the service needs ends", "get it anew"},
 }};

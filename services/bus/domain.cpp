@@ -50,8 +50,7 @@ class LogCapture {
   std::string text_;
 };
 
-Expected<Entity> create_domain(std::uint32_t id) {
-  const NetworkConfiguration network = network_configuration();
+Expected<Entity> create_domain(std::uint32_t id, const NetworkConfiguration& network) {
   const LogCapture log;
   auto domain = Entity::own(dds_create_domain(id, network.text.c_str()),
                             fmt::format("DDS domain {} with {}", id, network.name));
@@ -61,6 +60,31 @@ Expected<Entity> create_domain(std::uint32_t id) {
   }
   // Warnings about a working domain are printed as usual.
   static_cast<void>(std::fputs(log.text().c_str(), stderr));
+  return domain;
+}
+
+bool lacks_index(const Expected<Entity>& domain) {
+  return !domain && domain.error().message.find("participant index") != std::string::npos;
+}
+
+/// Creates the domain with the configured indices, or where other programs have taken all of these,
+/// with one of all for which a domain has ports. A program with such an index finds the others, and
+/// so they find it.
+Expected<Entity> create_domain(std::uint32_t id) {
+  NetworkConfiguration network = network_configuration();
+  auto domain = create_domain(id, network);
+  if (lacks_index(domain)) {
+    network.text +=
+        ",<CycloneDDS><Domain><Discovery><MaxAutoParticipantIndex>120</MaxAutoParticipantIndex>"
+        "</Discovery></Domain></CycloneDDS>";
+    domain = create_domain(id, network);
+  }
+  if (lacks_index(domain)) {
+    return Unexpected{Error{domain.error().code,
+                            domain.error().message +
+                                ": 120 programs of this host are in the domain, for more there are "
+                                "no ports: end some of them, or use another domain (--domain)"}};
+  }
   return domain;
 }
 

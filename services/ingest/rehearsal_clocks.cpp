@@ -22,6 +22,7 @@ Expected<RehearsalClocks> RehearsalClocks::create(const bus::Participant& partic
 }
 
 Expected<void> RehearsalClocks::look() {
+  const std::lock_guard lock{*mutex_};
   const auto note = [&](const spindrift_RehearsalClock& clock) {
     if (offsets_.size() < kMostSpacecraft || offsets_.contains(clock.spacecraft)) {
       offsets_.insert_or_assign(clock.spacecraft, std::chrono::nanoseconds{clock.offset_ns});
@@ -32,8 +33,14 @@ Expected<void> RehearsalClocks::look() {
 
 std::optional<std::chrono::nanoseconds> RehearsalClocks::offset(
     const std::string& spacecraft) const {
+  const std::lock_guard lock{*mutex_};
   const auto known = offsets_.find(spacecraft);
   return known == offsets_.end() ? std::nullopt : std::optional{known->second};
+}
+
+RehearsalClocks::Offsets RehearsalClocks::offsets() const {
+  const std::lock_guard lock{*mutex_};
+  return offsets_;
 }
 
 }  // namespace spindrift

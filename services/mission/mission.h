@@ -38,6 +38,7 @@ struct Mission {
   std::optional<SpinTarget> target = {};
   std::optional<Contact> contact = {};
   std::string preferred_source = {};                       ///< Value of [sources] prefer, or empty.
+  double host_within_s = 60.0;                             ///< Value of [time] host_within_s.
   bool stores_residuals = true;                            ///< Value of [archive] residuals.
   std::optional<std::filesystem::path> ground_model = {};  ///< Path of the scenario file.
   std::vector<DefaultSigma> default_sigmas = {};  ///< Keys of alignment that the file does not say.

@@ -77,6 +77,8 @@ AlertLimits alert_limits(const TomlValues& values) {
       .departure_sigmas = number(values, "alerts.model.departure.sigmas"),
       .backlog_s = number(values, "alerts.archive.backlog.seconds"),
       .disk_gib = number(values, "alerts.archive.disk.gib"),
+      .log_mib = number(values, "alerts.archive.log.mib"),
+      .host_within_s = number(values, "time.host_within_s"),
       .clock_jump_s = number(values, "alerts.clock.jump.seconds"),
       .hold_off_s = hold_offs_s(values)};
 }

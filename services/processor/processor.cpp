@@ -150,7 +150,7 @@ void Processor::begin_behind(std::size_t i, LastRun last, GoneOn& gone_on) {
 
 void Processor::go_on(std::size_t i, const std::vector<StoredPass>& stored, const Moment& moment,
                       GoneOn& gone_on) {
-  SpacecraftRun::Taken taken = runs_[i].go_on(stored, moment);
+  SpacecraftRun::Taken taken = runs_[i].go_on(stored, moment.of(runs_[i].spacecraft_id()));
   const std::string& first = stored.front().run_id;
   AllMadeBefore made;
   for (std::size_t run = 0; run < stored.size(); ++run) {
@@ -194,7 +194,7 @@ Routed Processor::route(SampleBatch samples, const Moment& moment) {
   }
   Routed routed;
   for (auto& [run, of_run] : by_run) {
-    add(runs_.at(run).receive(std::move(of_run), moment), routed);
+    add(runs_.at(run).receive(std::move(of_run), moment.of(runs_.at(run).spacecraft_id())), routed);
   }
   if (!told_of_others_.empty() && runs_.front().has_begun()) {
     // As with rejected input, these notices are stored with the first run.
@@ -234,7 +234,7 @@ Routed Processor::fall_silent(const std::vector<std::string>& spacecraft, const 
   }
   for (SpacecraftRun& run : runs_) {
     if (const auto next = run.next_decision(); next && *next <= moment.now) {
-      add(run.decide(moment), routed);
+      add(run.decide(moment.of(run.spacecraft_id())), routed);
     }
   }
   return routed;

@@ -25,9 +25,9 @@ std::string span_text(TaiTime from, TaiTime to) {
 }
 
 std::string problem_text(const std::string& spacecraft, const SourceWatch::News& apart) {
-  return fmt::format("{}: the samples of source {} are left out: it says {}, {} the others with {}",
+  return fmt::format("{}: the samples of source {} are left out: it says {}, {} the clock with {}",
                      spacecraft, named(apart.source), format_utc(apart.t),
-                     span_text(apart.pass, apart.t), format_utc(apart.pass));
+                     span_text(apart.clock, apart.t), format_utc(apart.clock));
 }
 
 }  // namespace
@@ -46,39 +46,40 @@ void RunNotices::tell_sources(SourceWatch& sources, const Moment& moment,
                                  fmt::format("{}: source {} agrees with the others again",
                                              spacecraft_id_, named(news.source))));
     } else {
-      products.emplace_back(told("source_apart",
-                                 {{"spacecraft", spacecraft_id_},
-                                  {"source", news.source.name},
-                                  {"t_tai_ns", tai_ns(news.t)},
-                                  {"others_tai_ns", tai_ns(news.pass)}},
-                                 fmt::format("{}; until it agrees with them, or they are silent",
-                                             problem_text(spacecraft_id_, news))));
+      products.emplace_back(
+          told("source_apart",
+               {{"spacecraft", spacecraft_id_},
+                {"source", news.source.name},
+                {"t_tai_ns", tai_ns(news.t)},
+                {"clock_tai_ns", tai_ns(news.clock)}},
+               fmt::format("{}; until it agrees with it, or the others are silent",
+                           problem_text(spacecraft_id_, news))));
     }
   }
   const auto pass = sources.pass_time();
-  const auto carrier = sources.carrier();
-  if (moment.host && pass && carrier && told_host_.size() < SourceWatch::kMostSources &&
-      are_apart(*pass, *moment.host, SourceWatch::kHostApart) &&
-      told_host_.insert(carrier->name).second) {
+  const auto& leader = sources.leader();
+  if (moment.host && pass && leader && told_host_.size() < SourceWatch::kMostSources &&
+      told_host_.insert(leader->name).second) {
     products.emplace_back(told(
         "source_apart_from_host",
         {{"spacecraft", spacecraft_id_},
-         {"source", carrier->name},
+         {"source", leader->name},
          {"t_tai_ns", tai_ns(*pass)},
          {"host_tai_ns", tai_ns(*moment.host)}},
         fmt::format("{}: source {} says {}, and the clock of this host {}: one of them is wrong, "
-                    "or what it sends is recorded",
-                    spacecraft_id_, named(*carrier), format_utc(*pass), format_utc(*moment.host))));
+                    "or what it sends is recorded; until a source is in time by the host, this one "
+                    "is the clock",
+                    spacecraft_id_, named(*leader), format_utc(*pass), format_utc(*moment.host))));
   }
 }
 
 void RunNotices::tell_new_run(const SourceId& successor, TaiTime t,
-                              const std::optional<SourceId>& carrier, TaiTime before) const {
+                              const std::optional<SourceId>& leader, TaiTime before) const {
   spdlog::log(t < before ? spdlog::level::warn : spdlog::level::info,
-              "{}: a new run begins with source {}: it says {}, {} source {} with {}, which is "
-              "silent or has the others or the clock of this host against it",
+              "{}: a new run begins with source {}: it says {}, {} {} with {}, which is silent or "
+              "has the clock of this host against it",
               spacecraft_id_, named(successor), format_utc(t), span_text(before, t),
-              carrier ? named(*carrier) : "others", format_utc(before));
+              leader ? "source " + named(*leader) : "the others", format_utc(before));
 }
 
 std::vector<SourceProblem> RunNotices::problems(const SourceWatch& sources) const {

@@ -22,13 +22,13 @@ class RunNotices {
  public:
   explicit RunNotices(const Mission& mission);
 
-  /// Reports which sources are left out or agree again, or disagree with the host's clock.
+  /// Reports which sources are left out or agree again, and which is the clock instead of the host.
   /// @param products Receive each notice that is reported; the same holds for the functions below.
   void tell_sources(SourceWatch& sources, const Moment& moment, std::vector<Product>& products);
   /// Logs that a new run begins with another source.
-  /// @param carrier Source that was followed until now; empty when there were several.
+  /// @param leader Source whose telemetry was the clock until now; empty when the host's was.
   /// @param before Time that the pass had reached with it.
-  void tell_new_run(const SourceId& successor, TaiTime t, const std::optional<SourceId>& carrier,
+  void tell_new_run(const SourceId& successor, TaiTime t, const std::optional<SourceId>& leader,
                     TaiTime before) const;
   std::vector<SourceProblem> problems(const SourceWatch& sources) const;
   /// Reports that both pulses and coded frames have arrived.

@@ -1,65 +1,54 @@
 #include "services/processor/source_watch.h"
 
 #include <algorithm>
-#include <set>
-#include <string_view>
+#include <tuple>
 
 namespace spindrift {
 
 SourceWatch::Verdict SourceWatch::judge(const Origin& origin, TaiTime t, const Moment& moment) {
   Source& source = source_of(origin, moment);
-  const auto others = reach_of_others(source, moment.now);
-  const Place place = place_of(source, others, t, moment.now);
-  if (place != Place::Level) {
-    note_apart(source, t, true, moment);
-    tell(*last_, t, others, moment);
-  } else {
-    note_level(source, t, moment);
+  if (!leader_ && (!moment.host || (in_time_ == 0 && !is_near(t, moment.host)))) {
+    leader_ = last_->first;
   }
-  if (place == Place::Apart) {
-    return Verdict::Apart;
+  const auto at = clock(moment);
+  if (!at || is_near(t, at) || (leader_ == last_->first && t > *at)) {
+    note_in_time(t, moment.now);
+    return count_of(source.held) > 0 ? Verdict::Healed : Verdict::InTime;
   }
-  return count_of(source.held) > 0 ? Verdict::Healed : Verdict::InTime;
+  const bool may_be_sent_again =
+      t < *at && later_by(t, kSentAgain) >= *at && moment.now - source.since < limits_.silence;
+  if (may_be_sent_again && !is_near(t, moment.host)) {
+    return Verdict::InTime;
+  }
+  note_apart(source, t, true, moment.now);
+  tell(t, *at, moment.now);
+  return Verdict::Apart;
 }
 
-SourceWatch::Place SourceWatch::place_of(const Source& source, std::optional<Reach> others,
-                                         TaiTime t, Instant now) const {
-  // In a replay a pause says nothing, so there a paused source must not hold the others back.
-  auto pass = reach_of_pass(now);
-  if (others && (pace_.is_of_the_clock || !pass)) {
-    pass = others;
-  }
-  if (!pass || (!others && source.carries && t > pass->from)) {
-    return Place::Level;
-  }
-  if (t > later_by(pass->to, pace_.ahead) || later_by(t, kApart) < pass->from) {
-    return Place::Apart;
-  }
-  return others && later_by(t, pace_.ahead) < pass->from ? Place::Late : Place::Level;
+std::optional<TaiTime> SourceWatch::clock(const Moment& moment) const {
+  return leader_ ? sources_.at(*leader_).time.time() : moment.host;
 }
 
-void SourceWatch::note_level(Source& source, TaiTime t, const Moment& moment) {
+void SourceWatch::note_in_time(TaiTime t, Instant now) {
+  auto& [id, source] = *last_;
   source.time.advance_to(t);
   pass_.advance_to(t);
-  pass_heard_ = moment.now;
-  ++carried_;
-  source.carries = true;
+  ++in_time_;
+  source.since = now;
+  source.is_in_time = true;
   source.apart_since.reset();
-  if (source.time.time()) {
-    carrier_ = &last_->first;
-  }
   if (source.told && source.time.goes_on()) {
-    source.told = false;
-    news_.push_back({.source = last_->first, .t = t, .pass = t, .healed = true});
+    source.told.reset();
+    news_.push_back({.source = id, .t = t, .clock = t, .healed = true});
   }
 }
 
 /// @param counts Whether the sample counts towards `has_last_word`.
-void SourceWatch::note_apart(Source& source, TaiTime t, bool counts, const Moment& moment) const {
-  source.carries = false;
-  source.apart_since = source.apart_since.value_or(moment.now);
-  if (source.carried != carried_) {
-    source.carried = carried_;
+void SourceWatch::note_apart(Source& source, TaiTime t, bool counts, Instant now) const {
+  source.is_in_time = false;
+  source.apart_since = source.apart_since.value_or(now);
+  if (source.in_time != in_time_) {
+    source.in_time = in_time_;
     source.alone = 0;
   }
   if (source.time.advance_to(t) && counts) {
@@ -67,16 +56,13 @@ void SourceWatch::note_apart(Source& source, TaiTime t, bool counts, const Momen
   }
 }
 
-/// Reports a source as apart. One that no other source contradicts is left to `successor`.
-void SourceWatch::tell(Entry& entry, TaiTime t, std::optional<Reach> others, const Moment& moment) {
-  Source& source = entry.second;
-  const bool may_catch_up =
-      others && t < others->from && moment.now - *source.apart_since < pace_.silence;
-  if (source.told || !others || may_catch_up) {
-    return;
+/// Reports the source as apart. One that is behind may catch up at first.
+void SourceWatch::tell(TaiTime t, TaiTime clock, Instant now) {
+  auto& [id, source] = *last_;
+  if (!source.told && (t > clock || now - *source.apart_since >= limits_.silence)) {
+    source.told = clock;
+    news_.push_back({.source = id, .t = t, .clock = clock, .healed = false});
   }
-  source.told = true;
-  news_.push_back({.source = entry.first, .t = t, .pass = others->from, .healed = false});
 }
 
 void SourceWatch::hear(const Origin& origin, const Moment& moment) {
@@ -89,91 +75,81 @@ TelemetryValues SourceWatch::take_held(const Origin& origin) {
   TelemetryValues held =
       std::exchange(sources_.at({origin.source, origin.session}).held, TelemetryValues{});
   held_ -= count_of(held);
-  const TaiTime end = later_by(pass_.time().value_or(TaiTime::max()), kApart);
+  const TaiTime end = later_by(pass_.time().value_or(TaiTime::max()), limits_.within);
   held.for_each([end](auto& of_kind) {
     std::erase_if(of_kind, [end](const auto& arrived) { return arrived.value.t > end; });
   });
   return held;
 }
 
+bool SourceWatch::is_near(TaiTime t, std::optional<TaiTime> clock) const {
+  return clock && !are_apart(t, *clock, limits_.within);
+}
+
 bool SourceWatch::has_last_word(const Source& source) const {
-  return source.apart_since && source.time.goes_on() && source.carried == carried_ &&
+  return source.apart_since && source.time.goes_on() && source.in_time == in_time_ &&
          source.alone >= PassWatch::kEnoughToAccept;
 }
 
-bool SourceWatch::can_follow(const Source& source, const Moment& moment) const {
-  if (!source.apart_since || !source.time.goes_on() || !pass_.time()) {
-    return false;
+/// Returns when a source that is in time was last heard; empty when none is.
+std::optional<SourceWatch::Instant> SourceWatch::last_in_time() const {
+  std::optional<Instant> last;
+  for (const auto& [id, source] : sources_) {
+    if (source.is_in_time) {
+      last = std::max(last.value_or(source.heard), source.heard);
+    }
   }
-  const Reach it = reach(source.time.recent(), source.heard, moment.now);
-  const bool may_catch_up = it.from <= *pass_.time() &&
-                            moment.now - *source.apart_since < pace_.silence &&
-                            vote_of_host(it, moment) <= 0;
-  if (may_catch_up) {
-    return false;
-  }
-  return reach_of_others(source, moment.now) ? lead_over_pass(it, moment) > 0
-                                             : has_last_word(source);
+  return last;
 }
 
 std::optional<SourceId> SourceWatch::successor(const Moment& moment) const {
-  const Entry* best = nullptr;
-  std::ptrdiff_t most = 0;
+  const auto last = last_in_time();
+  const bool all_silent = !last || moment.now - *last >= limits_.silence;
+  const Entry* first = nullptr;
   for (const Entry& entry : sources_) {
-    if (!can_follow(entry.second, moment)) {
-      continue;
+    const auto& [id, source] = entry;
+    const bool is_heard = moment.now - source.heard < limits_.silence;
+    if (leader_ && is_heard && source.time.goes_on() &&
+        is_near(source.time.recent(), moment.host)) {
+      return id;
     }
-    const std::ptrdiff_t lead =
-        lead_over_pass(reach(entry.second.time.recent(), entry.second.heard, moment.now), moment);
-    if (best == nullptr || lead > most) {
-      best = &entry;
-      most = lead;
+    if (all_silent && has_last_word(source) &&
+        (first == nullptr || *source.apart_since < *first->second.apart_since)) {
+      first = &entry;
     }
   }
-  return best == nullptr ? std::nullopt : std::optional{best->first};
+  return first == nullptr ? std::nullopt : std::optional{first->first};
 }
 
 std::optional<SourceId> SourceWatch::successor_at_end(std::size_t samples) const {
   const auto found = std::find_if(sources_.begin(), sources_.end(), [&](const Entry& entry) {
-    return has_last_word(entry.second) && count_of(entry.second.held) > samples;
+    const auto& [id, source] = entry;
+    return leader_ && has_last_word(source) &&
+           (count_of(source.held) > samples || is_near(source.time.recent(), pass_.time()));
   });
   return found == sources_.end() ? std::nullopt : std::optional{found->first};
 }
 
 std::optional<SourceWatch::Instant> SourceWatch::next_decision() const {
-  std::optional<Instant> silent;
-  std::optional<Instant> caught_up;
-  for (const auto& [id, source] : sources_) {
-    if (source.carries && source.time.time()) {
-      silent = std::max(silent.value_or(source.heard), source.heard);
-    }
-    if (has_last_word(source)) {
-      const bool behind = pass_.time() && source.time.recent() <= *pass_.time();
-      const Instant from = behind ? *source.apart_since : source.heard - pace_.silence;
-      caught_up = std::min(caught_up.value_or(from), from);
-    }
-  }
-  if (!caught_up || !pass_.time()) {
-    return std::nullopt;
-  }
-  return std::max(silent.value_or(*caught_up), *caught_up) + pace_.silence;
+  const bool waits = std::any_of(sources_.begin(), sources_.end(), [this](const Entry& entry) {
+    return has_last_word(entry.second);
+  });
+  const auto last = last_in_time();
+  return waits && last ? std::optional{*last + limits_.silence} : std::nullopt;
 }
 
-TelemetryValues SourceWatch::follow(const SourceId& successor) {
-  Source& source = sources_.at(successor);
-  const Reach it = reach(source.time.recent(), source.heard, source.heard);
+TelemetryValues SourceWatch::follow(const SourceId& successor, const Moment& moment) {
   for (auto& [id, other] : sources_) {
-    other.carries =
-        other.carries &&
-        agree(reach(other.time.recent(), other.heard, std::max(other.heard, source.heard)), it);
+    other.is_in_time = false;
   }
-  source.carries = true;
+  Source& source = sources_.at(successor);
+  source.since = source.heard;
+  source.is_in_time = true;
   source.apart_since.reset();
-  source.told = false;
-  carrier_ = &sources_.find(successor)->first;
+  source.told.reset();
+  leader_ = is_near(source.time.recent(), moment.host) ? std::nullopt : std::optional{successor};
   pass_ = source.time;
-  pass_heard_ = source.heard;
-  ++carried_;
+  ++in_time_;
   held_ -= count_of(source.held);
   return std::exchange(source.held, TelemetryValues{});
 }
@@ -181,40 +157,49 @@ TelemetryValues SourceWatch::follow(const SourceId& successor) {
 std::vector<std::pair<SourceWatch::News, SourceWatch::Instant>> SourceWatch::apart() const {
   std::vector<std::pair<News, Instant>> all;
   for (const auto& [id, source] : sources_) {
-    if (source.told && source.apart_since && pass_.time()) {
+    if (source.told && source.apart_since) {
       all.push_back(
-          {{.source = id, .t = source.time.recent(), .pass = *pass_.time(), .healed = false},
+          {{.source = id, .t = source.time.recent(), .clock = *source.told, .healed = false},
            source.heard});
     }
   }
   return all;
 }
 
-void SourceWatch::restore_carrier(const Origin& origin, const Moment& moment) {
+void SourceWatch::restore_in_time(const Origin& origin, const Moment& moment) {
   Source& source = source_of(origin, moment);
-  source.carries = true;
+  source.is_in_time = true;
   source.time = pass_;
-  carrier_ = &last_->first;
+  ++in_time_;
 }
 
 SourceWatch::Source& SourceWatch::source_of(const Origin& origin, const Moment& moment) {
+  if (moment.host) {
+    limits_ = by_clock_;
+  }
   if (last_ == nullptr || last_->first.session != origin.session ||
       last_->first.name != origin.source) {
     const SourceId id{origin.source, origin.session};
     if (!sources_.contains(id) && sources_.size() == kMostSources) {
-      const auto oldest =
-          std::min_element(sources_.begin(), sources_.end(), [](const Entry& a, const Entry& b) {
-            return std::pair{a.second.carries, a.second.heard} <
-                   std::pair{b.second.carries, b.second.heard};
+      const auto oldest = std::min_element(
+          sources_.begin(), sources_.end(), [this](const Entry& a, const Entry& b) {
+            const auto worth = [this](const Entry& entry) {
+              return std::tuple{entry.first == leader_, entry.second.is_in_time,
+                                entry.second.heard};
+            };
+            return worth(a) < worth(b);
           });
-      carrier_ = carrier_ == &oldest->first ? nullptr : carrier_;
       held_ -= count_of(oldest->second.held);
       sources_.erase(oldest);
     }
     last_ = &*sources_.try_emplace(id).first;
   }
-  last_->second.heard = moment.now;
-  return last_->second;
+  Source& source = last_->second;
+  if (moment.now - source.heard >= limits_.silence) {
+    source.since = moment.now;
+  }
+  source.heard = moment.now;
+  return source;
 }
 
 void SourceWatch::make_room() {
@@ -227,72 +212,6 @@ void SourceWatch::make_room() {
       });
   held_ -= count_of(most->second.held);
   most->second.held = {};
-}
-
-SourceWatch::Reach SourceWatch::reach(TaiTime t, Instant heard, Instant now) const {
-  return {.from = t, .to = pace_.is_of_the_clock ? later_by(t, now - heard) : t};
-}
-
-std::optional<SourceWatch::Reach> SourceWatch::reach_of_pass(Instant now) const {
-  return pass_.time() ? std::optional{reach(*pass_.time(), pass_heard_, now)} : std::nullopt;
-}
-
-/// Returns the reach of the other sources that carry the pass: as far as the furthest has come.
-std::optional<SourceWatch::Reach> SourceWatch::reach_of_others(const Source& source,
-                                                               Instant now) const {
-  std::optional<Reach> all;
-  for (const auto& [id, other] : sources_) {
-    if (&other != &source && other.carries && other.time.time() && is_heard(other, now)) {
-      const Reach one = reach(*other.time.time(), other.heard, now);
-      all =
-          all ? Reach{.from = std::max(all->from, one.from), .to = std::max(all->to, one.to)} : one;
-    }
-  }
-  return all;
-}
-
-bool SourceWatch::agree(const Reach& one, const Reach& other) const {
-  return one.from <= later_by(other.to, pace_.ahead) && other.from <= later_by(one.to, pace_.ahead);
-}
-
-bool SourceWatch::is_heard(const Source& source, Instant now) const {
-  return now - source.heard < pace_.silence;
-}
-
-/// Counts names, not sessions: a source that starts session after session has one vote.
-std::size_t SourceWatch::supporters(const Reach& reach_of_one, Instant now) const {
-  std::set<std::string_view> names;
-  for (const auto& [id, source] : sources_) {
-    if (source.time.goes_on() && is_heard(source, now) &&
-        agree(reach(source.time.recent(), source.heard, now), reach_of_one)) {
-      names.insert(id.name);
-    }
-  }
-  return names.size();
-}
-
-/// Returns 1 if the host's clock is nearer to `there`, -1 if it is nearer to the pass, and 0 if it
-/// is far from both or equally near.
-std::ptrdiff_t SourceWatch::vote_of_host(const Reach& there, const Moment& moment) const {
-  if (!moment.host || !pass_.time()) {
-    return 0;
-  }
-  const auto distance = [&](const Reach& reach) {
-    return std::max({span_between(*moment.host, reach.from), span_between(reach.to, *moment.host),
-                     std::chrono::nanoseconds{0}});
-  };
-  const auto nearer = [&](const Reach& reach, const Reach& than) {
-    return distance(reach) <= kHostApart && distance(reach) + pace_.ahead < distance(than);
-  };
-  const Reach pass = *reach_of_pass(moment.now);
-  return nearer(there, pass) ? 1 : nearer(pass, there) ? -1 : 0;
-}
-
-std::ptrdiff_t SourceWatch::lead_over_pass(const Reach& there, const Moment& moment) const {
-  const auto of = [&](const Reach& reach) {
-    return static_cast<std::ptrdiff_t>(supporters(reach, moment.now));
-  };
-  return of(there) - of(*reach_of_pass(moment.now)) + vote_of_host(there, moment);
 }
 
 }  // namespace spindrift

@@ -1,5 +1,5 @@
 /// @file
-/// Decides which source's time the pass of a spacecraft follows when its sources disagree.
+/// Decides which sources of a spacecraft are in time, and whose telemetry its pass follows.
 
 #pragma once
 
@@ -28,44 +28,46 @@ struct SourceId {
 /// The moment at which samples are judged. It is passed in so that the judging code needs no clock.
 struct Moment {
   std::chrono::steady_clock::time_point now = {};
-  std::optional<TaiTime> host = {};  ///< Host clock; empty unless the telemetry is live.
+  std::optional<TaiTime> host = {};  ///< The host's clock; empty in a replay.
+  /// Clocks that rehearsals tell, by spacecraft.
+  std::map<std::string, TaiTime> rehearsed = {};
+
+  /// Returns the moment for a spacecraft, whose clock is `host` then.
+  Moment of(const std::string& spacecraft) const {
+    const auto told = rehearsed.find(spacecraft);
+    return {.now = now, .host = told == rehearsed.end() ? host : std::optional{told->second}};
+  }
 };
 
-/// How telemetry time relates to wall-clock time.
-struct Pace {
-  bool is_of_the_clock;              ///< Telemetry time goes on while a source pauses.
+struct SourceLimits {
+  std::chrono::nanoseconds within;   ///< A sample further from the clock is apart.
   std::chrono::nanoseconds silence;  ///< Wall time after which a source is silent.
-  std::chrono::nanoseconds ahead;    ///< A source further ahead of the others is apart.
 };
-/// Pace of live telemetry. The limit `ahead` is small because a source that is ahead makes the
-/// samples of all others late. Links differ by a few seconds; UTC and GPS time taken for TAI by 37
-/// s and 19 s.
-inline constexpr Pace kLivePace{true, std::chrono::minutes{1}, std::chrono::seconds{5}};
-/// Pace of a replay, whose speed has no relation to the wall clock.
-inline constexpr Pace kReplayPace{false, std::chrono::seconds{5}, kApart};
+/// Limits without a clock, for a replay of any speed.
+inline constexpr SourceLimits kReplayLimits{std::chrono::minutes{10}, std::chrono::seconds{5}};
 
-/// Judges the time of each source of a spacecraft against the other sources.
-/// A sample ahead of the other sources, or more than kApart behind them, is apart: it is held and
-/// not computed until it is known which source is right. A sample that is less far behind is late;
-/// the pipelines handle it, and it does not move the time of the pass. The jumps ahead of a source
-/// that carries the pass alone are left to PassWatch and the pipelines.
-/// A source that is apart or late takes over the pass when it gave enough samples and the others
-/// are silent, or when it has more votes than the pass. The sources that agree with one another
-/// vote, and so does the host's clock, for the nearer of the two times. A source that is behind may
-/// be sending its last minutes again: unless the host's clock votes for it, it has one silence to
-/// catch up.
+/// Judges the time of each source of a spacecraft. A source is in time while its samples lie within
+/// a limit of the clock. Where no source is in time by the host's clock, or there is none, the
+/// first source leads: its own telemetry is the clock, until it is silent or another source is in
+/// time by the host.
+///
+/// Samples of a source that is apart are held and not computed until it is in time again, or leads.
+/// What a source sends again of its last minutes is late, which is for the pipelines to handle.
 /// Memory is bounded: above kMostSources the source not heard for longest is forgotten, and above
 /// kMostHeld the samples of the source that holds most are dropped.
 class SourceWatch {
  public:
-  static constexpr std::chrono::minutes kHostApart{10};
+  /// A source may send as much telemetry again, for as long as a silence lasts.
+  static constexpr std::chrono::minutes kSentAgain{10};
   static constexpr std::size_t kMostSources = 64;
   static constexpr std::size_t kMostHeld = 1'000'000;
 
   /// Healed: the sample is in time, and earlier samples of its source are still held.
   enum class Verdict { InTime, Healed, Apart };
 
-  explicit SourceWatch(const Pace& pace) : pace_{pace} {}
+  /// @param by_clock Limits from the first moment with a host's clock on.
+  explicit SourceWatch(const SourceLimits& by_clock, const SourceLimits& until_then = kReplayLimits)
+      : by_clock_{by_clock}, limits_{until_then} {}
 
   template <class Value>
   Verdict admit(const Origin& origin, const Arrived<Value>& arrived, const Moment& moment) {
@@ -82,30 +84,28 @@ class SourceWatch {
   /// Returns the held samples of a healed source; drops those from ahead of the pass.
   TelemetryValues take_held(const Origin& origin);
 
-  /// Returns the source whose time the pass follows from now on; empty when nothing changes.
+  /// Returns the source that the pass follows from now on; empty when nothing changes.
   std::optional<SourceId> successor(const Moment& moment) const;
-  /// Returns the source to follow when no more samples come: one that gave enough samples since any
-  /// other source carried the pass, and holds more than `samples`.
+  /// Returns the source to follow when no more samples come: the last to speak, if the host's clock
+  /// has nothing against it and it holds more than `samples`, or what it holds continues the pass.
   std::optional<SourceId> successor_at_end(std::size_t samples) const;
   /// Returns when `successor` may change its answer without a sample; empty: never.
   std::optional<std::chrono::steady_clock::time_point> next_decision() const;
   /// Makes the pass follow this source. @return The samples held of the source.
-  TelemetryValues follow(const SourceId& successor);
+  TelemetryValues follow(const SourceId& successor, const Moment& moment);
 
   std::size_t held() const { return held_; }
   /// Returns the time that the pass has reached; empty until enough samples have come.
   std::optional<TaiTime> pass_time() const { return pass_.time(); }
-  /// Returns the source of the last sample in time; empty when there is none or it is forgotten.
-  std::optional<SourceId> carrier() const {
-    return carrier_ == nullptr ? std::nullopt : std::optional{*carrier_};
-  }
+  /// Returns the source whose telemetry is the clock; empty while the host's is.
+  const std::optional<SourceId>& leader() const { return leader_; }
   TaiTime recent(const SourceId& source) const { return sources_.at(source).time.recent(); }
 
-  /// Reports that a source came apart from the others or agrees with them again.
+  /// Reports that a source came apart from the clock or is in time again.
   struct News {
     SourceId source;
     TaiTime t;
-    TaiTime pass;
+    TaiTime clock;
     bool healed;
   };
   std::vector<News> take_news() { return std::exchange(news_, {}); }
@@ -114,18 +114,19 @@ class SourceWatch {
 
   /// @name To be called after a restart, in this order
   /// @{
-  void restore(TaiTime in_time, const Moment& moment) {
-    pass_.advance_to(in_time);
-    pass_heard_ = moment.now;
-  }
+  void restore(TaiTime in_time) { pass_.advance_to(in_time); }
   /// Restores a source that gave stored samples that are in time.
-  void restore_carrier(const Origin& origin, const Moment& moment);
+  void restore_in_time(const Origin& origin, const Moment& moment);
+  void restore_leader(const Origin& origin, const Moment& moment) {
+    source_of(origin, moment);
+    leader_ = last_->first;
+  }
   /// Restores a sample of a source that was apart.
   /// @param last_word Whether no sample in time was stored after it.
   template <class Value>
   void restore_apart(const Origin& origin, const Arrived<Value>& arrived, bool last_word,
                      const Moment& moment) {
-    note_apart(source_of(origin, moment), arrived.value.t, last_word, moment);
+    note_apart(source_of(origin, moment), arrived.value.t, last_word, moment.now);
     hold(arrived);
   }
   /// @}
@@ -136,27 +137,21 @@ class SourceWatch {
   struct Source {
     SteadyTime time;
     Instant heard;
-    bool carries = false;                ///< Its last sample agreed with the others.
+    Instant since;                       ///< When it was last in time or began to send.
+    bool is_in_time = false;             ///< Its last sample was in time.
     std::optional<Instant> apart_since;  ///< Empty when it is not apart.
-    std::size_t alone = 0;               ///< Samples apart since another source was level.
-    std::uint64_t carried = 0;           ///< Value of `carried_` when `alone` began.
-    bool told = false;
+    std::size_t alone = 0;               ///< Samples apart since another source was in time.
+    std::uint64_t in_time = 0;           ///< Value of `in_time_` when `alone` began.
+    std::optional<TaiTime> told;         ///< The clock when it was reported as apart.
     TelemetryValues held;
   };
   using Entry = std::pair<const SourceId, Source>;
 
-  /// Where a stream may be: from the time of its samples to that plus the wall time since then.
-  struct Reach {
-    TaiTime from;
-    TaiTime to;
-  };
-  enum class Place { Level, Late, Apart };
-
   Verdict judge(const Origin& origin, TaiTime t, const Moment& moment);
-  Place place_of(const Source& source, std::optional<Reach> others, TaiTime t, Instant now) const;
-  void note_level(Source& source, TaiTime t, const Moment& moment);
-  void note_apart(Source& source, TaiTime t, bool counts, const Moment& moment) const;
-  void tell(Entry& entry, TaiTime t, std::optional<Reach> others, const Moment& moment);
+  std::optional<TaiTime> clock(const Moment& moment) const;
+  void note_in_time(TaiTime t, Instant now);
+  void note_apart(Source& source, TaiTime t, bool counts, Instant now) const;
+  void tell(TaiTime t, TaiTime clock, Instant now);
   template <class Value>
   void hold(const Arrived<Value>& arrived) {
     make_room();
@@ -165,24 +160,17 @@ class SourceWatch {
   }
   void make_room();
   Source& source_of(const Origin& origin, const Moment& moment);
-  Reach reach(TaiTime t, Instant heard, Instant now) const;
-  std::optional<Reach> reach_of_pass(Instant now) const;
-  std::optional<Reach> reach_of_others(const Source& source, Instant now) const;
-  bool agree(const Reach& one, const Reach& other) const;
-  bool is_heard(const Source& source, Instant now) const;
-  std::size_t supporters(const Reach& reach, Instant now) const;
-  std::ptrdiff_t vote_of_host(const Reach& there, const Moment& moment) const;
-  std::ptrdiff_t lead_over_pass(const Reach& there, const Moment& moment) const;
+  bool is_near(TaiTime t, std::optional<TaiTime> clock) const;
   bool has_last_word(const Source& source) const;
-  bool can_follow(const Source& source, const Moment& moment) const;
+  std::optional<Instant> last_in_time() const;
 
-  Pace pace_;
+  SourceLimits by_clock_;
+  SourceLimits limits_;
   std::map<SourceId, Source> sources_;
   Entry* last_ = nullptr;  ///< Source of the sample seen last.
-  const SourceId* carrier_ = nullptr;
+  std::optional<SourceId> leader_;
   SteadyTime pass_;
-  Instant pass_heard_{};
-  std::uint64_t carried_ = 0;  ///< Number of samples that were level.
+  std::uint64_t in_time_ = 0;  ///< Number of samples that were in time.
   std::size_t held_ = 0;
   std::vector<News> news_;
 };

@@ -39,6 +39,12 @@ std::size_t total(const Received& received) {
       std::accumulate(received.samples.begin(), received.samples.end(), std::int64_t{0}));
 }
 
+SourceWatch source_watch(RunMode mode, double host_within_s) {
+  const auto within = later_by_s(TaiTime{}, host_within_s) - TaiTime{};
+  const SourceLimits by_clock{.within = within, .silence = within};
+  return mode == RunMode::Live ? SourceWatch{by_clock, by_clock} : SourceWatch{by_clock};
+}
+
 }  // namespace
 
 SpacecraftRun::SpacecraftRun(const Mission& mission, const TelemetrySource& source,
@@ -68,8 +74,8 @@ SpacecraftRun::SpacecraftRun(const Mission& mission, const TelemetrySource& sour
       senders_{mission.preferred_source},
       notices_{mission},
       judges_sources_{source.mode != RunMode::Process},
-      pace_{source.mode == RunMode::Live ? kLivePace : kReplayPace},
-      sources_{pace_} {}
+      new_sources_{source_watch(source.mode, mission.host_within_s)},
+      sources_{new_sources_} {}
 
 void SpacecraftRun::arrive_after(RunPlace first_arrival) {
   next_arrival_ = std::max(next_arrival_, {first_arrival.number + kArrivalsOfARun});
@@ -120,7 +126,7 @@ SpacecraftRun::Taken SpacecraftRun::go_on(const std::vector<StoredPass>& stored,
                                           const Moment& moment) {
   Taken out;
   for (const StoredPass& pass : stored) {
-    go_on(pass, moment, out);
+    go_on(pass, out);
     out.reached.push_back(watch_.reached());
   }
   stored_.emplace(stored.back());
@@ -135,8 +141,12 @@ void SpacecraftRun::restore_sources(const StoredPass& stored, const Moment& mome
   });
   for (const std::vector<Origin>& of_kind : stored.last_origins) {
     for (const Origin& origin : of_kind) {
-      sources_.restore_carrier(origin, moment);
+      sources_.restore_in_time(origin, moment);
     }
+  }
+  if (stored.clock) {
+    sources_.restore_leader(*stored.clock, moment);
+    leader_ = sources_.leader();
   }
   for (const LeftOut& left_out : stored.left_out) {
     in_order_of_arrival(left_out.values, [&](const auto& arrived) {
@@ -146,7 +156,7 @@ void SpacecraftRun::restore_sources(const StoredPass& stored, const Moment& mome
   }
 }
 
-void SpacecraftRun::go_on(const StoredPass& stored, const Moment& moment, Taken& out) {
+void SpacecraftRun::go_on(const StoredPass& stored, Taken& out) {
   if (!out.inputs.empty()) {
     received_before_.emplace(run_id_, received_);
     release_held(out.inputs);
@@ -161,7 +171,7 @@ void SpacecraftRun::go_on(const StoredPass& stored, const Moment& moment, Taken&
     counts_before_.emplace(count.source, counts_of(count));
   }
   watch_ = {};
-  sources_ = SourceWatch{pace_};
+  sources_ = new_sources_;
   // Marks the run as unfinished, whatever happens to this service, and withdraws nothing.
   out.batches.push_back(batch());
   out.batches.back().continuation = Continuation{.t = TaiTime::max()};
@@ -184,7 +194,7 @@ void SpacecraftRun::go_on(const StoredPass& stored, const Moment& moment, Taken&
         } else {
           received_.count(arrived.value);
           reach_.include(arrived.value.t);
-          sources_.restore(arrived.value.t, moment);
+          sources_.restore(arrived.value.t);
           place(arrived, out);
         }
       },
@@ -226,23 +236,41 @@ SpacecraftRun::Taken SpacecraftRun::decide(const Moment& moment) {
 
 void SpacecraftRun::decide(const Moment& moment, Taken& out) {
   if (const auto successor = sources_.successor(moment)) {
-    follow(*successor, out);
+    follow(*successor, moment, out);
   }
   notices_.tell_sources(sources_, moment, out.batches.back().products);
 }
 
-void SpacecraftRun::follow(const SourceId& successor, Taken& out) {
-  const TaiTime before = sources_.pass_time().value();
+/// Stores whose telemetry is the clock from the next sample on, where that has changed.
+void SpacecraftRun::note_clock(Taken& out) {
+  if (leader_ == sources_.leader()) {
+    return;
+  }
+  leader_ = sources_.leader();
+  SourceClock clock{.arrival = next_arrival_, .source = std::nullopt};
+  if (leader_) {
+    clock.source = Origin{.source = leader_->name, .session = leader_->session, .seq = 0};
+  }
+  out.batches.back().clocks.push_back(std::move(clock));
+}
+
+void SpacecraftRun::follow(const SourceId& successor, const Moment& moment, Taken& out) {
+  const TaiTime before = sources_.pass_time().value_or(sources_.recent(successor));
   const TaiTime t = sources_.recent(successor);
-  const auto carrier = sources_.carrier();
-  const TelemetryValues held = sources_.follow(successor);
+  const auto leader = sources_.leader();
+  const TelemetryValues held = sources_.follow(successor, moment);
+  if (count_of(held) == 0) {
+    note_clock(out);
+    return;
+  }
   stored_.reset();
   const auto span = span_between(before, t);
   if (span <= PassWatch::kLongestSilence && !are_apart(before, std::min(before, t))) {
+    note_clock(out);
     accept(held, out);
     return;
   }
-  notices_.tell_new_run(successor, t, carrier, before);
+  notices_.tell_new_run(successor, t, leader, before);
   release_held(out.inputs);
   begin_new_pass(held, out);
 }
@@ -294,7 +322,7 @@ void SpacecraftRun::repeat_actions_before(RunPlace first_arrival, Taken& out) {
 SpacecraftRun::Taken SpacecraftRun::finish() {
   Taken rest = nothing_taken();
   if (const auto successor = sources_.successor_at_end(total(received_))) {
-    follow(*successor, rest);
+    follow(*successor, {}, rest);
   }
   if (sources_.held() > 0) {
     rest.batches.back().products.emplace_back(told(
@@ -329,7 +357,9 @@ void SpacecraftRun::end_reach(ArchiveBatch& batch) {
 template <class Value>
 void SpacecraftRun::sort(TelemetrySample<Value>&& sample, const Moment& moment, Taken& out) {
   senders_.put_into(sample);
-  switch (judge(sample, moment)) {
+  const SourceWatch::Verdict verdict = judge(sample, moment);
+  note_clock(out);
+  switch (verdict) {
     case SourceWatch::Verdict::Apart: {
       ArrivedSample<Value> apart = arrived(std::move(sample));
       apart.is_left_out = true;
@@ -466,6 +496,8 @@ void SpacecraftRun::begin_new_pass(const TelemetryValues& its_first, Taken& out)
   counts_of_earlier_runs_ = latest_counts_;
   stored_.reset();
   watch_ = {};
+  leader_.reset();  // Each run says by itself what its clock is.
+  note_clock(out);
   accept(its_first, out);
   note_reach(out.batches.back());
   spdlog::info("{}: run {}", spacecraft_id_, run_id_);

@@ -131,10 +131,11 @@ class SpacecraftRun {
   template <class Value>
   void accept(TelemetrySample<Value>&& sample, Taken& out);
   void accept(const TelemetryValues& held, Taken& out);
-  void go_on(const StoredPass& stored, const Moment& moment, Taken& out);
+  void go_on(const StoredPass& stored, Taken& out);
   void restore_sources(const StoredPass& stored, const Moment& moment);
   void decide(const Moment& moment, Taken& out);
-  void follow(const SourceId& successor, Taken& out);
+  void note_clock(Taken& out);
+  void follow(const SourceId& successor, const Moment& moment, Taken& out);
   template <class Value>
   bool is_known(const Value& value);
   template <class Value>
@@ -172,8 +173,9 @@ class SpacecraftRun {
   SenderNames senders_;
   RunNotices notices_;
   bool judges_sources_;
-  Pace pace_;
+  SourceWatch new_sources_;  ///< Of a run that has heard none.
   SourceWatch sources_;
+  std::optional<SourceId> leader_;  ///< Whose telemetry the archive knows to be the clock.
   PassWatch watch_;
   std::optional<StoredSamples> stored_;  ///< Set from a restart until the pass goes on.
   TelemetryValues held_;                 ///< Held until their pass is known.

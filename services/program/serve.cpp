@@ -298,7 +298,9 @@ void show(const Health& health, ServiceTerminal& terminal, ConsoleFeed* feed) {
 Expected<GoneOn> go_on(const ServiceParts& parts, ConsoleFeed* feed, Announcer& announcer) {
   return parts.processor.arrive_after(parts.db)
       .and_then([&] { return take_up_alerts(parts.db, parts.mode, parts.desk, feed); })
-      .and_then([&] { return parts.processor.go_on(parts.db, moment_of(parts.processor)); })
+      .and_then([&] {
+        return parts.processor.go_on(parts.db, moment_of(parts.processor, parts.told.clocks));
+      })
       .and_then([&](GoneOn stored) {
         return take_up_last_runs(parts.db, stored.last_runs, parts.desk, feed)
             .and_then([&] { return note_announced(parts.db, stored.routed.samples, announcer); })

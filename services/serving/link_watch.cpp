@@ -17,11 +17,25 @@ void LinkWatch::hear(const std::string& spacecraft, TaiTime t, Instant now) {
   }
 }
 
-void LinkWatch::go_on(const std::string& spacecraft, TaiTime t) {
+void LinkWatch::go_on(const std::string& spacecraft, TaiTime t, Instant now) {
   const std::lock_guard lock{mutex_};
   if (const auto found = last_.find(spacecraft); found != last_.end()) {
     found->second = Last{.t = t, .came = std::nullopt};
+    counts_from_.insert_or_assign(spacecraft, now + kHeldBack);
   }
+}
+
+std::optional<double> LinkWatch::silent_s(const std::string& spacecraft, Instant now) const {
+  const std::lock_guard lock{mutex_};
+  const auto last = last_.find(spacecraft);
+  if (last == last_.end() || !last->second || !last->second->came) {
+    return std::nullopt;
+  }
+  const auto counts_from = counts_from_.find(spacecraft);
+  const Instant from = counts_from == counts_from_.end()
+                           ? *last->second->came
+                           : std::max(*last->second->came, counts_from->second);
+  return std::chrono::duration<double>{std::max(now - from, Instant::duration{0})}.count();
 }
 
 std::vector<SpacecraftHealth> LinkWatch::report(Instant now) const {

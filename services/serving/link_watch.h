@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <algorithm>
 #include <chrono>
 #include <map>
 #include <mutex>
@@ -13,6 +14,11 @@
 #include "services/publisher/health.h"
 
 namespace spindrift {
+
+/// After a kill the senders wait for the reader that was killed until Cyclone's lease of 10 s ends,
+/// although some of their samples reach the new one: in order, so that their `seq` does not tell.
+/// No pause is a silence that begins earlier than this after a restart.
+inline constexpr std::chrono::seconds kHeldBack{15};
 
 /// Watches all links. May be used by any thread. Times are passed in: it needs no clock.
 class LinkWatch {
@@ -28,7 +34,10 @@ class LinkWatch {
   void hear(const std::string& spacecraft, TaiTime t, Instant now);
 
   /// Notes after a restart that the telemetry had reached `t`, at an unknown wall-clock time.
-  void go_on(const std::string& spacecraft, TaiTime t);
+  void go_on(const std::string& spacecraft, TaiTime t, Instant now);
+
+  /// Returns how long a link has been silent; empty when it has not been heard.
+  std::optional<double> silent_s(const std::string& spacecraft, Instant now) const;
 
   std::vector<SpacecraftHealth> report(Instant now) const;
 
@@ -39,6 +48,7 @@ class LinkWatch {
   };
   mutable std::mutex mutex_;
   std::map<std::string, std::optional<Last>> last_;
+  std::map<std::string, Instant> counts_from_;  ///< By spacecraft that goes on after a restart.
 };
 
 /// Watches the spacecraft heard since the service started: data read back after a restart waits
@@ -48,7 +58,12 @@ class SilenceWatch {
   using Instant = std::chrono::steady_clock::time_point;
   static constexpr std::chrono::seconds kSilence{1};
 
-  void hear(const std::string& spacecraft, Instant now) { last_.insert_or_assign(spacecraft, now); }
+  /// @param counts_from Earliest beginning of a silence.
+  explicit SilenceWatch(Instant counts_from = Instant::min()) : counts_from_{counts_from} {}
+
+  void hear(const std::string& spacecraft, Instant now) {
+    last_.insert_or_assign(spacecraft, std::max(now, counts_from_));
+  }
 
   /// Returns when the next spacecraft falls silent if no sample comes; empty when none is heard.
   std::optional<Instant> next() const;
@@ -57,7 +72,8 @@ class SilenceWatch {
   std::vector<std::string> take_silent(Instant now);
 
  private:
-  std::map<std::string, Instant> last_;  ///< Arrival time of the last sample.
+  Instant counts_from_;
+  std::map<std::string, Instant> last_;  ///< Beginning of the present pause.
 };
 
 }  // namespace spindrift

@@ -73,8 +73,8 @@ void route_and_compute(std::vector<PassInput> again, BoundedQueue<PassInput>& ba
     backlog.close();
   }};
   failures.report(contained("taking in", [&] {
-    return route(std::move(again), parts.taken, processor, archive, computing, heard,
-                 parts.problems);
+    return route(std::move(again), parts.taken, processor, parts.told.clocks, archive, computing,
+                 heard, parts.problems);
   }));
   parts.taken.close();
   backlog.close();
@@ -138,6 +138,7 @@ Expected<void> how_taking_ended(const TelemetrySubscriber& subscriber) {
 /// Tells the watches what was stored before a restart.
 void note_stored(const GoneOn& gone_on, const Processor& processor, Heard& heard, AlertDesk& desk) {
   const auto spacecraft = processor.spacecraft();
+  const auto now = std::chrono::steady_clock::now();
   std::map<std::string, TaiTime> newest;
   for (const PassInput& input : gone_on.routed.work) {
     const std::string& id = spacecraft.at(input.spacecraft);
@@ -149,13 +150,16 @@ void note_stored(const GoneOn& gone_on, const Processor& processor, Heard& heard
     });
     desk.go_on(id, input.run_id, input.values);
   }
+  if (!newest.empty()) {
+    heard.silences = SilenceWatch{now + kHeldBack};
+  }
   for (const auto& [id, t] : newest) {
     heard.sessions.go_on(id, gone_on.last_origins, t);
-    heard.links.go_on(id, t);
+    heard.links.go_on(id, t, now);
   }
   for (const auto& [id, last] : gone_on.last_runs) {
     if (last.last_sample) {
-      heard.links.go_on(id, *last.last_sample);
+      heard.links.go_on(id, *last.last_sample, now);
     }
   }
 }
@@ -172,7 +176,7 @@ Expected<void> run_service(GoneOn gone_on, const ServiceParts& parts) {
     return Unexpected{started.error()};
   }
   TelemetrySubscriber& subscriber = **started;
-  Heard heard{.links = LinkWatch{spacecraft}, .sessions = {}};
+  Heard heard{.links = LinkWatch{spacecraft}, .sessions = {}, .silences = SilenceWatch{}};
   note_stored(gone_on, parts.processor, heard, parts.desk);
   Patience patience;
   parts.stop_signal.on_stop([&] {

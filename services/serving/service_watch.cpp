@@ -75,7 +75,7 @@ Expected<ServiceWatch::States> ServiceWatch::look(
       continue;
     }
     ServiceState state = of_service;
-    note_link(link, state);
+    note_link(link, heard_.links.silent_s(link.spacecraft, now), state);
     if (const auto other = others->find(link.spacecraft); other != others->end()) {
       state.other_service = other->second;
     }
@@ -115,6 +115,7 @@ ServiceState ServiceWatch::state_of_service(Instant now) {
           .backlog_s = backlog_.update(now, heard_.sessions.samples(), archive.samples_committed),
           .write_failed = failed,
           .free_gib = free_gib(parts_.db),
+          .log_mib = archive.log_mib,
           .clock_step_s = clock_step_s_};
 }
 
@@ -122,10 +123,11 @@ ServiceState ServiceWatch::state_of_service(Instant now) {
 /// queue, the link counts as silent no longer than it is live. The telemetry of a rehearsal follows
 /// the clock that the rehearsal announces, and that of another replay its own, for which nobody
 /// updates auxiliary data.
-void ServiceWatch::note_link(const SpacecraftHealth& link, ServiceState& state) const {
+void ServiceWatch::note_link(const SpacecraftHealth& link, std::optional<double> silent_s,
+                             ServiceState& state) const {
   const bool waits = state.write_failed || parts_.taken.size() > 0;
   if (!waits || link.link == LinkState::Live) {
-    state.silent_s = link.data_age_s;
+    state.silent_s = silent_s;
   }
   const TaiTime heard = later_by_s(*link.last_sample, *link.data_age_s);
   const auto rehearsal = parts_.told.clocks.offset(link.spacecraft);

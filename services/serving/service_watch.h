@@ -63,7 +63,8 @@ class ServiceWatch {
 
   void note_time(Instant now);
   ServiceState state_of_service(Instant now);
-  void note_link(const SpacecraftHealth& link, ServiceState& state) const;
+  void note_link(const SpacecraftHealth& link, std::optional<double> silent_s,
+                 ServiceState& state) const;
 
   const ServiceParts& parts_;
   const Heard& heard_;

@@ -102,6 +102,7 @@ TEST_F(ArchiveLog, GrowsAsLongAsAReaderNeedsItAndIsCarriedOverAfterwards) {
     write_long_log(*archive);
     EXPECT_EQ(slow.execAndGet("SELECT count(*) FROM pulse").getInt64(), 0);
     EXPECT_LT(std::filesystem::file_size(path()), kMiB);
+    EXPECT_GT(archive->statistics().log_mib, 128.0);
   }
   write_long_log(*archive);
 

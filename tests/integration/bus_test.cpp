@@ -1,9 +1,16 @@
+#include <arpa/inet.h>
 #include <dds/dds.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+#include <unistd.h>
 
 #include <atomic>
 #include <chrono>
+#include <cstdint>
 #include <cstdlib>
+#include <iterator>
 #include <optional>
+#include <vector>
 
 #include "services/bus/cyclone_log.h"
 #include "services/bus/network.h"
@@ -56,6 +63,45 @@ class OnBus : public ::testing::Test {
 using ReaderTest = OnBus;
 using WriterTest = OnBus;
 using WaitSetTest = OnBus;
+
+/// Holds the ports of a domain's first participants, as if so many programs were there.
+class TakenIndices {
+ public:
+  TakenIndices(std::uint32_t domain, int count) {
+    constexpr std::uint32_t kFirstPort = 7410;
+    for (std::uint32_t port = kFirstPort + 250 * domain; std::ssize(sockets_) < count; port += 2) {
+      const int socket = ::socket(AF_INET, SOCK_DGRAM | SOCK_CLOEXEC, 0);
+      sockaddr_in address{};
+      address.sin_family = AF_INET;
+      address.sin_port = htons(static_cast<std::uint16_t>(port));
+      EXPECT_EQ(::bind(socket, reinterpret_cast<const sockaddr*>(&address), sizeof address), 0);
+      sockets_.push_back(socket);
+    }
+  }
+  ~TakenIndices() {
+    for (const int socket : sockets_) {
+      ::close(socket);
+    }
+  }
+  TakenIndices(const TakenIndices&) = delete;
+  TakenIndices& operator=(const TakenIndices&) = delete;
+
+ private:
+  std::vector<int> sockets_;
+};
+
+TEST(Network, HasAnIndexLeftBesideAHundredOtherPrograms) {
+  const bus::BusConfig config = bus_of_its_own();
+  const TakenIndices taken{config.domain, 100};
+  EXPECT_TRUE(Participant::create(config));
+}
+
+TEST(Network, SaysWhatToDoWhereADomainHasNoIndexLeft) {
+  const bus::BusConfig config = bus_of_its_own();
+  const TakenIndices taken{config.domain, 120};
+  EXPECT_THAT(Participant::create(config),
+              IsRefused(ErrorCode::Unavailable, HasSubstr("end some of them, or use another")));
+}
 
 TEST(Network, IsThisHostOnlyUnlessToldOtherwise) {
   const NetworkOverride none{""};

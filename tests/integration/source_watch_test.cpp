@@ -3,7 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
+#include <cstdint>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "services/processor/steady_time.h"
 
@@ -17,7 +20,9 @@ constexpr std::size_t kEnough = PassWatch::kEnoughToAccept;
 
 class SourceWatchTest : public ::testing::Test {
  protected:
-  explicit SourceWatchTest(const Pace& pace = kReplayPace) : watch_{pace} {}
+  static constexpr SourceLimits kByClock{.within = 60s, .silence = 60s};
+
+  explicit SourceWatchTest(const SourceLimits& limits = kReplayLimits) : watch_{kByClock, limits} {}
 
   Verdict see(const std::string& source, TaiTime t, std::uint64_t session = 1) {
     return watch_.admit(
@@ -82,25 +87,25 @@ TEST_F(SourceWatchTest, ALoneSourceIsInTimeWhereverItJumpsAhead) {
 TEST_F(SourceWatchTest, OneThatDisagreesIsApartSampleBySampleUntilItHeals) {
   see_some("right", kStart);
   EXPECT_EQ(see("other", kStart + 8s), Verdict::InTime);
-  EXPECT_EQ(see("other", kStart + 75s), Verdict::Apart);
+  EXPECT_EQ(see("other", kStart + 11min), Verdict::Apart);
   EXPECT_EQ(see("other", kStart + 9s), Verdict::Healed);
   EXPECT_EQ(count_of(watch_.take_held({.source = "other", .session = 1, .seq = 0})), 0U);
-  EXPECT_EQ(see("other", kStart - 54s), Verdict::Apart) << "61 s behind";
+  EXPECT_EQ(see("other", kStart - 10min), Verdict::Apart) << "607 s behind";
   EXPECT_EQ(see_some("other", kStart + 10s), Verdict::Healed);
   EXPECT_EQ(count_of(watch_.take_held({.source = "other", .session = 1, .seq = 0})), 1U);
   const auto news = watch_.take_news();
   ASSERT_EQ(news.size(), 2U);
   EXPECT_EQ(news[0].source.name, "other");
-  EXPECT_EQ(news[0].t, kStart + 75s);
-  EXPECT_EQ(news[0].pass, kStart + 7s);
+  EXPECT_EQ(news[0].t, kStart + 11min);
+  EXPECT_EQ(news[0].clock, kStart + 7s);
   EXPECT_TRUE(news[1].healed);
   EXPECT_EQ(successor(), "");
 }
 
-TEST_F(SourceWatchTest, InAReplayOneThatGoesOnFasterThanTheOthersIsInTime) {
+TEST_F(SourceWatchTest, InAReplayOneThatGoesOnFasterThanTheOthersIsInTimeAndSoAreThey) {
   see_some("slow", kStart);
   EXPECT_EQ(see_some("fast", kStart, 600), Verdict::InTime);
-  EXPECT_EQ(see("slow", kStart + 8s), Verdict::Apart);
+  EXPECT_EQ(see("slow", kStart + 8s), Verdict::InTime);
 }
 
 TEST_F(SourceWatchTest, OneOfTwoThatBeganTogetherIsApart) {
@@ -115,11 +120,12 @@ TEST_F(SourceWatchTest, OneOfTwoThatBeganTogetherIsApart) {
 TEST_F(SourceWatchTest, OneAheadFollowsOnceTheOthersAreSilent) {
   see_some("first", kStart);
   see_some("second", kStart + 30min, kEnough - 1);
-  moment_.now += kReplayPace.silence;
+  moment_.now += kReplayLimits.silence;
   EXPECT_EQ(successor(), "");
   see("second", kStart + 30min + 7s);
   EXPECT_EQ(successor(), "second");
-  EXPECT_EQ(count_of(watch_.follow({.name = "second", .session = 1})), kEnough);
+  EXPECT_EQ(count_of(watch_.follow({.name = "second", .session = 1}, moment_)), kEnough);
+  EXPECT_EQ(watch_.leader().value().name, "second");
   EXPECT_EQ(watch_.pass_time(), kStart + 30min + 7s);
   EXPECT_EQ(see("first", kStart + 8s), Verdict::Apart);
   EXPECT_EQ(successor(), "");
@@ -135,42 +141,46 @@ TEST_F(SourceWatchTest, NobodyFollowsWhoIsHeardNoMoreWhileTheOthersAre) {
   EXPECT_FALSE(watch_.successor_at_end(0));
 }
 
-TEST_F(SourceWatchTest, OneBehindMayCatchUpBeforeItFollows) {
+TEST_F(SourceWatchTest, OneBehindFollowsOnceTheOthersAreSilent) {
   see_some("first", kStart + 2h);
-  moment_.now += 1min;
+  moment_.now += 1s;
   see_some("second", kStart);
   EXPECT_EQ(successor(), "");
-  ASSERT_EQ(watch_.next_decision(), moment_.now + kReplayPace.silence);
+  ASSERT_EQ(watch_.next_decision(), moment_.now - 1s + kReplayLimits.silence);
   EXPECT_FALSE(watch_.successor_at_end(kEnough));
   EXPECT_TRUE(watch_.successor_at_end(kEnough - 1));
   moment_.now = *watch_.next_decision();
   EXPECT_EQ(successor(), "second");
-  EXPECT_EQ(watch_.carrier().value().name, "first");
+  EXPECT_EQ(watch_.leader().value().name, "first");
 }
 
 TEST_F(SourceWatchTest, TheClockOfTheHostDecidesBetweenTwo) {
   see_some("wrong", kStart + 2h);
   see_some("right", kStart);
   EXPECT_EQ(successor(), "");
-  moment_.host = kStart + 5min;
+  moment_.host = kStart + 50s;
   EXPECT_EQ(successor(), "right");
   moment_.host = kStart + 1h;
   EXPECT_EQ(successor(), "");
-  moment_.host = kStart + 2h;
+  moment_.host = kStart + 50s;
+  EXPECT_EQ(count_of(watch_.follow({.name = "right", .session = 1}, moment_)), kEnough);
+  EXPECT_FALSE(watch_.leader()) << "the host's clock is the clock";
+  EXPECT_EQ(see_some("wrong", kStart + 2h), Verdict::Apart);
+  EXPECT_EQ(see_some("right", kStart + 8s), Verdict::InTime);
   EXPECT_EQ(successor(), "");
 }
 
-TEST_F(SourceWatchTest, MoreSourcesThanOneOutvoteItNotMoreSessions) {
-  see_some("wrong", kStart);
-  see_some("right", kStart + 2h);
-  for (std::uint64_t session = 2; session < 5; ++session) {
-    for (std::size_t i = 0; i < kEnough; ++i) {
-      see("right", kStart + 2h + i * 1s, session);
-    }
+TEST_F(SourceWatchTest, AtTheEndWhatContinuesThePassIsTakenAndTheHostHasTheLastWord) {
+  for (const bool hosted : {false, true}) {
+    watch_ = SourceWatch{kByClock, kByClock};
+    moment_.host = hosted ? std::optional{kStart} : std::nullopt;
+    see_some("first", kStart);
+    see_some("ahead", kStart + 61s);
+    see_some("farther", kStart + 2h);
+    EXPECT_FALSE(watch_.successor_at_end(kEnough));
+    see_some("farther", kStart + 2h + 8s, 1);
+    EXPECT_EQ(watch_.successor_at_end(kEnough).has_value(), !hosted);
   }
-  EXPECT_EQ(successor(), "");
-  see_some("right as well", kStart + 2h);
-  EXPECT_NE(successor(), "");
 }
 
 TEST_F(SourceWatchTest, SourcesThatJumpTogetherGoOnTogether) {
@@ -199,132 +209,153 @@ TEST_F(SourceWatchTest, ForgetsTheSourceNotHeardForLongest) {
 TEST_F(SourceWatchTest, HoldsNoMoreThanItMay) {
   see_some("right", kStart);
   see_some("wrong", kStart + 2h, SourceWatch::kMostHeld + kEnough);
-  EXPECT_EQ(count_of(watch_.follow({.name = "wrong", .session = 1})), kEnough);
+  EXPECT_EQ(count_of(watch_.follow({.name = "wrong", .session = 1}, moment_)), kEnough);
 }
 
-/// Uses the pace of a live pass, where time advances with the wall clock.
+/// Uses the limits of a live pass, with the clock of the host.
 class LiveSourceWatchTest : public SourceWatchTest {
  protected:
-  LiveSourceWatchTest() : SourceWatchTest{kLivePace} {}
+  LiveSourceWatchTest() : SourceWatchTest{kByClock} {}
 
   TaiTime now() const { return kStart + moment_.now.time_since_epoch(); }
-  void pass_by(std::chrono::nanoseconds time) { moment_.now += time; }
+  void pass_by(std::chrono::nanoseconds time) {
+    moment_.now += time;
+    moment_.host = now();
+  }
 
-  /// Sends a sample of both sources each second, the other one's `off` from the right time.
-  Verdict see_both(std::chrono::nanoseconds off, int seconds, const std::string& right = "right",
-                   const std::string& other = "other") {
-    Verdict of_other = Verdict::InTime;
+  /// Sends a sample of the honest source and of each other a second, the others `off`.
+  Verdict see_all(std::chrono::nanoseconds off, int seconds,
+                  const std::vector<std::string>& others = {"other"}) {
+    Verdict of_others = Verdict::InTime;
     for (int i = 0; i < seconds; ++i) {
-      EXPECT_EQ(see(right, now()), Verdict::InTime);
-      EXPECT_EQ(successor(), "");
-      of_other = see(other, now() + off);
-      EXPECT_EQ(successor(), "");
       pass_by(1s);
+      for (const std::string& other : others) {
+        of_others = see(other, now() + off);
+      }
+      EXPECT_NE(see("right", now()), Verdict::Apart);
+      follow_if_due();
     }
-    return of_other;
+    return of_others;
+  }
+
+  void follow_if_due() {
+    if (const auto next = watch_.successor(moment_)) {
+      watch_.follow(*next, moment_);
+    }
   }
 };
 
-TEST_F(LiveSourceWatchTest, OneSecondsAheadIsApartAndNamedAtOnce) {
-  for (const auto ahead : {6s, 19s, 37s}) {
-    watch_ = SourceWatch{kLivePace};
-    see_both(0s, 10);
-    EXPECT_EQ(see_both(ahead, 20), Verdict::Apart);
-    const auto news = watch_.take_news();
-    ASSERT_EQ(news.size(), 1U);
-    EXPECT_EQ(news[0].source.name, "other");
+TEST_F(LiveSourceWatchTest, HoweverManyAreApartTheHostIsTheClock) {
+  for (const auto off : {2h + 0s, -2h + 0s, 61s, -601s}) {
+    watch_ = SourceWatch{kByClock, kByClock};
+    see_all(0s, 1, {});
+    EXPECT_EQ(see_all(off, 20, {"one", "two", "three"}), Verdict::Apart);
+    EXPECT_FALSE(watch_.leader());
+    EXPECT_EQ(watch_.take_news().size(), off > 0s ? 3U : 0U) << "one behind may catch up";
+    see_all(off, 60, {"one", "two", "three"});
+    EXPECT_EQ(watch_.apart().size(), 3U);
+    EXPECT_EQ(see_all(2s, 1, {"one"}), Verdict::Healed);
   }
-  EXPECT_EQ(see_both(2s, 20), Verdict::Healed);
 }
 
-TEST_F(LiveSourceWatchTest, OneThatCreepsAheadIsApart) {
-  see_both(0s, 10);
-  for (int i = 0; i < 20; ++i) {
-    see_both(i * 1s, 1);
+TEST_F(LiveSourceWatchTest, ThoseThatAreFirstLoseTheLeadToWhoIsInTime) {
+  for (int i = 0; i < 20; ++i, pass_by(1s)) {
+    moment_.host = now();
+    EXPECT_EQ(see("one", now() + 2h), Verdict::InTime);
+    see("two", now() + 2h);
+    EXPECT_EQ(successor(), "");
   }
+  EXPECT_EQ(watch_.leader().value().name, "one");
+  for (std::size_t i = 0; i < kEnough; ++i, pass_by(1s)) {
+    EXPECT_EQ(see("right", now()), Verdict::Apart);
+  }
+  ASSERT_EQ(successor(), "right");
+  EXPECT_EQ(count_of(watch_.follow({.name = "right", .session = 1}, moment_)), kEnough);
+  EXPECT_EQ(see_all(2h, 20, {"one", "two"}), Verdict::Apart);
+}
+
+TEST_F(LiveSourceWatchTest, WhereNoneIsInTimeTheFirstIsTheClock) {
+  for (int i = 0; i < 20; ++i, pass_by(1s)) {
+    moment_.host = now();
+    EXPECT_EQ(see("first", now() + 2h), Verdict::InTime);
+    EXPECT_EQ(see("near", now() + 2h + 50s), Verdict::InTime);
+    see("far", now() - 2h);
+    EXPECT_EQ(successor(), "");
+  }
+  EXPECT_EQ(watch_.apart().size(), 0U);
+  EXPECT_EQ(see("far", now() - 2h), Verdict::Apart);
+}
+
+TEST_F(LiveSourceWatchTest, AtFourTimesRealTimeASecondStationIsInTime) {
+  for (int i = 0; i < 60; ++i, pass_by(1s)) {
+    moment_.host = now();
+    EXPECT_EQ(see("one", kStart - 24h + i * 4s), Verdict::InTime);
+    EXPECT_EQ(see("two", kStart - 24h + i * 4s - 6s), Verdict::InTime);
+  }
+  EXPECT_TRUE(watch_.take_news().empty());
+}
+
+TEST_F(LiveSourceWatchTest, WhatASourceSendsAgainIsLateAndNeverApart) {
+  see_all(0s, 20);
+  for (std::uint64_t session = 1; session < 3; ++session) {
+    for (std::size_t i = 0; i < 500; ++i) {
+      EXPECT_EQ(see("other", now() - 500s + i * 1s, session), Verdict::InTime);
+    }
+  }
+  EXPECT_TRUE(watch_.take_news().empty());
+  EXPECT_EQ(watch_.held(), 0U);
+}
+
+TEST_F(LiveSourceWatchTest, OneThatStaysMinutesBehindIsApart) {
+  see_all(0s, 20);
+  EXPECT_EQ(see_all(-3min, 50), Verdict::InTime);
+  EXPECT_EQ(see_all(-3min, 20), Verdict::Apart);
+  EXPECT_EQ(watch_.apart().size(), 0U);
+  see_all(-3min, 60);
   EXPECT_EQ(watch_.apart().size(), 1U);
 }
 
-TEST_F(LiveSourceWatchTest, OneThatComesTwelveSecondsLateIsNotLeftOutAndHasNoSay) {
-  EXPECT_EQ(see_both(-12s, 30), Verdict::InTime);
-  EXPECT_EQ(watch_.carrier().value().name, "right");
-  EXPECT_TRUE(watch_.take_news().empty());
-  see_both(-12s, 50);
-  EXPECT_EQ(watch_.take_news().size(), 1U) << "which does not catch up, and is named";
+TEST_F(LiveSourceWatchTest, ASourceOutOfTimeLeadsOnceTheOthersAreSilent) {
+  see_all(0s, 1, {});
+  see_all(5min, 20);
+  for (int i = 0; i < 59; ++i) {
+    pass_by(1s);
+    EXPECT_EQ(see("other", now() + 5min), Verdict::Apart);
+    EXPECT_EQ(successor(), "");
+  }
+  pass_by(1s);
+  see("other", now() + 5min);
+  ASSERT_EQ(successor(), "other");
+  watch_.follow({.name = "other", .session = 1}, moment_);
+  EXPECT_EQ(watch_.leader().value().name, "other");
+  for (std::size_t i = 0; i < kEnough; ++i) {
+    EXPECT_EQ(successor(), "");
+    pass_by(1s);
+    see("other", now() + 5min);
+    see("right", now(), 2);
+  }
+  EXPECT_EQ(successor(), "right") << "which is in time by the host";
 }
 
 TEST_F(LiveSourceWatchTest, ACodedFrameEachTwelveSecondsIsNoSilence) {
   for (int revolution = 0; revolution < 20; ++revolution) {
+    moment_.host = now();
     EXPECT_EQ(see("right", now()), Verdict::InTime);
     for (int i = 0; i < 12; ++i, pass_by(1s)) {
-      if (revolution >= 8) {
-        EXPECT_EQ(see("other", now() + 30min), Verdict::Apart);
-        EXPECT_EQ(successor(), "");
-      }
+      EXPECT_EQ(see("other", now() + 30min), Verdict::Apart);
+      EXPECT_EQ(successor(), "");
     }
   }
 }
 
-TEST_F(LiveSourceWatchTest, APauseOfSecondsHandsThePassToNobody) {
-  see_both(5min, 20);
-  for (int i = 0; i < 50; ++i) {
-    see("other", now() + 5min);
-    EXPECT_EQ(successor(), "");
-    pass_by(1s);
-  }
-  EXPECT_EQ(see("right", now()), Verdict::InTime);
-}
-
-TEST_F(LiveSourceWatchTest, AfterAnOutageANewSessionGoesOnAtOnce) {
-  see_both(0s, 20);
-  pass_by(10min);
-  EXPECT_EQ(see("right", now(), 2), Verdict::InTime);
-}
-
-TEST_F(LiveSourceWatchTest, OneThatDisplacedASilentOneGivesThePassBackByTheHost) {
-  see_both(5min, 20);
-  for (int i = 0; i < 70; ++i) {
-    see("other", now() + 5min);
-    pass_by(1s);
-  }
-  ASSERT_EQ(successor(), "other");
-  watch_.follow({.name = "other", .session = 1});
-  for (std::size_t i = 0; i < kEnough; ++i) {
-    see("other", now() + 5min);
-    see("right", now());
-    pass_by(1s);
-  }
-  EXPECT_EQ(successor(), "");
+TEST_F(LiveSourceWatchTest, ARestartKnowsWhoLed) {
+  watch_.restore(kStart - 24h);
+  watch_.restore_in_time({.source = "first", .session = 1, .seq = 0}, moment_);
+  watch_.restore_in_time({.source = "second", .session = 1, .seq = 0}, moment_);
+  watch_.restore_leader({.source = "second", .session = 1, .seq = 0}, moment_);
   moment_.host = now();
-  EXPECT_EQ(successor(), "right");
-}
-
-TEST_F(LiveSourceWatchTest, OfAsManyVotesThePassGoesOn) {
-  moment_.host = now();
-  for (std::size_t i = 0; i < 3 * kEnough; ++i) {
-    moment_.host = now();
-    see("right", now());
-    EXPECT_EQ(successor(), "");
-    see("wrong", now() + 2h);
-    EXPECT_EQ(successor(), "");
-    see("wrong as well", now() + 2h);
-    EXPECT_EQ(successor(), "") << "two votes, as of the source and of the host";
-    pass_by(1s);
-  }
-  see_some("a third", now() + 2h - 8s);
-  EXPECT_NE(successor(), "");
-}
-
-TEST_F(LiveSourceWatchTest, ThreeSourcesOutvoteOneThatTheHostIsFor) {
-  for (std::size_t i = 0; i < 3 * kEnough; ++i) {
-    moment_.host = now() + 2h;
-    for (const std::string right : {"one", "two", "three"}) {
-      see(right, now());
-    }
-    see("wrong", now() + 2h);
-    EXPECT_EQ(successor(), "");
-    pass_by(1s);
-  }
+  EXPECT_EQ(see("second", kStart - 23h), Verdict::InTime);
+  EXPECT_EQ(watch_.leader().value().name, "second");
 }
 
 }  // namespace spindrift::source_watch_test

@@ -128,4 +128,14 @@ TEST(SilenceWatch, TellsOnceWhoWasNotHeardForASecond) {
   EXPECT_TRUE(watch.take_silent(start + 1300ms).empty());
 }
 
+TEST(SilenceWatch, CountsNoPauseThatBeginsTooEarly) {
+  const SilenceWatch::Instant start{};
+  SilenceWatch watch{start + 15s};
+  watch.hear("A", start + 2s);
+  EXPECT_EQ(watch.next(), start + 16s);
+  EXPECT_TRUE(watch.take_silent(start + 12s).empty());
+  watch.hear("A", start + 15500ms);
+  EXPECT_THAT(watch.take_silent(start + 16500ms), ElementsAre("A"));
+}
+
 }  // namespace spindrift::stream_silence_test

@@ -97,7 +97,8 @@ inline std::vector<std::string> product_rows(const std::filesystem::path& db) {
 
 /// Returns the rows of every table, without the columns in which two services that take the same
 /// telemetry differ: names of runs and sessions, their source, wall-clock times, how often a sample
-/// was sent, and alerts (some of which concern the service itself).
+/// was sent, whose telemetry the clock was, the salt of the log, and alerts (some of which concern
+/// the service itself).
 inline std::vector<std::string> all_rows(const std::filesystem::path& db) {
   const SQLite::Database database{db.string(), SQLite::OPEN_READONLY, kBusy_ms};
   SQLite::Statement tables{
@@ -107,7 +108,8 @@ inline std::vector<std::string> all_rows(const std::filesystem::path& db) {
       " WHERE name NOT IN ('run_id', 'session', 'started_utc', 'finished_utc', 'first_arrival',"
       "  'arrival', 'received', 'announced_utc'))"
       " FROM sqlite_schema AS stored WHERE type = 'table' AND name NOT LIKE 'sqlite_%'"
-      " AND name NOT IN ('run_telemetry', 'stream_silence', 'alert', 'alert_transition')"};
+      " AND name NOT IN ('run_telemetry', 'stream_silence', 'source_clock', 'own_log', 'alert',"
+      "  'alert_transition')"};
   std::vector<std::string> rows;
   while (tables.executeStep()) {
     const std::string table = tables.getColumn(0).getString();

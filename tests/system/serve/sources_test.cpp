@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "pipelines/time/time_span.h"
+#include "services/base/wall_clock.h"
 #include "tests/support/archive_rows.h"
 #include "tests/support/eventually.h"
 #include "tests/support/matchers.h"
@@ -139,6 +141,9 @@ TEST_P(ServeAlienWithin, IsLeftOutAndNamed) {
   send_alien(whole().pulses.at(half).t + ahead, count);
   ASSERT_TRUE(front_end.send_until(0.75));
   ASSERT_TRUE(has_stored(half + half / 2 + static_cast<std::size_t>(count)));
+  EXPECT_TRUE(eventually([&] {
+    return number("SELECT count(*) FROM alert WHERE key = 'clock.disagree'") == 1;
+  })) << "a recorded pass is not of the host's time";
   // A kill would lose the message if it was not logged yet.
   EXPECT_TRUE(service_.program().says("SPINNER: the samples of source 'alien' (session "));
   service_.kill_and_go_on();
@@ -197,6 +202,47 @@ TEST_F(ServeSources, OneThatBeginsWithItsLastMinutesCatchesUp) {
   EXPECT_EQ(number("SELECT count(*) FROM run"), 1) << log;
   EXPECT_EQ(number("SELECT count(*) FROM pulse WHERE arrival < 0"), 0) << log;
   EXPECT_EQ(last_batch_rows(service_.db()), whole().batch) << log;
+}
+
+/// Runs a live service, which front-ends tell of the present.
+class ServeByTheHost : public ::testing::Test {
+ protected:
+  static std::vector<Pulse> pulses(std::chrono::nanoseconds off) {
+    return alien_pulses(later_by(tai_now(), off), 100);
+  }
+
+  /// Sends a hundred pulses of each, the honest source last.
+  void send() const {
+    for (const std::string liar : {"one", "two", "three"}) {
+      ASSERT_TRUE((FrontEnd{service_.bus(), "SPINNER", pulses(2h), liar}.send_until(1.0)));
+    }
+    ASSERT_TRUE((FrontEnd{service_.bus(), "SPINNER", pulses(-10s), "honest"}.send_until(1.0)));
+  }
+
+  std::int64_t number(const std::string& query) const { return number_of(service_.db(), query); }
+
+  bool has_taken(std::int64_t honest) const {
+    return eventually([&] {
+      return number("SELECT count(*) FROM pulse WHERE source = 'honest' AND arrival > 0") == honest;
+    });
+  }
+
+  ReadyService service_{"nominal"};
+};
+
+TEST_F(ServeByTheHost, NoNumberOfSourcesOutvotesTheOneThatIsInTime) {
+  send();
+  EXPECT_TRUE(has_taken(100)) << service_.log();
+  service_.kill_and_go_on();
+  send();
+  EXPECT_TRUE(has_taken(200)) << service_.log();
+  ASSERT_EQ(service_.stop_when_computed(), 0) << service_.log();
+  EXPECT_EQ(number("SELECT count(*) FROM pulse WHERE source <> 'honest' AND arrival < 0 AND"
+                   " arrival < -(SELECT max(first_arrival) FROM run)"),
+            300)
+      << service_.log();
+  EXPECT_EQ(number("SELECT count(*) FROM source_clock WHERE source IS NULL"), 0)
+      << "the run of the host's clock needs no row";
 }
 
 }  // namespace spindrift::serve_sources_test

@@ -260,7 +260,7 @@ std::vector<Refusal> refusals() {
        "mission.toml:12: spni: unknown; did you mean spin?"},
       {"colour = \"red\"\n" + kLeo,
        "mission.toml:1: colour: unknown; allowed here: alerts, archive, calibration, contact, "
-       "ground_model, orbit, reconstruction, sources, spacecraft, spin, three_axis"},
+       "ground_model, orbit, reconstruction, sources, spacecraft, spin, three_axis, time"},
       {replaced(contract(), "\\[spin.noise\\]", "[spin.nose]"),
        HasSubstr("spin.nose: unknown; did you mean noise?")},
       {"spin = 3\n" + kLeo, "mission.toml:1: spin = 3: must be a table"},

@@ -37,13 +37,25 @@ TEST(LinkWatch, IsStaleAfterSilenceAndLiveAgainWithTheNextSample) {
 
 TEST(LinkWatch, IsStaleAfterARestartUntilTheNextSample) {
   LinkWatch links{{"SPINNER"}};
-  links.go_on("SPINNER", kT);
+  links.go_on("SPINNER", kT, kCame);
   const auto stored = links.report(kCame).at(0);
   EXPECT_EQ(stored.link, LinkState::Stale);
   EXPECT_EQ(stored.last_sample, kT);
   EXPECT_FALSE(stored.data_age_s);
   links.hear("SPINNER", kT, kCame);
   EXPECT_EQ(links.report(kCame).at(0).link, LinkState::Live);
+}
+
+TEST(LinkWatch, CountsNoSilenceWhileSendersMayWaitForTheReaderThatWasKilled) {
+  LinkWatch links{{"SPINNER", "ANOTHER"}};
+  links.go_on("SPINNER", kT, kCame);
+  EXPECT_FALSE(links.silent_s("SPINNER", kCame));
+  for (const std::string spacecraft : {"SPINNER", "ANOTHER"}) {
+    links.hear(spacecraft, kT, kCame + std::chrono::seconds{1});
+  }
+  EXPECT_EQ(links.silent_s("SPINNER", kCame + kHeldBack), 0.0);
+  EXPECT_EQ(links.silent_s("SPINNER", kCame + kHeldBack + std::chrono::seconds{5}), 5.0);
+  EXPECT_EQ(links.silent_s("ANOTHER", kCame + std::chrono::seconds{6}), 5.0);
 }
 
 TEST(LinkWatch, DoesNotLookAtOtherSpacecraft) {

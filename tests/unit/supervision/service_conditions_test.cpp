@@ -92,6 +92,9 @@ TEST_F(ServiceConditionsTest, RaiseTelemetryThatIsLateOrAhead) {
             (Raised{{"link.ahead", "warning"}}));
   EXPECT_EQ(service_.evaluate(8, 12, [](auto& one, int /*t_s*/) { one.late_s.reset(); }).size(),
             1U);
+  const auto two_hours_ahead = [](auto& one, int /*t_s*/) { one.late_s = -7200.0; };
+  EXPECT_EQ(service_.evaluate(12, 15, two_hours_ahead),
+            (Raised{{"clock.disagree", "warning"}, {"link.ahead", "warning"}}));
 }
 
 TEST_F(ServiceConditionsTest, RaiseWhatASourceDidWithinTheLastMinute) {
@@ -130,12 +133,14 @@ TEST_F(ServiceConditionsTest, RaiseWhatIsWrongWithTheServiceAndItsHost) {
     one.backlog_s = 10.0;
     one.write_failed = true;
     one.free_gib = 0.5;
+    one.log_mib = 256.0;
     one.clock_step_s = -3600.0;
     one.data_ends = {{"orbit", {at(3600.0)}}, {"leap_seconds", {at(0.0), AlertSeverity::Info}}};
   });
   EXPECT_EQ(service_.raised, (Raised{{"alerts.undelivered", "warning"},
                                      {"archive.backlog", "warning"},
                                      {"archive.disk", "warning"},
+                                     {"archive.log", "warning"},
                                      {"archive.write", "critical"},
                                      {"clock.jump", "warning"},
                                      {"data.outdated:leap_seconds", "info"},
