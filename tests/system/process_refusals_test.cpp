@@ -42,19 +42,6 @@ TEST(Process, EndsWithABadStatusAndTheLikelyCauseWhereNothingCanBeRead) {
   EXPECT_EQ(count_rows(pass.db, "rejected_input"), 2);
 }
 
-TEST(Process, EndsWithABadStatusAndBothSpansWhereTheOrbitIsOfOtherDates) {
-  const PassCopy pass{"nominal"};
-  std::string oem = text_of(pass.folder.path() / "orbit.oem");
-  for (std::size_t at = 0; (at = oem.find("2026-11-", at)) != std::string::npos;) {
-    oem.replace(at, 8, "2026-10-");
-  }
-  pass.folder.write("orbit.oem", oem);
-  refused(pass.arguments_here(), {"SPINNER: the orbit covers 2026-10-",
-                                  ", and the telemetry "
-                                  "2026-11-20T03:00:00Z to 2026-11-20T03:0"});
-  EXPECT_EQ(count_rows(pass.db, "pulse"), 3600);
-}
-
 TEST(Process, RefusesBadRowsWhenStrict) {
   const PassCopy pass{"nominal"};
   pass.folder.write("more.csv", "t_tai_ns,channel\n1795143637568806257,sun3\n");

@@ -213,8 +213,10 @@ TEST(Process, StoresThePassAndSaysWhereTheOrbitDoesNotReach) {
   const PassCopy pass{"nominal"};
   std::filesystem::copy_file(kPasses / "gms5" / "orbit.oem", pass.folder.path() / "orbit.oem",
                              std::filesystem::copy_options::overwrite_existing);
-  const Ran program = succeeded(pass.arguments_here());
-  EXPECT_THAT(program.log, HasSubstr("orbit: "));
+  refused(pass.arguments_here(),
+          {"orbit: ", "SPINNER: the orbit covers ",
+           ", and the telemetry 2026-11-20T03:00:00Z to 2026-11-20T03:10:00Z: without the orbit of "
+           "these dates there is no answer\n"});
   EXPECT_EQ(count_rows(pass.db, "pulse"), 3600);
   EXPECT_EQ(count_rows(pass.db, "spin_fix"), 0);
   // One sun1 edge is a 3-sigma outlier.
