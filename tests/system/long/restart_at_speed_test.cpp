@@ -8,7 +8,11 @@
 #include <chrono>
 #include <csignal>
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
+#include <iterator>
+#include <memory>
+#include <ostream>
 #include <string>
 #include <thread>
 #include <utility>
