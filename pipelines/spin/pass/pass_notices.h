@@ -90,8 +90,8 @@ class PassNotices {
   void say_what_the_axis_lacks(const SequentialEstimator& sequential);
 
   SpinConfig config_;
-  NamedValue prior_from_{"prior_from",
-                         "mission"};  ///< Who gave the prior: `mission` or `operator`.
+  /// Who gave the prior: `mission` or `operator`.
+  NamedValue prior_from_{"prior_from", "mission"};
   std::vector<Notice> pending_;
   std::set<NoticeCode> said_;
   std::array<bool, kSides.size()> silence_said_{};

@@ -298,7 +298,6 @@ void SpinPass::consider(const Revolution& revolution, SpinOutput& out) {
   }
   screen(candidate);
   settle(candidate, out);
-  search_the_sky();
   recent_.push_back(std::move(candidate));
   if (recent_.size() > static_cast<std::size_t>(config_.screening.window)) {
     recent_.pop_front();
@@ -317,7 +316,6 @@ void SpinPass::compare_sensors(const Revolution& revolution, SpinOutput& out) {
     return;
   }
   contradictions_.add({.block = *block, .sky = *sky});
-  only_axis_.add({.block = *block, .sky = *sky});
   const bool is_answered = answer_ && is_unopposed(answer_->assessment.quality);
   if (!is_answered || contradictions_.is_due()) {
     contradictions_.compare(config_, axes_to_try_icrf());
@@ -342,16 +340,6 @@ std::vector<Eigen::Vector3d> SpinPass::axes_to_try_icrf() const {
 void SpinPass::doubt_where_sensors_contradict(SpinEstimate& estimate) const {
   if (const auto& found = contradictions_.found()) {
     doubt(estimate.assessment, reason_of(*found));
-  }
-}
-
-/// Searches the axis that grazing fixes may all lack.
-void SpinPass::search_the_sky() {
-  if (!sequential_.may_lack_the_axis()) {
-    return;
-  }
-  if (const auto found_icrf = only_axis_.search(config_)) {
-    sequential_.settle_by_search(*found_icrf);
   }
 }
 
@@ -715,7 +703,6 @@ void SpinPass::apply(TaiTime t, const MarkManoeuvre& /*action*/) {
   restarts_handled_ = 0;
   blocks_ = {};
   contradictions_ = {};
-  only_axis_ = {};
 }
 
 void SpinPass::forget_prior(TaiTime t) {

@@ -37,7 +37,6 @@
 #include "pipelines/spin/mean/mean_estimator.h"
 #include "pipelines/spin/measurement/measurement.h"
 #include "pipelines/spin/measurement/sun_earth_ephemeris.h"
-#include "pipelines/spin/pass/only_axis.h"
 #include "pipelines/spin/pass/pass_notices.h"
 #include "pipelines/spin/screening/screening.h"
 #include "pipelines/spin/sequential/sequential.h"
@@ -110,7 +109,6 @@ class SpinPass {
   void consider(const Revolution& revolution, SpinOutput& out);
   void compare_sensors(const Revolution& revolution, SpinOutput& out);
   std::vector<Eigen::Vector3d> axes_to_try_icrf() const;
-  void search_the_sky();
   void doubt_where_sensors_contradict(SpinEstimate& estimate) const;
   void settle_first(SpinOutput& out);
   void settle(Candidate& candidate, SpinOutput& out);
@@ -176,7 +174,6 @@ class SpinPass {
   int restarts_handled_ = 0;
   BlockCollector blocks_;
   ChannelContradictions contradictions_;
-  OnlyAxis only_axis_;
   std::optional<SpinEstimate> answer_;  ///< Last estimate of `sequential`, else of `mean`.
   /// First accepted fix since the pass began or began anew that the pass's own axis did not settle.
   std::optional<SpinFix> settling_fix_;

@@ -5,7 +5,6 @@
 #include <iterator>
 #include <utility>
 
-#include "pipelines/frames/angle.h"
 #include "pipelines/frames/celestial.h"
 #include "pipelines/spin/types/model_allowance.h"
 #include "pipelines/statistics/significance.h"
@@ -16,8 +15,6 @@ namespace {
 constexpr double kBeyondDoubt = 20.0;
 // A true candidate falls behind another by e^5 in one pass of 150 at most (Ville's inequality).
 constexpr double kUnlikely = 5.0;
-// Filters that differ by less may have begun to either side of one axis.
-constexpr double kNear_rad = 5.0 * kRadPerDeg;
 
 StartingPoint place_of(const Hypothesis& hypothesis) {
   return {.axis_icrf = hypothesis.filter.axis_icrf(),
@@ -61,10 +58,10 @@ bool Hypotheses::contradicted_by(const StartingPoint& point) const {
 
 bool Hypotheses::closed() const {
   // Stray edges may make a false fix, even twice.
-  return is_only_one_ || (!all_.empty() && !provisional_ && published().eliminated_another &&
-                          published().fixes >= 5 &&
-                          std::all_of(all_.begin() + 1, all_.end(),
-                                      [](const Hypothesis& other) { return other.late; }));
+  return !all_.empty() && !provisional_ && published().eliminated_another &&
+         published().fixes >= 5 &&
+         std::all_of(all_.begin() + 1, all_.end(),
+                     [](const Hypothesis& other) { return other.late; });
 }
 
 /// Where all fixes are near-tangent the edges must fit as well, since filters that began to one
@@ -92,7 +89,6 @@ bool Hypotheses::try_start(const StartingPoint& point, const SpinConfig& config,
   }
   all_.push_back(std::move(added));
   settled_ = false;
-  is_only_one_ = false;
   return true;
 }
 
@@ -120,22 +116,6 @@ void Hypotheses::settle_at(const StartingPoint& point) {
     std::swap(all_.front(), *chosen);
     all_.erase(all_.begin() + 1, all_.end());
     settled_ = true;
-  }
-}
-
-void Hypotheses::settle_by_search(const Eigen::Vector3d& only_icrf) {
-  const auto off_rad = [&](const Hypothesis& hypothesis) {
-    return angle_between_rad(hypothesis.filter.axis_icrf(), only_icrf);
-  };
-  std::vector<Hypothesis> near;
-  std::copy_if(all_.begin(), all_.end(), std::back_inserter(near),
-               [&](const Hypothesis& hypothesis) { return off_rad(hypothesis) < kNear_rad; });
-  if (near.size() == 1 &&
-      off_rad(near.front()) <
-          kPriorSigmas * std::sqrt(near.front().filter.total_covariance_rad2().trace())) {
-    all_ = std::move(near);
-    is_only_one_ = true;
-    provisional_ = false;
   }
 }
 

@@ -44,13 +44,11 @@ class Hypotheses {
   bool provisional() const { return provisional_; }
   /// Returns whether one candidate is left, chosen by a fix or by the edges.
   bool settled() const { return (settled_ || closed()) && all_.size() == 1; }
-  /// Returns whether the edges chose the last candidate, among candidates that several fixes named
-  /// or that the whole sky has.
+  /// Returns whether the edges chose the last candidate, among candidates that several fixes named.
   bool settled_by_edges() const { return closed() && all_.size() == 1; }
 
   /// Returns whether the published candidate has eliminated all that joined before its first
-  /// elimination, or is the only one in the sky, so that no more may join; false candidates of
-  /// later fixes would do so endlessly.
+  /// elimination, so that no more may join; false candidates of later fixes would do so endlessly.
   bool closed() const;
 
   /// Returns the candidates, likeliest first, but with the prior's candidate in front until the
@@ -86,9 +84,6 @@ class Hypotheses {
 
   /// Keeps only the candidate that a fix names, unless the fix contradicts all candidates.
   void settle_at(const StartingPoint& point);
-  /// Keeps only the candidate at the one axis in the sky that explains the edges. If none is there,
-  /// or several are near, filters have converged beside the axis, and all are kept.
-  void settle_by_search(const Eigen::Vector3d& only_icrf);
   /// Publishes the candidate that a prior names, but keeps the others until the edges decide.
   void prefer_at(const StartingPoint& point);
   /// Likewise the candidate that is now within three sigmas of a prior, if it is the only one.
@@ -106,8 +101,6 @@ class Hypotheses {
   std::vector<Hypothesis> all_;
   bool provisional_;
   bool settled_ = false;
-  bool is_only_one_ =
-      false;  ///< True if a search of the whole sky has left only the published one.
   std::optional<Rival> eliminated_;
 };
 

@@ -72,12 +72,6 @@ std::optional<SpinEstimate> SequentialEstimator::update(const Revolution& revolu
                       .shift_icrf = shift_icrf()};
 }
 
-void SequentialEstimator::settle_by_search(const Eigen::Vector3d& only_icrf) {
-  const bool by_prior = hypotheses_.published().preferred_by_prior;
-  hypotheses_.settle_by_search(only_icrf);
-  prior_refuted_ = prior_refuted_ || (by_prior && !hypotheses_.published().preferred_by_prior);
-}
-
 /// @return True when filters began here.
 bool SequentialEstimator::apply_fix(const SpinFix& fix, const Revolution& revolution,
                                     const Sky& sky) {

@@ -20,7 +20,7 @@
 ///                further candidates, listed as alternates of the fixes. FixesNearTangent
 ///                means that nearly all fixes are: where two branches touch, candidates are off by
 ///                more than their covariances and many fixes lack the true axis, so that perhaps no
-///                filter follows it. A search of the whole sky settles it
+///                filter follows it
 ///     DOUBTFUL   the edges scatter more than their noise, or show model errors beyond their
 ///                allowance or half a degree, which the covariance then covers (smaller errors are
 ///                covered, too, with quality OK and "model off"); or most edges of the named
@@ -34,6 +34,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "pipelines/observation/ledger.h"
 #include "pipelines/spin/mean/model_check.h"
@@ -57,14 +58,6 @@ class SequentialEstimator {
   /// @return The estimate at the revolution's start; empty until the first fix.
   std::optional<SpinEstimate> update(const Revolution& revolution, const Sky& sky,
                                      std::span<const SpinFix> settled);
-
-  /// Returns whether the axes of all filters are from near-tangent fixes, so that the true axis may
-  /// not be among them.
-  bool may_lack_the_axis() const { return hypotheses_.provisional() && !hypotheses_.empty(); }
-
-  /// Settles on the only axis in the sky that explains the edges, if a filter follows it. There
-  /// must be filters.
-  void settle_by_search(const Eigen::Vector3d& only_icrf);
 
   /// Sets the noise of the edges to come and the grid of their times.
   void hear(const PulseNoise& noise) { config_.noise = noise; }

@@ -316,11 +316,8 @@ TEST(SpinPass, SaysInTheEndWhichChannelsWereSilentThroughout) {
 
 TEST(SpinPass, SaysInTheEndWhyThereIsNoMeanAndWhyThePriorDoesNotSettleTheAxis) {
   RecordedPass pass = recorded_pass("north-only");
-  // The edges of two minutes do not settle the axis.
-  const TaiTime start = shifted(pass.pulses.front().t, 480.0);
-  std::erase_if(pass.pulses, [&](const Pulse& pulse) {
-    return pulse.channel == PulseChannel::Sun2 || pulse.t < start;
-  });
+  std::erase_if(pass.pulses,
+                [](const Pulse& pulse) { return pulse.channel == PulseChannel::Sun2; });
   pass.config.prior = SpinPrior{.axis_icrf = -pass.true_axis_icrf, .sigma_rad = kRadPerDeg};
   const SpinOutput output = run(pass);
   const auto fixes = all_of<SpinFix>(output);
@@ -399,35 +396,6 @@ TEST(SpinPass, ARootIsChosenAmongTheFollowedAxesAndNotAmongGrazingFixes) {
   EXPECT_GT(ok, 35);
   EXPECT_FALSE(testing::has(chosen.notices, NoticeCode::RootFarFromAll));
   EXPECT_TRUE(testing::has(refused.notices, NoticeCode::RootFarFromAll));
-}
-
-TEST(SpinPass, WhereAllFixesGrazeTheOnlyAxisInTheSkyThatExplainsTheEdgesSettlesIt) {
-  const GrazingPass pass{300.0};
-  const SpinOutput output = pass.run_with(std::nullopt);
-  const SpinEstimate settled = sequential_of(output);
-  EXPECT_EQ(settled.assessment.quality, Quality::Ok);
-  EXPECT_LT(error_rad(pass, settled), 3.0 * sigma_rad(settled));
-  EXPECT_EQ(all_of<AxisChoice>(output).back().settled_by, SettledBy::Edges);
-}
-
-/// The excluded channels leave grazing fixes only, and the manoeuvre leaves only these.
-TEST(SpinPass, AManoeuvreMarkedAfterExclusionsIsSettledAgain) {
-  const RecordedPass pass = recorded_pass("nominal");
-  const TaiTime began = pass.pulses.front().t;
-  using enum PulseChannel;
-  for (const std::set<PulseChannel>& excluded : {std::set{Sun2}, std::set{Sun2, NorthIn}}) {
-    SpinPass spin{pass.config, pass.orbit};
-    for (const PulseChannel channel : excluded) {
-      spin.act(shifted(began, 100.0), ExcludeChannel<PulseChannel>{channel});
-    }
-    spin.act(shifted(began, 150.0), MarkManoeuvre{});
-    std::vector<Pulse> pulses = pass.pulses;
-    std::erase_if(pulses,
-                  [&](const Pulse& pulse) { return seconds_between(began, pulse.t) > 300.0; });
-    const SpinEstimate settled = sequential_of(run(std::move(spin), pulses));
-    EXPECT_EQ(settled.assessment.quality, Quality::Ok);
-    EXPECT_LT(error_rad(pass, settled), 3.0 * sigma_rad(settled));
-  }
 }
 
 TEST(SpinPass, ARootFarFromAllCandidatesIsNotTakenAndTheNearestIsNamed) {
