@@ -54,6 +54,7 @@ ConditionChanges ChannelPresence::evaluate(const Pulse& edge, std::span<const Ax
     Channel& one = channels_[i];
     if (channel == edge.channel) {
       one.was_in_view = true;
+      one.has_come = true;
       one.of_others = {};
     } else {
       ++one.of_others.at(index_of(edge.channel));
@@ -67,17 +68,18 @@ ConditionChanges ChannelPresence::evaluate(const Pulse& edge, std::span<const Ax
   return changes;
 }
 
-/// Restarts the count when a channel comes into view. A chord has two ends, and where slit 2 sees
-/// the Sun, slit 1 does: whatever the axis. An axis that hides the other slit or the other end of
-/// the chord, which comes, is not the true one.
+/// Restarts the count when a channel comes into view. Where slit 2 sees the Sun, slit 1 does,
+/// whatever the axis. An axis that hides the other slit or the other end of the chord, which comes,
+/// is not the true one.
 bool ChannelPresence::is_silent(PulseChannel channel, TaiTime t, std::span<const AxisSeen> axes) {
   if (missed(channel) <= limit_) {
     return false;
   }
   Channel& one = channels_[index_of(channel)];
   const PulseChannel partner = partner_of(channel);
-  const bool partner_comes = missed(partner) <= 0.5 * limit_;
-  if (partner_comes && channel != PulseChannel::Sun2) {
+  const bool partner_comes =
+      channels_[index_of(partner)].has_come && missed(partner) <= 0.5 * limit_;
+  if (partner_comes && channel == PulseChannel::Sun1) {
     return true;
   }
   if (axes.empty()) {
@@ -95,6 +97,7 @@ bool ChannelPresence::is_silent(PulseChannel channel, TaiTime t, std::span<const
   }
   const bool is_silent = std::exchange(one.was_in_view, in_view) && in_view;
   if (!is_silent) {
+    one.has_come = false;
     one.of_others = {};
   }
   return is_silent;

@@ -26,7 +26,8 @@ struct AxisSeen {
 
 /// Watches all channels. A channel is silent if it gives no edge during a number of edges of
 /// another channel, be it from the start, while by every axis that may be true it should cross the
-/// Earth's disc or see the Sun, with a margin of one degree and three sigma.
+/// Earth's disc or see the Sun, with a margin of one degree and three sigma. Slit 1
+/// should see the Sun, whatever the axis, where slit 2 does.
 class ChannelPresence {
  public:
   ChannelPresence(SpinConfig config, Orbit orbit, int silent_revolutions);
@@ -43,6 +44,7 @@ class ChannelPresence {
   struct Channel {
     ConditionWatch watch;
     bool was_in_view = false;  ///< The channel was in view at its last edge or at the last check.
+    bool has_come = false;     ///< An edge came since the count was restarted.
     std::array<int, kPulseChannels> of_others = {};  ///< Edges of each other channel since then.
   };
   SpinConfig config_;

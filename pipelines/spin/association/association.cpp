@@ -230,16 +230,23 @@ bool Associator::is_of_all_channels(const PulseTrain& comb) const {
                      [&](double period_s) { return !is_another_period(period_s, comb.period_s); });
 }
 
-/// Tells whether more of the other channels have kept to the clock than have left it while the
-/// reference gave the edges of the comb: then the reference is wrong, not the rate.
-bool Associator::others_keep_to_the_clock(const PulseTrain& comb) const {
+/// Tells whether, of the other channels that would notice it if the body was as far off the clock,
+/// more have kept to the clock than have left it while the reference gave the edges of the comb:
+/// then the reference is wrong, not the rate. Nearer to its place than a copy may be, it may be of
+/// another receiver.
+/// @param off_turns How far the last edge of the reference, at `phase_turns`, is off.
+bool Associator::others_keep_to_the_clock(const PulseTrain& comb, double off_turns,
+                                          double phase_turns) const {
+  const double clock_sigma = clock_sigma_turns(phase_turns);
   int keep = 0;
   for (const PulseChannel channel : kChannels) {
-    if (channel != reference_ && phases_.knows(channel)) {
+    if (channel != reference_ && phases_.knows(channel) &&
+        off_turns > 2.0 * config_.screening.sigma *
+                        phases_.sigma_turns(channel, phase_turns, clock_sigma)) {
       keep += phases_.in_a_row(channel) >= static_cast<int>(comb.edges) ? 1 : -1;
     }
   }
-  return keep > 0;
+  return off_turns > kCopies_turns && keep > 0;
 }
 
 /// Tells whether an edge of the reference at `t` lies within the limits of its expectation.
@@ -266,7 +273,7 @@ void Associator::restart_after_step(const Pulse& pulse) {
   const double noise_s = edge_sigma_s(config_.noise, reference_);
   rate_step_.add(pulse.t, is_good_reference(pulse));
   const auto comb = rate_step_.new_pulse_train(clock_->scale() * noise_s, clock_->period_s());
-  if (!comb || others_keep_to_the_clock(*comb) ||
+  if (!comb || others_keep_to_the_clock(*comb, std::abs(phase - expected - turn), phase) ||
       (is_another_period(comb->period_s, clock_->period_s()) && !is_of_all_channels(*comb))) {
     return;
   }

@@ -84,7 +84,7 @@ class Associator {
   std::vector<Pulse> telling_edges();
   void note_recent(const Pulse& pulse);
   bool is_of_all_channels(const PulseTrain& comb) const;
-  bool others_keep_to_the_clock(const PulseTrain& comb) const;
+  bool others_keep_to_the_clock(const PulseTrain& comb, double off_turns, double phase_turns) const;
   bool lies_within(double most_turns, double turn, TaiTime t) const;
   bool is_good_reference(const Pulse& pulse) const;
   void restart_after_step(const Pulse& pulse);

@@ -94,8 +94,6 @@ inline std::vector<Fault> spin_faults() {
       {"sun1 dead", silent("sun1"), spinner, dead(of({Sun1})), 15.0},
       {"sun2 dead", silent("sun2"), spinner, dead(of({Sun2})), 15.0},
       {"sun1 dead from the start", silent("sun1"), spinner, dead(of({Sun1})), 15.0, whole, false},
-      {"south_out dead from the start", silent("south_out"), spinner, dead(of({SouthOut})), 15.0,
-       whole, false},
       {"north beam dead", silent("north_in"), spinner, dead(of({NorthIn, NorthOut})), 15.0},
       {"south beam dead", silent("south_in"), spinner, dead(of({SouthIn, SouthOut})), 15.0},
       {"north_out dead", silent("north_out"), spinner, dead(of({NorthOut})), 15.0},

@@ -274,6 +274,11 @@ TEST_F(SpinConditionsTest, RaiseAChannelThatIsDeadFromTheStart) {
   }
 }
 
+TEST_F(SpinConditionsTest, RaiseADeadSlit1WithoutAnAxisWhereSlit2SeesTheSun) {
+  EXPECT_EQ(give_turns(pass_, 0, 10, Sun1), Keys{});
+  EXPECT_EQ(give_turns(pass_, 10, 12, Sun1), Keys{"channel.silent:sun1"});
+}
+
 TEST_F(SpinConditionsTest, ExpectABeamThatHasNeverComeWhateverTheMissionSaysOfItsHealth) {
   for (const bool healthy : {false, true}) {
     SpinConfig mission = config();

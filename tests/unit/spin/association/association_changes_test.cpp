@@ -128,6 +128,28 @@ TEST(Association, AStepInTheSpinRateIsFollowed) {
   }
 }
 
+/// The other channels keep to the clock.
+TEST(Association, AStepOfSun1AloneIsNoneInTheSpinRate) {
+  for (const auto& [late, step] : {std::pair{0.0, -0.013}, std::pair{0.08, 0.0}}) {
+    SCOPED_TRACE(step);
+    std::vector<Pulse> pulses;
+    for (const MadeEdge& edge : made({.turns = 200})) {
+      pulses.push_back(edge.pulse);
+      if (edge.turn >= 100 && edge.pulse.channel == Sun1) {
+        pulses.back().t = shifted(edge.pulse.t, (late + step * (edge.turn - 100)) * kPeriod_s);
+      }
+    }
+    std::ranges::sort(pulses);
+    const Association all = associate(pulses);
+    EXPECT_NEAR(all.closed.back().period.period_s, kPeriod_s, 1e-3);
+    int chords = 0;
+    for (const Revolution& revolution : all.closed) {
+      chords += revolution.good_edge(NorthIn) && revolution.good_edge(SouthOut) ? 1 : 0;
+    }
+    EXPECT_GE(chords, 195);
+  }
+}
+
 /// The edges before and after the time step lie a third of a turn apart and overlap.
 TEST(Association, AStepBackInTimeIsNoStepInTheSpinRate) {
   for (const double fraction_turns : {1.0 / 4.0, 1.0 / 3.0, 2.0 / 5.0, 2.0 / 3.0}) {
