@@ -31,10 +31,12 @@ class AlertRows : public testing::ArchiveFixture {
     goes_on.continuation.emplace();
     desk_->evaluate(goes_on);
     desk_->note_stored({&goes_on, 1});
-    for (const StoredAlert& stored : find_alerts(path()).value()) {
+    const auto alerts = find_alerts(path()).value();
+    for (const StoredAlert& stored : alerts) {
       desk_->take_up(stored.spacecraft, stored.run_id, stored.alert);
     }
-    for (const auto& [spacecraft, t] : find_transitions(path(), RunMode::Live).value()) {
+    const auto transitions = find_transitions(path(), RunMode::Live).value();
+    for (const auto& [spacecraft, t] : transitions) {
       desk_->take_up_transition(spacecraft, t);
     }
   }

@@ -1,7 +1,6 @@
 #include "pipelines/spin/types/sensor_biases.h"
 
 #include <array>
-#include <cmath>
 
 #include "pipelines/frames/angle.h"
 
@@ -35,7 +34,7 @@ const BiasRange& range_of(SensorBias bias) { return kRanges.at(static_cast<std::
 SensorBiases range_sigmas() {
   SensorBiases sigmas;
   for (int i = 0; i < kSensorBiases; ++i) {
-    sigmas[i] = range_of(static_cast<SensorBias>(i)).bound / std::sqrt(3.0);
+    sigmas[i] = 0.1 * range_of(static_cast<SensorBias>(i)).bound;
   }
   return sigmas;
 }

@@ -39,8 +39,7 @@ struct BiasRange {
 };
 const BiasRange& range_of(SensorBias bias);
 
-/// Returns the sigmas of biases of which nothing is known but that they lie, evenly spread, within
-/// their bounds.
+/// Returns the sigmas of biases of which nothing is known but their bounds: a tenth of them.
 SensorBiases range_sigmas();
 
 }  // namespace spindrift

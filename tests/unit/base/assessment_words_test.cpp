@@ -37,7 +37,7 @@ TEST(AssessmentWords, NameTheWrongSensor) {
 
 TEST(AssessmentWords, CallNoSensorWrongWhereNothingTellsWhich) {
   EXPECT_EQ(sentence_of({Quality::Doubtful, {{Contradicted, {{"sensor", "unknown"}}}}}),
-            "DOUBTFUL, sensors contradict");
+            "DOUBTFUL, sensors disagree");
 }
 
 TEST(AssessmentWords, CountOneOfAThing) {
