@@ -104,6 +104,7 @@ ConditionChanges AttitudeConditions::evaluate(const AttitudeEstimate& estimate) 
 
 ConditionChanges AttitudeConditions::settle() {
   ConditionChanges changes = await_answer({});
+  std::ranges::move(sensors_.settle(), std::back_inserter(changes));
   if (last_) {
     lost_.end();
     doubtful_.end();
@@ -111,6 +112,11 @@ ConditionChanges AttitudeConditions::settle() {
     const TaiTime t = *last_ + std::chrono::nanoseconds{1};
     add(lost_.update(t, quality_ == Quality::Lost, quality_), changes);
     add(doubtful_.update(t, quality_ == Quality::Doubtful), changes);
+    // One window outside the band may be noise, so that the last one alone raises nothing.
+    if (percent_ && *percent_ < diverged_percent_) {
+      diverged_.end();
+      add(diverged_.update(t, {.value = *percent_, .limit = diverged_percent_}), changes);
+    }
   }
   return changes;
 }
@@ -135,9 +141,11 @@ std::optional<ConditionChange> AttitudeConditions::see_innovations(
     sum.squared += one.innovations.squared;
     sum.freedom += one.innovations.freedom;
   }
-  return sum.freedom == 0 ? std::nullopt
-                          : diverged_.update(estimate.t, {.value = percent_nearer(sum),
-                                                          .limit = diverged_percent_});
+  if (sum.freedom == 0) {
+    return std::nullopt;
+  }
+  percent_ = percent_nearer(sum);
+  return diverged_.update(estimate.t, {.value = *percent_, .limit = diverged_percent_});
 }
 
 ConditionChanges AttitudeConditions::evaluate(const ReconstructedSeparation& separation) {

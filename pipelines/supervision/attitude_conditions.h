@@ -41,8 +41,8 @@ class AttitudeConditions {
   ConditionChanges evaluate(const SampleObservation& observation);
   ConditionChanges evaluate(const ReconstructedSeparation& separation);
 
-  /// Settles the conditions of the answer by the last one, without hold. To be called once, when
-  /// the run has ended.
+  /// Settles the conditions of the answer and of the sensors by the last answer, without hold. To
+  /// be called once, when the run has ended.
   ConditionChanges settle();
 
  private:
@@ -61,6 +61,7 @@ class AttitudeConditions {
   };
   std::deque<Recent> recent_;      ///< Estimates of the last `diverged_s_` seconds.
   std::optional<TaiTime> judged_;  ///< Time of the last test of `recent_`.
+  std::optional<double> percent_;  ///< Result of that test.
   ConditionWatch diverged_;
   LostWatch lost_;
   ConditionWatch doubtful_;

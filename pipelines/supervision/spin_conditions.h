@@ -59,8 +59,8 @@ class SpinConditions {
     return sensors_.evaluate(sensors.t, sensors.contradiction);
   }
 
-  /// Settles the conditions of the answer by the final one, without hold. To be called once, when
-  /// the run has ended.
+  /// Settles the conditions of the answer by the final one, and those of the sensors by their last
+  /// comparison, without hold. To be called once, when the run has ended.
   ConditionChanges settle();
 
  private:
