@@ -34,7 +34,7 @@ struct Mission {
   std::set<std::string> tables;                      ///< Non-empty tables, "three_axis.gyro".
   std::vector<std::string> orbit_doubts;             ///< Orbit file sentences (mission_orbit.h).
   AlertLimits alerts = {};
-  TomlValues alert_values = {};  ///< Values of [alerts], of which `alerts` is made.
+  TomlValues alert_values = {};  ///< Values that `alerts` is made of.
   std::optional<SpinTarget> target = {};
   std::optional<Contact> contact = {};
   std::string preferred_source = {};                       ///< Value of [sources] prefer, or empty.

@@ -17,6 +17,7 @@ namespace spindrift {
 namespace {
 
 constexpr std::string_view kAlerts = "alerts.";
+constexpr std::string_view kHostWithin = "time.host_within_s";
 
 ShareLimit share_limit(const TomlValues& values, const std::string& table) {
   return {.percent = number(values, table + ".percent"),
@@ -40,8 +41,9 @@ std::string limit_path(std::string_view key, std::string_view name) {
 
 TomlValues alert_values(const TomlValues& values) {
   TomlValues all;
-  std::copy_if(values.begin(), values.end(), std::inserter(all, all.end()),
-               [](const auto& value) { return value.first.starts_with(kAlerts); });
+  std::copy_if(values.begin(), values.end(), std::inserter(all, all.end()), [](const auto& value) {
+    return value.first.starts_with(kAlerts) || value.first == kHostWithin;
+  });
   return all;
 }
 
@@ -78,7 +80,7 @@ AlertLimits alert_limits(const TomlValues& values) {
       .backlog_s = number(values, "alerts.archive.backlog.seconds"),
       .disk_gib = number(values, "alerts.archive.disk.gib"),
       .log_mib = number(values, "alerts.archive.log.mib"),
-      .host_within_s = number(values, "time.host_within_s"),
+      .host_within_s = number(values, kHostWithin),
       .clock_jump_s = number(values, "alerts.clock.jump.seconds"),
       .hold_off_s = hold_offs_s(values)};
 }

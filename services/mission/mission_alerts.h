@@ -13,10 +13,10 @@
 
 namespace spindrift {
 
-/// @param values Values of a mission file without problems, or those of its [alerts].
+/// @param values Values of a mission file without problems, or its `alert_values`.
 AlertLimits alert_limits(const TomlValues& values);
 
-/// Returns the values of [alerts] alone.
+/// Returns the values that `alert_limits` are made of.
 TomlValues alert_values(const TomlValues& values);
 
 /// Returns the place of a limit among the values, such as "alerts.spin.sigma.deg".
