@@ -77,6 +77,14 @@ void AttitudeConditions::set_limits(const AlertLimits& limits) {
   views_.set_silent_s(limits.silent_s);
 }
 
+void AttitudeConditions::take_up(AlertCode code, const std::string& about) {
+  if (code == AlertCode::SensorContradicts) {
+    sensors_.take_up(about);
+  } else if (code == AlertCode::SensorStuck) {
+    stuck_.take_up(about);
+  }
+}
+
 ConditionChanges AttitudeConditions::evaluate(const RejectedSample& sample) {
   views_.see_sample(sample.kind, sample.t);
   return stuck_.see_left_out(sample);

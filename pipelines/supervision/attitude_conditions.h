@@ -5,6 +5,7 @@
 
 #include <deque>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "pipelines/reconstruction/separation.h"
@@ -30,6 +31,9 @@ class AttitudeConditions {
   /// Sets the limits of what is evaluated from now on. What has been evaluated is not forgotten, so
   /// that limits may change to and fro with the times of what comes next.
   void set_limits(const AlertLimits& limits);
+
+  /// Takes up the alert of a run before that is open, if only a watch for it can end it.
+  void take_up(AlertCode code, const std::string& about);
 
   ConditionChanges evaluate(SampleKind kind, TaiTime t) { return kinds_.evaluate(kind, t); }
   /// Awaits an answer of samples: of those given before, if their answers have come by now. To be

@@ -20,6 +20,8 @@ class SensorConditions {
   void set_limits(const AlertLimits& limits) { limit_sigmas_ = limits.contradicts_sigmas; }
   /// @param found Contradiction at `t`; empty if there is none.
   ConditionChanges evaluate(TaiTime t, const std::optional<SensorContradiction>& found);
+  /// Takes up the open alert about a culprit, which ends if the culprit is not found any more.
+  void take_up(const std::string& culprit) { culprits_.try_emplace(culprit, culprit); }
   /// Settles the conditions by what was found last, without hold.
   ConditionChanges settle();
 

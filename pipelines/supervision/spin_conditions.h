@@ -11,6 +11,7 @@
 #include <optional>
 #include <set>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "pipelines/spin/batch/batch_solution.h"
@@ -45,6 +46,12 @@ class SpinConditions {
   }
   /// Notes that the computation of the run failed.
   void note_fault() { answers_.note_fault(); }
+  /// Takes up the alert of a run before that is open, if only a watch for it can end it.
+  void take_up(AlertCode code, const std::string& about) {
+    if (code == AlertCode::SensorContradicts) {
+      sensors_.take_up(about);
+    }
+  }
   /// Returns the target as of the last estimate.
   const std::optional<SpinTarget>& target() const { return target_; }
   const std::optional<SpinAnswer>& in_force() const { return answers_.in_force(); }
