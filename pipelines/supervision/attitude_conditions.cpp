@@ -77,6 +77,14 @@ void AttitudeConditions::set_limits(const AlertLimits& limits) {
   views_.set_silent_s(limits.silent_s);
 }
 
+void AttitudeConditions::take_up(AlertCode code, const std::string& about) {
+  if (code == AlertCode::SensorContradicts) {
+    sensors_.take_up(about);
+  } else if (code == AlertCode::SensorStuck) {
+    stuck_.take_up(about);
+  }
+}
+
 ConditionChanges AttitudeConditions::evaluate(const RejectedSample& sample) {
   views_.see_sample(sample.kind, sample.t);
   return stuck_.see_left_out(sample);
@@ -104,6 +112,7 @@ ConditionChanges AttitudeConditions::evaluate(const AttitudeEstimate& estimate) 
 
 ConditionChanges AttitudeConditions::settle() {
   ConditionChanges changes = await_answer({});
+  std::ranges::move(sensors_.settle(), std::back_inserter(changes));
   if (last_) {
     lost_.end();
     doubtful_.end();
@@ -111,6 +120,11 @@ ConditionChanges AttitudeConditions::settle() {
     const TaiTime t = *last_ + std::chrono::nanoseconds{1};
     add(lost_.update(t, quality_ == Quality::Lost, quality_), changes);
     add(doubtful_.update(t, quality_ == Quality::Doubtful), changes);
+    // One window outside the band may be noise, so that the last one alone raises nothing.
+    if (percent_ && *percent_ < diverged_percent_) {
+      diverged_.end();
+      add(diverged_.update(t, {.value = *percent_, .limit = diverged_percent_}), changes);
+    }
   }
   return changes;
 }
@@ -135,9 +149,11 @@ std::optional<ConditionChange> AttitudeConditions::see_innovations(
     sum.squared += one.innovations.squared;
     sum.freedom += one.innovations.freedom;
   }
-  return sum.freedom == 0 ? std::nullopt
-                          : diverged_.update(estimate.t, {.value = percent_nearer(sum),
-                                                          .limit = diverged_percent_});
+  if (sum.freedom == 0) {
+    return std::nullopt;
+  }
+  percent_ = percent_nearer(sum);
+  return diverged_.update(estimate.t, {.value = *percent_, .limit = diverged_percent_});
 }
 
 ConditionChanges AttitudeConditions::evaluate(const ReconstructedSeparation& separation) {

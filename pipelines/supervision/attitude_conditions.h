@@ -5,6 +5,7 @@
 
 #include <deque>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "pipelines/reconstruction/separation.h"
@@ -31,6 +32,9 @@ class AttitudeConditions {
   /// that limits may change to and fro with the times of what comes next.
   void set_limits(const AlertLimits& limits);
 
+  /// Takes up the alert of a run before that is open, if only a watch for it can end it.
+  void take_up(AlertCode code, const std::string& about);
+
   ConditionChanges evaluate(SampleKind kind, TaiTime t) { return kinds_.evaluate(kind, t); }
   /// Awaits an answer of samples: of those given before, if their answers have come by now. To be
   /// called with the samples as they come.
@@ -41,8 +45,8 @@ class AttitudeConditions {
   ConditionChanges evaluate(const SampleObservation& observation);
   ConditionChanges evaluate(const ReconstructedSeparation& separation);
 
-  /// Settles the conditions of the answer by the last one, without hold. To be called once, when
-  /// the run has ended.
+  /// Settles the conditions of the answer and of the sensors by the last answer, without hold. To
+  /// be called once, when the run has ended.
   ConditionChanges settle();
 
  private:
@@ -61,6 +65,7 @@ class AttitudeConditions {
   };
   std::deque<Recent> recent_;      ///< Estimates of the last `diverged_s_` seconds.
   std::optional<TaiTime> judged_;  ///< Time of the last test of `recent_`.
+  std::optional<double> percent_;  ///< Result of that test.
   ConditionWatch diverged_;
   LostWatch lost_;
   ConditionWatch doubtful_;

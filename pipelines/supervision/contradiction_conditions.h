@@ -25,6 +25,9 @@ class ContradictionConditions {
   /// Sets the limits of what is evaluated from now on.
   void set_limits(const AlertLimits& limits) { limit_samples_ = limits.contradicted_samples; }
 
+  /// Takes up the open alert about a source, which ends if nothing contradicts the source.
+  void take_up(const std::string& source) { sources_.try_emplace(source, source); }
+
   /// Counts a contradiction, whose senders must be named.
   ConditionChanges evaluate(const SampleContradiction& contradiction);
   /// Advances telemetry time to `t`.

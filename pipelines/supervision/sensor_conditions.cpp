@@ -1,5 +1,6 @@
 #include "pipelines/supervision/sensor_conditions.h"
 
+#include <chrono>
 #include <utility>
 
 namespace spindrift {
@@ -10,28 +11,48 @@ constexpr Holding kUnknown{.raise_s = 10.0, .clear_s = 30.0};
 // A wrong gyro shows in slews only.
 constexpr Holding kNamed{.raise_s = 0.0, .clear_s = 30.0};
 
+/// Adds what is known of the contradiction, also while its condition clears.
+void describe(const SensorContradiction& last, ConditionChange& change) {
+  change.who = opponents_text(last);
+  change.evidence.since = last.since;
+  change.evidence.more = {last.off, {"sigma", last.sigmas}, {"with", opponents_of(last)}};
+}
+
 }  // namespace
+
+SensorConditions::Culprit::Culprit(const std::string& name)
+    : watch{AlertCode::SensorContradicts, "sigma", name == kUnknownCulprit ? kUnknown : kNamed,
+            name} {}
 
 ConditionChanges SensorConditions::evaluate(TaiTime t,
                                             const std::optional<SensorContradiction>& found) {
-  const std::string culprit = found ? culprit_name_of(*found) : std::string{};
+  judged_ = t;
+  now_ = found;
+  const std::string name_found = found ? culprit_name_of(*found) : std::string{};
   if (found) {
-    watches_.try_emplace(culprit, AlertCode::SensorContradicts, "sigma",
-                         found->culprit ? kNamed : kUnknown, culprit);
+    culprits_.try_emplace(name_found, name_found).first->second.last = found;
   }
   ConditionChanges changes;
-  for (auto& [name, watch] : watches_) {
-    const bool is_it = name == culprit;
-    auto change = watch.update(t, {.value = is_it ? found->sigmas : 0.0, .limit = limit_sigmas_});
-    if (change && is_it) {
-      change->who = opponents_text(*found);
-      change->evidence.since = found->since;
-      change->evidence.more = {
-          found->off, {"sigma", found->sigmas}, {"with", opponents_of(*found)}};
+  for (auto& [name, culprit] : culprits_) {
+    auto change = culprit.watch.update(
+        t, {.value = name == name_found ? found->sigmas : 0.0, .limit = limit_sigmas_});
+    if (change && change->change != Change::Cleared && culprit.last) {
+      describe(*culprit.last, *change);
     }
     add(std::move(change), changes);
   }
   return changes;
+}
+
+ConditionChanges SensorConditions::settle() {
+  if (!judged_) {
+    return {};
+  }
+  for (auto& [name, culprit] : culprits_) {
+    culprit.watch.end();
+  }
+  // Behind all that was judged, since a change at the time of another would be taken for known.
+  return evaluate(*judged_ + std::chrono::nanoseconds{1}, std::optional{now_});
 }
 
 }  // namespace spindrift

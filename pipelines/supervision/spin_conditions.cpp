@@ -202,7 +202,7 @@ void SpinConditions::evaluate_disagreement(TaiTime t, ConditionChanges& changes)
 }
 
 ConditionChanges SpinConditions::settle() {
-  ConditionChanges changes;
+  ConditionChanges changes = sensors_.settle();
   const auto& answer = answers_.in_force();
   if (!answer) {
     return changes;

@@ -11,6 +11,7 @@
 #include <optional>
 #include <set>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "pipelines/spin/batch/batch_solution.h"
@@ -45,6 +46,12 @@ class SpinConditions {
   }
   /// Notes that the computation of the run failed.
   void note_fault() { answers_.note_fault(); }
+  /// Takes up the alert of a run before that is open, if only a watch for it can end it.
+  void take_up(AlertCode code, const std::string& about) {
+    if (code == AlertCode::SensorContradicts) {
+      sensors_.take_up(about);
+    }
+  }
   /// Returns the target as of the last estimate.
   const std::optional<SpinTarget>& target() const { return target_; }
   const std::optional<SpinAnswer>& in_force() const { return answers_.in_force(); }
@@ -59,8 +66,8 @@ class SpinConditions {
     return sensors_.evaluate(sensors.t, sensors.contradiction);
   }
 
-  /// Settles the conditions of the answer by the final one, without hold. To be called once, when
-  /// the run has ended.
+  /// Settles the conditions of the answer by the final one, and those of the sensors by their last
+  /// comparison, without hold. To be called once, when the run has ended.
   ConditionChanges settle();
 
  private:

@@ -1,8 +1,19 @@
 #include "pipelines/supervision/stuck_sensors.h"
 
+#include <cstddef>
+
 #include "pipelines/time/time_span.h"
 
 namespace spindrift {
+
+void StuckSensors::take_up(std::string_view sensor) {
+  for (std::size_t i = 0; i < kSampleKinds; ++i) {
+    const auto kind = static_cast<SampleKind>(i);
+    if (name_of(kind) == sensor) {
+      sensors_.try_emplace(kind, kind);
+    }
+  }
+}
 
 ConditionChanges StuckSensors::see_left_out(const RejectedSample& sample) {
   ConditionChanges changes;

@@ -5,6 +5,7 @@
 
 #include <map>
 #include <string>
+#include <string_view>
 
 #include "pipelines/supervision/condition_watch.h"
 #include "pipelines/three_axis/products.h"
@@ -17,6 +18,8 @@ class StuckSensors {
   explicit StuckSensors(double limit_s) : limit_s_{limit_s} {}
 
   void set_limit_s(double limit_s) { limit_s_ = limit_s; }
+  /// Takes up the open alert about a sensor, which ends if the sensor does not repeat itself.
+  void take_up(std::string_view sensor);
   ConditionChanges see_left_out(const RejectedSample& sample);
   /// @param t Time of an answer, to which all samples before it have contributed.
   ConditionChanges see_answer(TaiTime t);

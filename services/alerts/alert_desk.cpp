@@ -146,15 +146,15 @@ AlertDesk::AlertDesk(const std::vector<Mission>& missions, RunMode mode, const G
     : mode_{mode} {
   for (const Mission& mission : missions) {
     const auto model = models.find(mission.spacecraft_id);
-    auto& supervised = desks_[mission.spacecraft_id].supervised;
-    supervised = Supervised{.mission = mission,
-                            .model = model == models.end() ? nullptr : model->second,
-                            .conditions = conditions_of(mission),
-                            .contradictions = ContradictionConditions{mission.alerts},
-                            .comparison = {},
-                            .service = ServiceConditions{mission.alerts, mission.contact},
-                            .limits = LimitsInForce{mission.alert_values}};
-    begin(*supervised);
+    Desk& desk = desks_[mission.spacecraft_id];
+    desk.supervised = Supervised{.mission = mission,
+                                 .model = model == models.end() ? nullptr : model->second,
+                                 .conditions = conditions_of(mission),
+                                 .contradictions = ContradictionConditions{mission.alerts},
+                                 .comparison = {},
+                                 .service = ServiceConditions{mission.alerts, mission.contact},
+                                 .limits = LimitsInForce{mission.alert_values}};
+    begin(desk);
   }
 }
 
@@ -165,8 +165,9 @@ AlertDesk::Conditions AlertDesk::conditions_of(const Mission& mission) {
   return AttitudeConditions{mission.alerts, mission.orbit, *mission.three_axis()};
 }
 
-/// Resets the conditions for a new run.
-void AlertDesk::begin(Supervised& supervised) {
+/// Resets the conditions for a new run, which may end the open alerts.
+void AlertDesk::begin(Desk& desk) {
+  Supervised& supervised = *desk.supervised;
   supervised.conditions = conditions_of(supervised.mission);
   supervised.contradictions = ContradictionConditions{supervised.mission.alerts};
   if (supervised.model) {
@@ -174,6 +175,16 @@ void AlertDesk::begin(Supervised& supervised) {
   }
   supervised.limits = LimitsInForce{supervised.mission.alert_values};
   supervised.in_force = nullptr;
+  for (const Alert& alert : desk.book.open()) {
+    const auto code = code_of(alert.key);
+    const std::string about{about_of(alert.key)};
+    if (code == AlertCode::LinkContradiction) {
+      supervised.contradictions.take_up(about);
+    } else if (code) {
+      std::visit([&](auto& conditions) { conditions.take_up(*code, about); },
+                 supervised.conditions);
+    }
+  }
 }
 
 void AlertDesk::apply(const OperatorAction& action, Supervised& supervised) {
@@ -274,7 +285,7 @@ void AlertDesk::evaluate(ArchiveBatch& batch) {
   if (begins && supervised.run_id != batch.run_id) {
     end(supervised);
     supervised.run_id = batch.run_id;
-    begin(supervised);
+    begin(desk);
   }
   if (supervised.ended && supervised.ended_run == batch.run_id) {
     for (const Product& product : batch.products) {

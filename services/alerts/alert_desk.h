@@ -124,7 +124,7 @@ class AlertDesk {
   };
 
   static Conditions conditions_of(const Mission& mission);
-  static void begin(Supervised& supervised);
+  static void begin(Desk& desk);
   static void end(Supervised& supervised);
   static void apply(const OperatorAction& action, Supervised& supervised);
   static void put_limits_in_force(TaiTime t, Supervised& supervised);

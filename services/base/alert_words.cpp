@@ -9,6 +9,7 @@
 #include <variant>
 
 #include "pipelines/core/shown.h"
+#include "pipelines/observation/sensor_contradiction.h"
 #include "pipelines/time/tai_time.h"
 #include "pipelines/time/utc.h"
 #include "services/base/duration.h"
@@ -91,6 +92,19 @@ constexpr std::array<Words, kAlertCodes> kWords{{
 }};
 static_assert(are_by_code(kWords));
 
+/// Words for a contradiction where nothing tells which of two sensors is wrong.
+constexpr Words kNoCulprit{
+    SensorContradicts,
+    "two sensors contradict each other beyond what the mission file allows, and nothing tells "
+    "which is wrong",
+    "check mounting, signs, units and time tags of both in the mission file"};
+
+const Words& words_for(AlertCode code, std::string_view about) {
+  return code == SensorContradicts && about == kUnknownCulprit
+             ? kNoCulprit
+             : kWords.at(static_cast<std::size_t>(code));
+}
+
 /// Data of limited validity that the service needs.
 struct Ending {
   std::string_view about;
@@ -118,10 +132,11 @@ std::string digits_of(double value, std::string_view unit) {
 
 /// Returns what the alert is about, with the name of the thing if it is about one.
 std::string what_of(AlertCode code, std::string_view about) {
-  const std::string_view what = kWords.at(static_cast<std::size_t>(code)).what;
+  const Words& words = words_for(code, about);
+  const std::string_view what = words.what;
   const std::string thing = shown(std::string{about});
   return what.find("{}") != std::string_view::npos ? fmt::format(fmt::runtime(what), thing)
-         : about.empty()                           ? std::string{what}
+         : about.empty() || &words == &kNoCulprit  ? std::string{what}
                                                    : fmt::format("{} ({})", what, thing);
 }
 
@@ -149,7 +164,7 @@ std::string value_text(const ConditionChange& change) {
 
 std::string_view what_to_do(const ConditionChange& change) {
   const Ending* const ending = ending_of(change.code, change.about);
-  return ending != nullptr ? ending->to_do : kWords.at(static_cast<std::size_t>(change.code)).to_do;
+  return ending != nullptr ? ending->to_do : words_for(change.code, change.about).to_do;
 }
 
 }  // namespace

@@ -141,9 +141,10 @@ bool may_have_effect(const std::string& action, const RunNotice& notice) {
   return ((of_root || of_prior) && action == "choose_root") || (of_prior && action == "set_prior");
 }
 
-/// Keeps the last actions, and all exclusions in force.
+/// Keeps the last actions, and of those before them the exclusions in force.
 void keep_last_and_exclusions(std::size_t most, std::deque<OperatorAction>& actions) {
-  for (auto action = actions.begin(); actions.size() > most && action != actions.end();) {
+  for (auto action = actions.begin();
+       static_cast<std::size_t>(std::distance(action, actions.end())) > most;) {
     const SaysOfUse said = use_by(*action);
     const bool is_in_force =
         said.excludes &&

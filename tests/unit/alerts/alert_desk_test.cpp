@@ -236,6 +236,79 @@ TEST(AlertDesk, GoesOnWithOpenAlertsOfBefore) {
   EXPECT_EQ(changes_in(restarted.silent(-3599.0, 0.1).at(0)), Changes{"link.silent cleared"});
 }
 
+std::vector<std::string> open_keys(const AlertDesk& desk) {
+  std::vector<std::string> keys;
+  for (const OpenAlert& open : desk.open()) {
+    keys.push_back(open.alert.key);
+  }
+  return keys;
+}
+
+/// Gives products to a next run, in this service and in one that was restarted between the runs.
+/// @return The keys of the alerts that are open then.
+std::vector<std::string> open_behind_next_run(const Mission& mission, AlertDesk& before,
+                                              const std::vector<Product>& products) {
+  AlertDesk restarted{{mission}, RunMode::Live};
+  for (const OpenAlert& open : before.open()) {
+    restarted.take_up(open.spacecraft, "run", open.alert);
+  }
+  for (AlertDesk* const desk : {&before, &restarted}) {
+    ArchiveBatch next = beginning(mission.spacecraft_id);
+    next.run_id = "next";
+    next.products = products;
+    desk->evaluate(next);
+  }
+  EXPECT_EQ(open_keys(restarted), open_keys(before));
+  return open_keys(before);
+}
+
+SensorContradiction contradiction_of(SampleSource culprit) {
+  return {
+      .culprit = culprit, .with = {}, .off = {"angle_deg", 2.0}, .sigmas = 20.0, .since = at(0.0)};
+}
+
+TEST(AlertDesk, EndsContradictionsOfTheRunBeforeWhenTheNextHasNone) {
+  Served served;
+  ArchiveBatch pass = batch_of_run();
+  pass.products = {
+      SensorsCompared{.t = at(0.0), .contradiction = contradiction_of(SampleSource::Sun2)},
+      SampleContradiction{.t = at(0.0), .kind = "pulse", .by = {{Sender::First, false, "A"}}}};
+  served.desk.evaluate(pass);
+  const Changes both{"link.contradiction:A", "sensor.contradicts:sun2"};
+  ASSERT_EQ(open_keys(served.desk), both);
+  SpinEstimate answer{.t = at(130.0), .estimator = SpinEstimator::Sequential};
+  answer.axis_icrf = Eigen::Vector3d::UnitZ();
+  answer.covariance_rad2 = 1e-8 * Eigen::Matrix2d::Identity();
+  EXPECT_THAT(open_behind_next_run(spinner(), served.desk,
+                                   {SensorsCompared{.t = at(100.0), .contradiction = {}},
+                                    SensorsCompared{.t = at(130.0), .contradiction = {}}, answer}),
+              IsEmpty());
+}
+
+TEST(AlertDesk, EndsWhatSensorsOfTheRunBeforeDidWhenTheyDoNotInTheNext) {
+  const Mission mission = three_axis();
+  Served served{mission};
+  const auto answer = [](double t_s) {
+    return AttitudeEstimate{.t = at(t_s),
+                            .q_icrf_body = Eigen::Quaterniond::Identity(),
+                            .rate_body_rad_s = std::nullopt,
+                            .covariance_rad2 = 1e-8 * Eigen::Matrix3d::Identity(),
+                            .assessment = {}};
+  };
+  ArchiveBatch pass = batch_of_run(mission.spacecraft_id);
+  for (double t_s = 0.0; t_s < 10.0; t_s += 1.0) {
+    pass.products.emplace_back(
+        RejectedSample{.t = at(t_s), .kind = SampleKind::Star, .rejected_by = Rejection::Frozen});
+  }
+  AttitudeEstimate contradicted = answer(10.0);
+  contradicted.contradiction = contradiction_of(SampleSource::Sun);
+  pass.products.emplace_back(contradicted);
+  served.desk.evaluate(pass);
+  ASSERT_EQ(open_keys(served.desk), (Changes{"sensor.contradicts:sun", "sensor.stuck:star"}));
+  EXPECT_THAT(open_behind_next_run(mission, served.desk, {answer(100.0), answer(130.0)}),
+              IsEmpty());
+}
+
 /// Returns gyro samples once a second and star fixes up to 10 s, of a three-axis spacecraft.
 ArchiveBatch samples_until(int end_s) {
   ArchiveBatch batch = batch_of_run("LEOSAT");

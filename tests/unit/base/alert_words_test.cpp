@@ -91,6 +91,16 @@ TEST(AlertWords, NameTheThingWhoseValueTheyGive) {
   lies.about = "star";
   EXPECT_THAT(sentence_of(lies), StartsWith("a sensor contradicts others beyond what the mission "
                                             "file allows (star): 1.25 deg, limit 5 at "));
+  lies.about = "unknown";
+  lies.who = "star, magnetometer";
+  EXPECT_EQ(sentence_of(lies),
+            "two sensors contradict each other beyond what the mission file allows, and nothing "
+            "tells which is wrong (star, magnetometer): 1.25 deg, limit 5 at "
+            "2026-11-20T03:00:00.000Z: check mounting, signs, units and time tags of both in the "
+            "mission file");
+  EXPECT_EQ(words_of("sensor.contradicts:unknown"),
+            "two sensors contradict each other beyond what the mission file allows, and nothing "
+            "tells which is wrong");
 }
 
 TEST(AlertWords, SayNothingOfTheValueOfAMerePresence) {

@@ -285,7 +285,12 @@ TEST_F(Feed, TellsEveryExclusionThatIsInForce) {
   for (const char* const id : {"1", "2", "3", "4", "5"}) {
     say(id, MarkManoeuvre{});
   }
-  EXPECT_EQ(ids(), "sun2 segment 3 4 5 ");
+  EXPECT_EQ(ids(), "sun2 segment 1 2 3 4 5 ");
+  for (const char* const id : {"a", "b", "c"}) {
+    say(id, ExcludeSegment<PulseChannel>{.from = kT, .to = kT, .channel = {}});
+  }
+  say("6", MarkManoeuvre{});
+  EXPECT_EQ(ids(), "sun2 segment 5 a b c 6 ") << "the newest is told whatever is in force";
 }
 
 TEST(FeedOfThreeAxes, ShowsAttitudeAndRate) {

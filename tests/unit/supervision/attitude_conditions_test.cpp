@@ -62,15 +62,23 @@ TEST_F(AttitudeConditionsTest, RaiseThatStarFixesOverruleTheAttitude) {
   EXPECT_THAT(lost_by(conditions_, estimate(13.0, Quality::Ok)), only(Change::Cleared));
 }
 
-/// Returns the keys raised among the changes.
-std::set<std::string> raised_in(const ConditionChanges& changes) {
-  std::set<std::string> raised;
-  for (const ConditionChange& change : changes) {
-    if (change.change == Change::Raised) {
-      raised.insert(alert_key(change.code, change.about));
+/// Returns the keys that change so.
+std::set<std::string> keys_of(const ConditionChanges& changes, Change change) {
+  std::set<std::string> keys;
+  for (const ConditionChange& one : changes) {
+    if (one.change == change) {
+      keys.insert(alert_key(one.code, one.about));
     }
   }
-  return raised;
+  return keys;
+}
+
+std::set<std::string> raised_in(const ConditionChanges& changes) {
+  return keys_of(changes, Change::Raised);
+}
+
+std::set<std::string> cleared_in(const ConditionChanges& changes) {
+  return keys_of(changes, Change::Cleared);
 }
 
 TEST_F(AttitudeConditionsTest, RaiseAnAttitudeThatIsDoubtfulForHalfAMinute) {
@@ -86,6 +94,19 @@ TEST_F(AttitudeConditionsTest, AreSettledByTheLastAttitude) {
   conditions_.evaluate(estimate(0.0, Quality::Lost));
   conditions_.evaluate(estimate(1.0, Quality::Doubtful));
   EXPECT_EQ(raised_in(conditions_.settle()), std::set<std::string>{"attitude.doubtful"});
+}
+
+TEST_F(AttitudeConditionsTest, SettleAContradictionOfSensors) {
+  AttitudeEstimate contradicted = estimate(0.0, Quality::Ok);
+  contradicted.contradiction = {.culprit = SampleSource::Star,
+                                .with = {SampleSource::Sun},
+                                .off = {"angle_deg", 2.0},
+                                .sigmas = 20.0,
+                                .since = at(0.0)};
+  EXPECT_EQ(raised_in(conditions_.evaluate(contradicted)),
+            std::set<std::string>{"sensor.contradicts:star"});
+  conditions_.evaluate(estimate(1.0, Quality::Ok));
+  EXPECT_EQ(cleared_in(conditions_.settle()).count("sensor.contradicts:star"), 1U);
 }
 
 TEST_F(AttitudeConditionsTest, RaiseThatNoAnswerComesOfFixes) {
@@ -154,6 +175,17 @@ TEST_F(AttitudeConditionsTest, RaiseInnovationsThatAreTooLargeOrTooSmallForTwoMi
     EXPECT_EQ(raised.change, Change::Raised);
     EXPECT_EQ(last_change(conditions, 320.0, 500.0, 1.0)->change, Change::Cleared);
   }
+}
+
+TEST_F(AttitudeConditionsTest, SettleADivergenceThatIsOverAndRaiseNoneOfTheLastWindowAlone) {
+  last_change(conditions_, 0.0, 320.0, 1.2);
+  const auto last = last_change(conditions_, 320.0, 385.0, 1.0);
+  EXPECT_TRUE(!last || last->change == Change::Renewed) << "it is held to be there";
+  EXPECT_EQ(cleared_in(conditions_.settle()).count("attitude.diverged"), 1U);
+
+  AttitudeConditions brief{AlertLimits{}, std::nullopt};
+  EXPECT_FALSE(last_change(brief, 0.0, 100.0, 1.2));
+  EXPECT_EQ(raised_in(brief.settle()).count("attitude.diverged"), 0U);
 }
 
 TEST_F(AttitudeConditionsTest, JudgeNoInnovationsWhereThereAreNone) {

@@ -58,6 +58,38 @@ TEST(SensorConditions, EndHalfAMinuteAfterTheContradiction) {
   EXPECT_EQ(over[0].about, "star");
 }
 
+TEST(SensorConditions, KeepWhatIsKnownWhileTheyClear) {
+  SensorConditions conditions{AlertLimits{}};
+  conditions.evaluate(at_s(0), kStar);
+  const ConditionChanges clearing = conditions.evaluate(at_s(10), {});
+  ASSERT_THAT(clearing, SizeIs(1));
+  EXPECT_EQ(clearing[0].evidence.value, 0.0);
+  EXPECT_EQ(clearing[0].who, "sun, magnetometer");
+  EXPECT_EQ(clearing[0].evidence.since, at_s(-3));
+  EXPECT_THAT(clearing[0].evidence.more,
+              ElementsAre(NamedValue{"angle_deg", 2.0}, NamedValue{"sigma", 20.0},
+                          NamedValue{"with", std::vector<std::string>{"sun", "magnetometer"}}));
+}
+
+TEST(SensorConditions, AreSettledByTheLastComparison) {
+  SensorConditions conditions{AlertLimits{}};
+  EXPECT_THAT(conditions.settle(), IsEmpty()) << "nothing was compared";
+  conditions.evaluate(at_s(0), kStar);
+  conditions.evaluate(at_s(1), {});
+  const ConditionChanges over = conditions.settle();
+  ASSERT_THAT(over, SizeIs(1));
+  EXPECT_EQ(over[0].change, Change::Cleared);
+  EXPECT_EQ(over[0].about, "star");
+  EXPECT_GT(over[0].t, at_s(1));
+
+  SensorConditions either{AlertLimits{}};
+  EXPECT_THAT(either.evaluate(at_s(0), kEither), IsEmpty());
+  const ConditionChanges raised = either.settle();
+  ASSERT_THAT(raised, SizeIs(1));
+  EXPECT_EQ(raised[0].change, Change::Raised);
+  EXPECT_EQ(raised[0].who, "star, gyro");
+}
+
 TEST(SensorConditions, TakeAsManySigmaAsTheLimitSays) {
   AlertLimits limits;
   limits.contradicts_sigmas = 30.0;

@@ -233,6 +233,20 @@ TEST_F(SpinConditionsTest, AreSettledByTheFinalAnswer) {
   EXPECT_EQ(apart.raised, (Keys{"spin.disagree", "spin.doubtful"}));
 }
 
+TEST_F(SpinConditionsTest, SettleAContradictionOfSensors) {
+  pass_.evaluate(SensorsCompared{.t = at(0.0),
+                                 .contradiction = SensorContradiction{.culprit = SampleSource::Sun2,
+                                                                      .with = {SampleSource::Sun1},
+                                                                      .off = {"angle_deg", 2.0},
+                                                                      .sigmas = 208.0,
+                                                                      .since = at(0.0)}});
+  EXPECT_EQ(pass_.raised, Keys{"sensor.contradicts:sun2"});
+  pass_.evaluate(SensorsCompared{.t = at(15.0), .contradiction = {}});
+  EXPECT_EQ(pass_.raised, Keys{"sensor.contradicts:sun2"});
+  pass_.settle();
+  EXPECT_EQ(pass_.raised, Keys{});
+}
+
 TEST_F(SpinConditionsTest, RaiseThatNoAnswerComesOfUsableEdges) {
   for (const auto rejected_by :
        {std::optional{Rejection::Unassociated}, std::optional<Rejection>{}}) {
