@@ -542,7 +542,7 @@ void SpinPass::announce_axis(Candidate& candidate, SpinOutput& out) {
     doubt_copies(mean.assessment);
     doubt_where_orbit_steps(mean);
     doubt_where_sensors_contradict(mean);
-    if (doubted) {
+    if (doubted && is_unopposed(mean.assessment.quality)) {
       doubt(mean.assessment, sequential->assessment.reasons.front());
     }
     if (!sequential_.has_begun()) {
