@@ -22,6 +22,7 @@
 ///                fixes of its kind were left out; or the mean is a plain average, or of fixes that
 ///                differ or are too few to check each other
 ///     LOST       the axis has moved, or the mean was wrong, and no fix has come since
+/// The pass (pass/spin_pass.h) may doubt it further.
 
 #pragma once
 

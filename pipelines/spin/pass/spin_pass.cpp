@@ -19,6 +19,10 @@
 namespace spindrift {
 namespace {
 
+bool is_doubted(const SpinEstimate& estimate) {
+  return estimate.assessment.quality >= Quality::Doubtful;
+}
+
 // Number of fixes after which the mean axis counts for or against a candidate.
 constexpr std::size_t kEstablishedFixes = 10;
 // How far a candidate may be from where an operator points, beyond its own error.
@@ -530,11 +534,17 @@ void SpinPass::announce_axis(Candidate& candidate, SpinOutput& out) {
       doubt(assessment, {ReasonCode::CopiesInNoise});
     }
   };
-  if (mean_moved || mean_given_up) {
+  // An axis that has moved shows in the mean last, since most of its fixes are from before.
+  const bool doubted = sequential && is_doubted(*sequential);
+  const bool doubt_begins = doubted && mean_.count() > 0 && answer_ && !is_doubted(*answer_);
+  if (mean_moved || mean_given_up || doubt_begins) {
     SpinEstimate mean = mean_.estimate(revolution);
     doubt_copies(mean.assessment);
     doubt_where_orbit_steps(mean);
     doubt_where_sensors_contradict(mean);
+    if (doubted && is_unopposed(mean.assessment.quality)) {
+      doubt(mean.assessment, sequential->assessment.reasons.front());
+    }
     if (!sequential_.has_begun()) {
       answer_ = mean;
     }

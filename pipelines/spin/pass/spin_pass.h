@@ -9,7 +9,9 @@
 ///                                    -> good edges -------------------> sequential
 ///
 /// The first kFirstRevolutions revolutions are held back to tell outliers from the level; later
-/// ones are settled as they close. When the axis has moved, screening and mean begin anew.
+/// ones are settled as they close. When the axis has moved, screening and mean begin anew; the mean
+/// is of the axis of before until then, and at best DOUBTFUL while `sequential` is DOUBTFUL or
+/// LOST.
 ///
 /// An operator action applies from its instant on to edges and revolutions not yet computed. A
 /// marked manoeuvre begins everything anew; a prior does so only where the pass has settled on

@@ -3,10 +3,17 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <random>
 #include <set>
 #include <string>
+#include <variant>
+#include <vector>
 
+#include "pipelines/frames/angle.h"
+#include "pipelines/frames/celestial.h"
+#include "pipelines/spin/pass/spin_pass.h"
+#include "pipelines/supervision/answer_in_force.h"
 #include "tests/property/alerts/supervised_pass.h"
 
 namespace spindrift::testing::one_voice_test {
@@ -120,6 +127,61 @@ TEST(OneVoice, OfRandomPassesOfASpinner) {
       number(flight.sent);
     }
     expect_one_voice(flight, fmt::format("random_{}", pass));
+  }
+}
+
+/// Returns the estimates of a pass that is `before` up to `turned` and `after` from then on.
+std::vector<SpinEstimate> estimates_of_a_turn(const Flight& before, const Flight& after,
+                                              TaiTime turned) {
+  SpinPass pass{*before.mission.spin(), *before.mission.orbit};
+  std::vector<SpinEstimate> estimates;
+  const auto keep = [&](const SpinOutput& output) {
+    for (const SpinProduct& product : output.products) {
+      if (const auto* const estimate = std::get_if<SpinEstimate>(&product)) {
+        estimates.push_back(*estimate);
+      }
+    }
+  };
+  for (const Flight* const flight : {&before, &after}) {
+    for (const Sent& one : flight->sent) {
+      const auto* const edge = std::get_if<TelemetrySample<Pulse>>(&one.sample);
+      if (edge != nullptr && (one.came >= turned) == (flight == &after)) {
+        keep(pass.push(edge->value));
+      }
+    }
+  }
+  keep(pass.finish());
+  return estimates;
+}
+
+TEST(OneVoice, OnceATurnIsSeenTheAxisOfBeforeIsNotOk) {
+  const std::string nominal = text_of(scenarios() / "gto-nominal.toml");
+  for (const int rpm : {30, 60, 90}) {
+    SCOPED_TRACE(rpm);
+    const auto flown_about = [&](double dec_deg) {
+      return flown(replaced(replaced(nominal, "rate_rpm = 60.0", fmt::format("rate_rpm = {}", rpm)),
+                            "dec_deg = -55.0", fmt::format("dec_deg = {}", dec_deg)));
+    };
+    const Flight before = flown_about(-55.0);
+    const Eigen::Vector3d turned_icrf =
+        direction_icrf({.ra_rad = 100.0 * kRadPerDeg, .dec_rad = -45.0 * kRadPerDeg});
+    const TaiTime turned = shifted(before.sent.front().came, 300.0);
+    SpinAnswers answers{before.mission.alerts.disagree_sigmas};
+    bool seen = false;  // By `sequential`, which alone uses every edge.
+    int ok = 0;
+    for (const SpinEstimate& estimate : estimates_of_a_turn(before, flown_about(-45.0), turned)) {
+      answers.take(estimate);
+      seen = seen || (estimate.t > turned && estimate.estimator == SpinEstimator::Sequential &&
+                      !is_unopposed(estimate.assessment.quality));
+      const SpinAnswer& answer = answers.in_force().value();
+      if (seen && is_unopposed(answer.quality)) {
+        EXPECT_LT(angle_between_rad(answer.estimate.axis_icrf, turned_icrf),
+                  5.0 * std::sqrt(answer.estimate.covariance_rad2.trace()))
+            << seconds_between(turned, answer.t) << " s after the turn";
+        ++ok;
+      }
+    }
+    EXPECT_GT(ok, 0);
   }
 }
 
