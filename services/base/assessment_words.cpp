@@ -102,7 +102,7 @@ std::string_view pattern_of(const Reason& reason) {
       std::any_of(reason.values.begin(), reason.values.end(), [](const NamedValue& value) {
         return value == NamedValue{"sensor", std::string{kUnknownCulprit}};
       });
-  return has_no_culprit ? "sensors disagree" : pattern_of(kReasonPatterns, reason.code);
+  return has_no_culprit ? "sensors differ" : pattern_of(kReasonPatterns, reason.code);
 }
 
 /// Returns the plural endings `s` and `es` of a pattern, empty for a `count` of one.

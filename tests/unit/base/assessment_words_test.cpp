@@ -37,7 +37,7 @@ TEST(AssessmentWords, NameTheWrongSensor) {
 
 TEST(AssessmentWords, CallNoSensorWrongWhereNothingTellsWhich) {
   EXPECT_EQ(sentence_of({Quality::Doubtful, {{Contradicted, {{"sensor", "unknown"}}}}}),
-            "DOUBTFUL, sensors disagree");
+            "DOUBTFUL, sensors differ");
 }
 
 TEST(AssessmentWords, CountOneOfAThing) {

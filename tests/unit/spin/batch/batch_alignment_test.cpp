@@ -82,23 +82,23 @@ TEST_F(BatchAlignment, AnErrorWithinItIsOkAndOneBeyondNamesTheKey) {
               ::testing::HasSubstr("spin.ir.north.azimuth_deg"));
 }
 
-TEST_F(BatchAlignment, AnAddedBiasIsFoundInFullAndDoubtedBeyondWhatTheFileStatesOfIt) {
-  const double chord_rad = 20.0 * kSigma_rad;
+TEST_F(BatchAlignment, ABiasBeyondWhatTheFileStatesOfItIsDoubted) {
+  const double dihedral_rad = 8.0 * kSigma_rad;
   auto seen = pass();
   for (PassEdge& edge : seen) {
-    const double half_s = 0.5 * chord_rad / body.rate_rad_s;
-    const int sense = edge.pulse.channel == PulseChannel::NorthOut  ? 1
-                      : edge.pulse.channel == PulseChannel::NorthIn ? -1
-                                                                    : 0;
-    edge.pulse.t += std::chrono::nanoseconds{std::llround(1e9 * sense * half_s)};
+    if (!sees_the_sun(edge.pulse.channel)) {
+      edge.pulse.t += std::chrono::nanoseconds{std::llround(1e9 * dihedral_rad / body.rate_rad_s)};
+    }
   }
-  const BatchSolution solution = solved(said(SpinAlignmentVector::Zero(), usual_alignment()), seen);
-  const auto chord = std::find_if(solution.biases.begin(), solution.biases.end(),
-                                  [](const auto& bias) { return bias.bias == NorthChordBias; });
-  ASSERT_NE(chord, solution.biases.end());
-  EXPECT_TRUE(chord->estimated);
-  EXPECT_NEAR(chord->value, chord_rad, 4.0 * chord->sigma);
-  EXPECT_DOUBLE_EQ(chord->stated_sigma, 2.0 * kSigma_rad);
+  SpinConfig config = said(SpinAlignmentVector::Zero(), usual_alignment());
+  config.batch.biases = BiasSet{}.set(DihedralBias);
+  const BatchSolution solution = solved(config, seen);
+  const auto found = std::find_if(solution.biases.begin(), solution.biases.end(),
+                                  [](const auto& bias) { return bias.bias == DihedralBias; });
+  ASSERT_NE(found, solution.biases.end());
+  EXPECT_TRUE(found->estimated);
+  EXPECT_NEAR(found->value, dihedral_rad, 4.0 * found->sigma);
+  EXPECT_DOUBLE_EQ(found->stated_sigma, kSigma_rad / std::sqrt(2.0));
   EXPECT_THAT(sentence_of(solution.estimate.assessment),
               ::testing::HasSubstr("more than 4 times its prior"));
 }
