@@ -148,12 +148,12 @@ inline std::vector<Fault> spin_faults() {
        .within_s = 60.0,
        .culprit = "sensor.contradicts:sun1"},
       // More is soon a contradiction between sensors, which makes all estimators doubtful.
-      {.name = "sun2 turned by 0.14 deg: the estimators, by a narrow limit",
+      {.name = "sun2 turned by 0.1 deg: the estimators, by a narrow limit",
        .keys = {"spin.disagree"},
        .scenario = spinner,
-       .sensors = moved(of({Sun2}), 0.14 / 330.0),
+       .sensors = moved(of({Sun2}), 0.1 / 330.0),
        .within_s = 120.0,
-       .more_of_mission = "\n[alerts.\"spin.disagree\"]\nsigmas = 2.0\n",
+       .more_of_mission = "\n[alerts.\"spin.disagree\"]\nsigmas = 1.0\n",
        .culprit = "sensor.contradicts:sun2"}};
 }
 
