@@ -59,7 +59,7 @@ struct AlertLimits {
   double backlog_s = 10.0;
   double disk_gib = 1.0;
   double log_mib = 256.0;
-  double host_within_s = 60.0;  ///< Of [time].
+  double host_within_s = 60.0;  ///< Value of [time] host_within_s.
   double clock_jump_s = 1.0;
   /// By AlertCode: a condition that returns within it is the same occurrence.
   std::array<double, kAlertCodes> hold_off_s = every_code(60.0);

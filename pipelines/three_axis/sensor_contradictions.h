@@ -119,7 +119,7 @@ class SensorContradictions {
   std::optional<Direction> field_;
   FieldDeparture departure_;
   bool gyro_unit_is_wrong_ = false;
-  double stated_noise_rad_s_ = 0.0;  ///< Of the gyro.
+  double stated_noise_rad_s_ = 0.0;  ///< Noise of the gyro as the mission file has it.
   double gyro_noise_rad_s_ = 0.0;
   std::optional<SensorContradiction> found_;
 };

@@ -32,7 +32,8 @@ class LimitsInForce {
 
   TomlValues values_;
   std::multimap<TaiTime, SetLimit> said_;
-  std::map<TaiTime, AlertLimits> from_;  ///< By the time from which they hold; empty: not known.
+  std::map<TaiTime, AlertLimits>
+      from_;  ///< Limits by the time from which they hold; empty: none yet.
 };
 
 }  // namespace spindrift

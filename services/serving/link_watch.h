@@ -48,7 +48,7 @@ class LinkWatch {
   };
   mutable std::mutex mutex_;
   std::map<std::string, std::optional<Last>> last_;
-  std::map<std::string, Instant> counts_from_;  ///< By spacecraft that goes on after a restart.
+  std::map<std::string, Instant> counts_from_;  ///< First silence that counts, by spacecraft.
 };
 
 /// Watches the spacecraft heard since the service started: data read back after a restart waits

@@ -24,7 +24,7 @@ struct BiasEstimate {
   double sigma;  ///< Standard deviation in rad or km; that of the prior where not observable.
   bool observable;
   bool estimated;             ///< False for a one-step estimate outside the solution.
-  double stated_sigma = 0.0;  ///< What the mission file states of it in rad or km; see BiasPriors.
+  double stated_sigma = 0.0;  ///< Sigma that the mission file states, rad or km.
 };
 
 /// Holds the coning estimate: the sensors' axis leans away from the principal axis.
