@@ -21,7 +21,7 @@ namespace spindrift {
 struct Heard {
   LinkWatch links;
   SessionWatch sessions;
-  SilenceWatch silences;  ///< For the thread of `route` only.
+  SilenceWatch silences;  ///< Used by the thread of `route` only.
 };
 
 /// Returns the present moment. It contains the host's clock only when the telemetry is live,

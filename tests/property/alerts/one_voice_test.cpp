@@ -167,7 +167,7 @@ TEST(OneVoice, OnceATurnIsSeenTheAxisOfBeforeIsNotOk) {
         direction_icrf({.ra_rad = 100.0 * kRadPerDeg, .dec_rad = -45.0 * kRadPerDeg});
     const TaiTime turned = shifted(before.sent.front().came, 300.0);
     SpinAnswers answers{before.mission.alerts.disagree_sigmas};
-    bool seen = false;  // By `sequential`, which alone uses every edge.
+    bool seen = false;  // Whether `sequential`, which alone uses every edge, has seen the turn.
     int ok = 0;
     for (const SpinEstimate& estimate : estimates_of_a_turn(before, flown_about(-45.0), turned)) {
       answers.take(estimate);

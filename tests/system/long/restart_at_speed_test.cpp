@@ -27,7 +27,7 @@
 namespace spindrift::restart_at_speed_test {
 
 struct Speed {
-  double times;          ///< Of real time.
+  double times;          ///< Speed of the replay as a multiple of real time.
   std::string length_s;  ///< Length of the pass: the kill and the lease of 10 s are within it.
   friend void PrintTo(const Speed& speed, std::ostream* out) { *out << speed.times; }
 };
