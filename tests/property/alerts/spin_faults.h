@@ -161,7 +161,6 @@ inline std::vector<Fault> spin_faults() {
 inline std::vector<Fault> lies_of_a_spinner() {
   using enum PulseChannel;
   const std::string spinner = spinner_text();
-  constexpr double kMinute_s = 60.0;
   constexpr double kTwoDegrees_s = 2.0 / 330.0;
   constexpr std::int64_t kHundredth_ns = 10'000'000;
   const std::set<std::string> north{"sensor.contradicts:north_in", "sensor.contradicts:north_out"};
@@ -177,30 +176,28 @@ inline std::vector<Fault> lies_of_a_spinner() {
   for (const Sensor& sensor :
        {Sensor{"sun1", contradicts("sun1"), {Sun1}}, Sensor{"sun2", contradicts("sun2"), {Sun2}},
         Sensor{"north beam", north, north_beam}, Sensor{"south beam", south, south_beam}}) {
-    const auto add_one = [&](const std::string& what, const Spoil& spoil) {
-      faults.push_back({sensor.name + " " + what, sensor.keys, spinner, spoil, kMinute_s});
+    const auto add_one = [&](const std::string& what, const Spoil& spoil, double within_s = 10.0) {
+      faults.push_back({sensor.name + " " + what, sensor.keys, spinner, spoil, within_s});
     };
     const PulseChannel first = *sensor.channels.begin();
     add_one("runs free", runs_free(sensor.channels, 0.013));
     add_one("turned by 2 deg", moved(of(sensor.channels), kTwoDegrees_s));
     add_one("biased at one edge by 4 ms", moved(of({first}), 4e-3));
-    add_one("noisy, 20 ms", jittered(of(sensor.channels), 0.02));
-    add_one("cut to 10 ms", cut(first, kHundredth_ns));
+    add_one("noisy, 20 ms", jittered(of(sensor.channels), 0.02), 20.0);
+    add_one("cut to 10 ms", cut(first, kHundredth_ns), 20.0);
     add_one("late by a second", late_by_a_second(of(sensor.channels)));
   }
   faults.push_back(
       // Both lie: no single sensor explains it.
-      {"sun1 and sun2 swapped", contradicts("unknown"), spinner, swapped(Sun1, Sun2), kMinute_s});
-  faults.push_back(
-      {"north_in and north_out swapped", north, spinner, swapped(NorthIn, NorthOut), kMinute_s});
-  faults.push_back(
-      {"south_in and south_out swapped", south, spinner, swapped(SouthIn, SouthOut), kMinute_s});
+      {"sun1 and sun2 swapped", contradicts("unknown"), spinner, swapped(Sun1, Sun2), 30.0});
+  faults.push_back({"north_in and north_out swapped", north, spinner, swapped(NorthIn, NorthOut)});
+  faults.push_back({"south_in and south_out swapped", south, spinner, swapped(SouthIn, SouthOut)});
   faults.push_back(
       {"orbit wrong by ten minutes",
        contradicts("orbit"),
        spinner,
        {},
-       kMinute_s,
+       10.0,
        kWholePass,
        false,
        {},
