@@ -83,11 +83,13 @@ Vector3d interpolated(const SampledField& field_nt, double place) {
 }  // namespace
 
 std::vector<double> chord_curvature(const SampledField& field_nt) {
-  const Vector3d range_nt = field_nt.rowwise().maxCoeff() - field_nt.rowwise().minCoeff();
   std::vector<double> sum(static_cast<std::size_t>(field_nt.cols()), 0.0);
   for (Index axis = 0; axis < 3; ++axis) {
-    const auto of_axis = curvature_of(graph_of(field_nt, axis, range_nt.maxCoeff()));
-    std::transform(sum.begin(), sum.end(), of_axis.begin(), sum.begin(), std::plus<>{});
+    const double range_nt = field_nt.row(axis).maxCoeff() - field_nt.row(axis).minCoeff();
+    if (range_nt > 0.0) {
+      const auto of_axis = curvature_of(graph_of(field_nt, axis, range_nt));
+      std::transform(sum.begin(), sum.end(), of_axis.begin(), sum.begin(), std::plus<>{});
+    }
   }
   return sum;
 }

@@ -2,8 +2,8 @@
 /// Knots of a table of the field that are closer where the field bends: the K-weighted U-chord
 /// curvature (Liu 2019, par. 2, eq. 6 to 9).
 ///
-/// The curvature is that of the graph of each axis against true anomaly in rad, the field in ranges
-/// of the axis that has the widest; the three are added, since a table has one set of knots. The
+/// The curvature is that of the graph of each axis against true anomaly in rad, in units of its own
+/// range; the three are added, since a table has one set of knots. The
 /// paper takes the curvature of a polar graph: its own bend is that of the circle, which is not the
 /// field's, and with it no K is better than equal steps.
 
