@@ -36,6 +36,14 @@ double eccentric_anomaly_rad(double mean_anomaly_rad, double eccentricity) {
   }
 }
 
+/// Returns the mean anomaly at a true anomaly; both grow without bound, turn by turn.
+double mean_anomaly_of_rad(double true_rad, double eccentricity) {
+  const double beta = eccentricity / (1.0 + std::sqrt((1.0 - eccentricity) * (1.0 + eccentricity)));
+  const double eccentric_rad =
+      true_rad - 2.0 * std::atan2(beta * std::sin(true_rad), 1.0 + beta * std::cos(true_rad));
+  return eccentric_rad - eccentricity * std::sin(eccentric_rad);
+}
+
 }  // namespace
 
 Expected<KeplerOrbit> KeplerOrbit::make(const KeplerElements& elements) {
@@ -109,6 +117,21 @@ Expected<KeplerOrbit> KeplerOrbit::through(TaiTime t, const OrbitState& state) {
   orbit.semi_major_icrf_km_ = a_km * major;
   orbit.semi_minor_icrf_km_ = b_km * minor;
   return orbit;
+}
+
+double KeplerOrbit::true_anomaly_at_epoch_rad() const {
+  const double eccentric_rad = eccentric_anomaly_rad(mean_anomaly_rad_, eccentricity_);
+  const double true_rad =
+      std::atan2(std::sqrt((1.0 - eccentricity_) * (1.0 + eccentricity_)) * std::sin(eccentric_rad),
+                 std::cos(eccentric_rad) - eccentricity_);
+  return true_rad < 0.0 ? true_rad + kTurn_rad : true_rad;
+}
+
+TaiTime KeplerOrbit::when_behind_epoch(double true_anomaly_rad) const {
+  const double first_rad = true_anomaly_at_epoch_rad();
+  const double mean_rad = mean_anomaly_of_rad(first_rad + true_anomaly_rad, eccentricity_) -
+                          mean_anomaly_of_rad(first_rad, eccentricity_);
+  return shifted(epoch_, mean_rad / mean_motion_rad_s_);
 }
 
 Expected<OrbitState> KeplerOrbit::at(TaiTime t) const {

@@ -39,6 +39,16 @@ class KeplerOrbit {
   /// Never fails; the return type is shared by all sources of orbits.
   Expected<OrbitState> at(TaiTime t) const;
 
+  /// Returns the true anomaly at the epoch of the elements, [0, 2 pi).
+  double true_anomaly_at_epoch_rad() const;
+  /// Returns when the true anomaly has grown by so much since the epoch of the elements.
+  TaiTime when_behind_epoch(double true_anomaly_rad) const;
+
+  TaiTime epoch() const { return epoch_; }
+  double mean_anomaly_at_epoch_rad() const { return mean_anomaly_rad_; }
+  double eccentricity() const { return eccentricity_; }
+  double mean_motion_rad_s() const { return mean_motion_rad_s_; }
+
  private:
   KeplerOrbit() = default;
   explicit KeplerOrbit(const KeplerElements& elements);

@@ -27,6 +27,8 @@ class Orbit {
 
   /// Returns the ephemeris; null for an orbit of elements.
   const OrbitEphemeris* ephemeris() const { return std::get_if<OrbitEphemeris>(&source_); }
+  /// Returns the orbit of elements; null for an ephemeris.
+  const KeplerOrbit* elements() const { return std::get_if<KeplerOrbit>(&source_); }
 
  private:
   std::variant<OrbitEphemeris, KeplerOrbit> source_;

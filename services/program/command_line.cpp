@@ -222,13 +222,22 @@ void add_doctor(CLI::App& app, Request& request) {
       [&] { request.run = [&] { return with_status(run_doctor(request.doctor), request); }; });
 }
 
-void add_geomag(CLI::App& app, Request& request) {
+void add_date_option(CLI::App& command, double& year) {
+  command.add_option("--date", year, "Year with decimals, 1900 to 2030: 2026.5")->required();
+}
+
+void add_degree_option(CLI::App& command, int& degree) {
+  command.add_option("--degree", degree, "Degree of the field, 1 to 13")->capture_default_str();
+}
+
+void add_kind_option(CLI::App& command, std::string& kind) {
+  command.add_option("--kind", kind, "uniform, curvature or chebyshev")->required();
+}
+
+void add_geomag_field(CLI::App& geomag, Request& request) {
   GeomagFieldOptions& options = request.geomag_field;
-  CLI::App& geomag = *app.add_subcommand("geomag", "The Earth's main magnetic field, IGRF-14");
-  geomag.require_subcommand(1);
   CLI::App& command = *geomag.add_subcommand("field", "The field at points, as CSV");
-  command.add_option("--date", options.year, "Year with decimals, 1900 to 2030: 2026.5")
-      ->required();
+  add_date_option(command, options.year);
   command
       .add_option("--points", options.points,
                   "CSV file: lat_deg,lon_deg,height_km, geodetic WGS-84")
@@ -236,6 +245,56 @@ void add_geomag(CLI::App& app, Request& request) {
       ->required();
   command.add_flag("--json", options.json, "Print one JSON object");
   command.callback([&] { request.run = [&] { return geomag_field(request.geomag_field); }; });
+}
+
+void add_geomag_table(CLI::App& geomag, Request& request) {
+  GeomagTableOptions& options = request.geomag_table;
+  CLI::App& command = *geomag.add_subcommand(
+      "table", "A table of the field along one revolution, for a spacecraft to carry");
+  add_mission_option(command, options.mission);
+  add_date_option(command, options.year);
+  add_degree_option(command, options.degree);
+  add_kind_option(command, options.kind);
+  command.add_option("--points", options.points, "Points, or Chebyshev coefficients")->required();
+  command.add_option("--out", options.out, "Table to write")->check(check_path)->required();
+  command.add_option("--header", options.header, "C header to write, with table and lookup")
+      ->check(check_path);
+  command.callback([&] { request.run = [&] { return geomag_table(request.geomag_table); }; });
+}
+
+void add_geomag_lookup(CLI::App& geomag, Request& request) {
+  GeomagLookupOptions& options = request.geomag_lookup;
+  CLI::App& command = *geomag.add_subcommand("lookup", "The field that a table gives, as CSV");
+  command.add_option("--table", options.table, "Table")->check(check_path)->required();
+  add_kind_option(command, options.kind);
+  command.add_option("--points", options.points, "CSV file: anomaly_deg, behind the first")
+      ->check(check_path)
+      ->required();
+  command.callback([&] { request.run = [&] { return geomag_lookup(request.geomag_lookup); }; });
+}
+
+void add_geomag_study(CLI::App& geomag, Request& request) {
+  GeomagStudyOptions& options = request.geomag_study;
+  CLI::App& command = *geomag.add_subcommand(
+      "study", "Compare tables of all kinds and sizes, and what they cost an attitude");
+  add_mission_option(command, options.mission);
+  add_date_option(command, options.year);
+  add_degree_option(command, options.degree);
+  command.add_option("--out", options.out, "Folder for plots")
+      ->check(CLI::ExistingDirectory)
+      ->required();
+  command.add_flag("--json", options.json, "Print one JSON object");
+  command.callback([&] { request.run = [&] { return geomag_study(request.geomag_study); }; });
+}
+
+void add_geomag(CLI::App& app, Request& request) {
+  CLI::App& geomag =
+      *app.add_subcommand("geomag", "The Earth's main magnetic field, IGRF-14, and tables of it");
+  geomag.require_subcommand(1);
+  add_geomag_field(geomag, request);
+  add_geomag_table(geomag, request);
+  add_geomag_lookup(geomag, request);
+  add_geomag_study(geomag, request);
 }
 
 void add_geometry(CLI::App& app, Request& request) {

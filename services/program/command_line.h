@@ -27,6 +27,9 @@ struct Request {
   SimulateOptions simulate;
   DoctorOptions doctor;
   GeomagFieldOptions geomag_field;
+  GeomagTableOptions geomag_table;
+  GeomagLookupOptions geomag_lookup;
+  GeomagStudyOptions geomag_study;
   GeometryOptions geometry;
   ReconstructOptions reconstruct;
   CompareOptions compare;

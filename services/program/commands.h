@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "pipelines/core/expected.h"
+#include "pipelines/geomagnetism/main_field.h"
 #include "pipelines/reconstruction/reconstruction.h"
 
 namespace spindrift {
@@ -126,6 +127,47 @@ struct GeomagFieldOptions {
 /// @return InvalidConfiguration for a year outside the model and for a malformed points file,
 ///         naming line, column and what is allowed; Unavailable when reading fails.
 Expected<void> geomag_field(const GeomagFieldOptions& options);
+
+/// `spindrift geomag table`: makes a table of the field for a spacecraft to carry.
+struct GeomagTableOptions {
+  std::filesystem::path mission;
+  double year = 0.0;  ///< The year with its fraction.
+  int degree = kHighestDegree;
+  std::string kind;
+  int points = 0;
+  std::filesystem::path out;
+  std::filesystem::path header;  ///< Path of a C header to write; empty means none.
+};
+
+/// @return InvalidConfiguration for a mission without orbit elements, a date, degree, kind or
+/// number
+///         of points that cannot be; Unavailable when writing fails.
+Expected<void> geomag_table(const GeomagTableOptions& options);
+
+/// `spindrift geomag lookup`: what a table gives at anomalies behind its first.
+struct GeomagLookupOptions {
+  std::filesystem::path table;
+  std::string kind;
+  std::filesystem::path points;  ///< CSV: anomaly_deg.
+};
+
+/// Prints the field at the anomalies, CSV, on standard output.
+/// @return InvalidConfiguration for a file that is no table of the kind and for a malformed points
+///         file; Unavailable when reading fails.
+Expected<void> geomag_lookup(const GeomagLookupOptions& options);
+
+/// `spindrift geomag study`: compares tables of all kinds and sizes.
+struct GeomagStudyOptions {
+  std::filesystem::path mission;
+  double year = 0.0;
+  int degree = kHighestDegree;
+  std::filesystem::path out;  ///< Folder for the plots; it must exist.
+  bool json = false;
+};
+
+/// Prints the comparison on standard output and writes its plots.
+/// @return As `geomag_table`.
+Expected<void> geomag_study(const GeomagStudyOptions& options);
 
 /// `spindrift geometry`: predicts a coming pass and how well it determines the spin axis.
 struct GeometryOptions {

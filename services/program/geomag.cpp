@@ -20,6 +20,7 @@
 #include "services/mission/igrf.h"
 #include "services/program/commands.h"
 #include "services/program/outcome.h"
+#include "services/program/points_file.h"
 #include "services/telemetry/csv.h"
 #include "services/telemetry/parse_row.h"
 
@@ -78,30 +79,14 @@ Expected<FieldAtPoint> field_at(const MainField& field, const Point& point) {
 /// Returns the field at all points of the file, or the error of the first bad line.
 Expected<std::vector<FieldAtPoint>> fields_at(const std::filesystem::path& path,
                                               const MainField& field) {
-  auto file = InputFile::open(path, kMostTextBytes);
-  if (!file) {
-    return Unexpected{file.error()};
-  }
-  FileLines lines{std::move(*file)};
-  FileLine line{};
   std::vector<FieldAtPoint> fields;
-  auto more = lines.next(line);
-  if (more && (!*more || line.text != kHeader)) {
-    return refused(fmt::format("{}: must begin with the header {}", shown(path.string()), kHeader));
-  }
-  while ((more = lines.next(line)) && *more) {
-    const auto at_point =
-        point_of(line).and_then([&](const Point& point) { return field_at(field, point); });
-    if (!at_point) {
-      return refused(
-          fmt::format("{}:{}: {}", shown(path.string()), line.number, at_point.error().message));
-    }
-    fields.push_back(*at_point);
-  }
-  if (!more) {
-    return Unexpected{more.error()};
-  }
-  return fields;
+  return for_each_row(path, kHeader,
+                      [&](const FileLine& line) {
+                        return point_of(line)
+                            .and_then([&](const Point& point) { return field_at(field, point); })
+                            .map([&](const FieldAtPoint& at) { fields.push_back(at); });
+                      })
+      .map([&] { return std::move(fields); });
 }
 
 std::string to_text(const std::vector<FieldAtPoint>& fields) {

@@ -6,6 +6,8 @@
 #include <random>
 #include <vector>
 
+#include "pipelines/geomagnetism/tables/field_table.h"
+#include "pipelines/geomagnetism/tables/revolution_field.h"
 #include "services/mission/igrf.h"
 #include "tests/support/geographiclib_field.h"
 
@@ -60,6 +62,27 @@ void BM_MainFieldOfAnotherDateEach(benchmark::State& state) {
   });
 }
 BENCHMARK(BM_MainFieldOfAnotherDateEach);
+
+/// A table of the field of 80 points along the orbit of a femtosatellite, its knots chosen if need
+/// be.
+void BM_FieldTable(benchmark::State& state) {
+  const auto kind = static_cast<TableKind>(state.range(0));
+  const KeplerOrbit orbit = KeplerOrbit::make({.epoch = instant_of_year(kYear),
+                                               .semi_major_axis_km = 7021.2,
+                                               .eccentricity = 0.0,
+                                               .inclination_rad = 1.7,
+                                               .raan_rad = 0.2,
+                                               .argument_of_perigee_rad = 0.0,
+                                               .mean_anomaly_rad = 0.0})
+                                .value();
+  const MainField field = igrf()->at(kYear).value();
+  for ([[maybe_unused]] const auto iteration : state) {
+    RevolutionField revolution{orbit, field};
+    benchmark::DoNotOptimize(
+        make_table([&](double behind_rad) { return revolution.at(behind_rad); }, kind, 0.0, 80));
+  }
+}
+BENCHMARK(BM_FieldTable)->DenseRange(0, 2)->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace spindrift

@@ -19,6 +19,7 @@
 #include "pipelines/frames/rotation_vector.h"
 #include "tests/support/archive_rows.h"
 #include "tests/support/processed.h"
+#include "tests/support/simulated.h"
 #include "tests/support/test_paths.h"
 #include "tests/support/text_of.h"
 
@@ -29,6 +30,7 @@ const std::filesystem::path kFaults = test_data() / "three-axis" / "faults";
 struct Row {
   std::string quality;
   double error_sigmas;
+  double error_deg;
 };
 
 /// Returns the attitude rows at the times of the truth.
@@ -52,8 +54,8 @@ std::vector<Row> rows_beside_truth(const std::filesystem::path& pass,
     if (const auto at = truth.find(std::stoll(values.at(0))); at != truth.end()) {
       const Eigen::Quaterniond q{std::stod(values.at(3)), std::stod(values.at(4)),
                                  std::stod(values.at(5)), std::stod(values.at(6))};
-      rows.push_back(
-          {values.at(1), degrees(angle_between_rad(q, at->second)) / std::stod(values.at(2))});
+      const double error_deg = degrees(angle_between_rad(q, at->second));
+      rows.push_back({values.at(1), error_deg / std::stod(values.at(2)), error_deg});
     }
   }
   return rows;
@@ -145,6 +147,16 @@ TEST(ThreeAxisWithoutGyro, SunAndFieldGiveAnAttitude) {
   // There are 160 pairs of a field and a sun sample 10 ms later.
   EXPECT_EQ(count_rows(outcome.db, "attitude"), 160);
   EXPECT_EQ(count_rows(outcome.db, "attitude WHERE sigma_deg > 2"), 0);
+}
+
+TEST(ThreeAxisWithoutGyro, AttitudeOfAFemtosatelliteIsFound) {
+  const Simulated simulated{"femto.toml"};
+  const std::vector<Row> rows = rows_beside_truth(simulated.pass, Processed{simulated.pass}.db);
+  EXPECT_GT(rows.size(), 150U);
+  for (const Row& row : rows) {
+    EXPECT_LT(row.error_deg, 7.0);
+    EXPECT_LT(row.error_sigmas, 5.0);
+  }
 }
 
 }  // namespace spindrift::three_axis_faults_test

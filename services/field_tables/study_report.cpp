@@ -1,0 +1,101 @@
+#include "services/field_tables/study_report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <iterator>
+
+#include "pipelines/frames/angle.h"
+
+namespace spindrift {
+namespace {
+
+using Eigen::Vector3d;
+
+constexpr std::array<const char*, 3> kAxes{"x", "y", "z"};
+constexpr std::array<const char*, 3> kAngles{"phi", "theta", "psi"};
+
+nlohmann::json by_axis(const Vector3d& values, const std::array<const char*, 3>& names) {
+  nlohmann::json json;
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    json[names.at(static_cast<std::size_t>(axis))] = values[axis];
+  }
+  return json;
+}
+
+struct MostOff {
+  Vector3d with_field_rad = Vector3d::Zero();
+  Vector3d with_table_rad = Vector3d::Zero();
+  Vector3d by_table_rad = Vector3d::Zero();  ///< Largest difference of the two.
+};
+
+MostOff most_off(const FieldStudy& study) {
+  MostOff most;
+  for (const StudiedAttitude& at : study.attitudes) {
+    most.with_field_rad = most.with_field_rad.cwiseMax(at.with_field_rad.cwiseAbs());
+    most.with_table_rad = most.with_table_rad.cwiseMax(at.with_table_rad.cwiseAbs());
+    most.by_table_rad =
+        most.by_table_rad.cwiseMax((at.with_table_rad - at.with_field_rad).cwiseAbs());
+  }
+  return most;
+}
+
+std::string degrees_text(const Vector3d& angles_rad) {
+  const Vector3d deg = kDegPerRad * angles_rad;
+  return fmt::format("{:.3f}, {:.3f}, {:.3f} deg", deg.x(), deg.y(), deg.z());
+}
+
+double best_weight(const FieldStudy& study) {
+  return std::min_element(
+             study.weights.begin(), study.weights.end(),
+             [](const auto& a, const auto& b) { return a.mean_error_nt < b.mean_error_nt; })
+      ->weight;
+}
+
+}  // namespace
+
+std::string to_text(const FieldStudy& study) {
+  std::string text =
+      "kind       points  bytes   mean error x, y, z, nT            largest, nT   ARMSE of the "
+      "attitude phi, theta, psi, deg\n";
+  for (const StudiedTable& is : study.tables) {
+    const Vector3d& mean = is.errors.mean_nt;
+    const Vector3d armse_deg = kDegPerRad * is.armse_rad;
+    fmt::format_to(std::back_inserter(text),
+                   "{:<10} {:>6} {:>6}   {:>9.4f} {:>9.4f} {:>9.4f} {:>13.4f}      {:.5f} {:.5f} "
+                   "{:.5f}\n",
+                   name_of(is.kind), is.points, is.bytes, mean.x(), mean.y(), mean.z(),
+                   is.errors.most_nt.maxCoeff(), armse_deg.x(), armse_deg.y(), armse_deg.z());
+  }
+  const MostOff most = most_off(study);
+  fmt::format_to(
+      std::back_inserter(text),
+      "\nAttitude from Sun and field over the revolution, largest errors of phi, theta, psi\n"
+      "  with the field itself            {}\n"
+      "  with the table of {} points     {}  (curvature, K = {:.2f})\n"
+      "  the table's own share            {}\n",
+      degrees_text(most.with_field_rad), kChosenPoints, degrees_text(most.with_table_rad),
+      best_weight(study), degrees_text(most.by_table_rad));
+  return text;
+}
+
+nlohmann::json to_json(const FieldStudy& study) {
+  nlohmann::json tables = nlohmann::json::array();
+  for (const StudiedTable& is : study.tables) {
+    tables.push_back({{"kind", name_of(is.kind)},
+                      {"points", is.points},
+                      {"bytes", is.bytes},
+                      {"mean_error_nt", by_axis(is.errors.mean_nt, kAxes)},
+                      {"largest_error_nt", by_axis(is.errors.most_nt, kAxes)},
+                      {"armse_deg", by_axis(kDegPerRad * is.armse_rad, kAngles)}});
+  }
+  const MostOff most = most_off(study);
+  return {{"tables", std::move(tables)},
+          {"curvature_weight", best_weight(study)},
+          {"largest_attitude_error_deg",
+           {{"with_field", by_axis(kDegPerRad * most.with_field_rad, kAngles)},
+            {"with_table", by_axis(kDegPerRad * most.with_table_rad, kAngles)},
+            {"by_table", by_axis(kDegPerRad * most.by_table_rad, kAngles)}}}};
+}
+
+}  // namespace spindrift

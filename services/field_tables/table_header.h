@@ -1,0 +1,20 @@
+/// @file
+/// A C header with a table of the field, its lookup, and the true anomaly from a position fix or
+/// from time: C99, without memory of its own, and with <math.h> only.
+
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "pipelines/ephemeris/kepler_orbit.h"
+#include "pipelines/geomagnetism/tables/field_table.h"
+
+namespace spindrift {
+
+/// @param made_of What the table is of, for a reader: spacecraft, model, date. One line of text.
+/// @return Unobservable for an orbit without a plane.
+Expected<std::string> header_of(const FieldTable& table, const KeplerOrbit& orbit,
+                                std::string_view made_of);
+
+}  // namespace spindrift

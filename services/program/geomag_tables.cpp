@@ -1,0 +1,159 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <iterator>
+#include <string>
+#include <string_view>
+
+#include "pipelines/core/shown.h"
+#include "pipelines/frames/angle.h"
+#include "services/base/file_lines.h"
+#include "services/base/input_file.h"
+#include "services/base/json_line.h"
+#include "services/base/warning.h"
+#include "services/field_tables/study_report.h"
+#include "services/field_tables/table_bytes.h"
+#include "services/field_tables/table_header.h"
+#include "services/mission/igrf.h"
+#include "services/mission/mission.h"
+#include "services/program/commands.h"
+#include "services/program/outcome.h"
+#include "services/program/points_file.h"
+#include "services/simulation/output_file.h"
+#include "services/telemetry/parse_row.h"
+
+namespace spindrift {
+namespace {
+
+constexpr std::string_view kAnomaly = "anomaly_deg";
+
+/// The orbit of a mission and the field of a date.
+struct OrbitAndField {
+  std::string spacecraft_id;
+  KeplerOrbit orbit;
+  MainField field;
+};
+
+Expected<OrbitAndField> orbit_and_field(const std::filesystem::path& path, double year,
+                                        int degree) {
+  const auto mission = load_mission(path);
+  if (!mission) {
+    return Unexpected{mission.error()};
+  }
+  const KeplerOrbit* const orbit = mission->orbit ? mission->orbit->elements() : nullptr;
+  if (orbit == nullptr) {
+    return refused(
+        fmt::format("{}: has no [orbit.elements]; a table of the field is of one "
+                    "revolution of such an orbit",
+                    shown(path.string())));
+  }
+  const auto field =
+      igrf().and_then([&](const MainFieldModel& model) { return model.at(year, degree); });
+  if (!field) {
+    return refused(fmt::format("--date {} --degree {}: {}", year, degree, field.error().message));
+  }
+  return OrbitAndField{mission->spacecraft_id, *orbit, *field};
+}
+
+Expected<TableKind> kind_of(std::string_view name) {
+  const auto* const kind = std::find_if(kTableKinds.begin(), kTableKinds.end(),
+                                        [&](TableKind is) { return name_of(is) == name; });
+  if (kind == kTableKinds.end()) {
+    return refused(fmt::format("--kind {}: must be uniform, curvature or chebyshev",
+                               shown(std::string{name})));
+  }
+  return *kind;
+}
+
+/// @return InvalidConfiguration naming the value and what is allowed.
+Expected<double> anomaly_deg_of(const FileLine& line) {
+  double deg = 0.0;
+  if (auto reason = parse_field(kAnomaly, line.text, deg); !reason.empty()) {
+    return refused(std::move(reason));
+  }
+  if (!(deg >= 0.0 && deg <= 360.0)) {
+    return refused(fmt::format("{} = {}: must lie in [0, 360], behind the first", kAnomaly, deg));
+  }
+  return deg;
+}
+
+Expected<FieldTable> table_in(const GeomagLookupOptions& options) {
+  const auto kind = kind_of(options.kind);
+  if (!kind) {
+    return Unexpected{kind.error()};
+  }
+  return read_text_file(options.table)
+      .and_then([&](const std::string& bytes) { return table_of(bytes, *kind); })
+      .map_error([&](const Error& error) {
+        return Error{ErrorCode::InvalidConfiguration,
+                     fmt::format("{}: {}", shown(options.table.string()), error.message)};
+      });
+}
+
+}  // namespace
+
+Expected<void> geomag_table(const GeomagTableOptions& options) {
+  const auto kind = kind_of(options.kind);
+  if (!kind) {
+    return Unexpected{kind.error()};
+  }
+  const auto of = orbit_and_field(options.mission, options.year, options.degree);
+  if (!of) {
+    return Unexpected{of.error()};
+  }
+  RevolutionField revolution{of->orbit, of->field};
+  const auto table = make_table([&](double behind_rad) { return revolution.at(behind_rad); }, *kind,
+                                of->orbit.true_anomaly_at_epoch_rad(), options.points);
+  if (!table) {
+    return refused(fmt::format("--points {}: {}", options.points, table.error().message));
+  }
+  auto written = write_file(options.out, bytes_of(*table));
+  if (written && !options.header.empty()) {
+    written =
+        header_of(*table, of->orbit,
+                  fmt::format("{}: field along one revolution, {} of {} to degree {}, kind {}",
+                              of->spacecraft_id, kFieldModelName, options.year, options.degree,
+                              name_of(*kind)))
+            .and_then([&](const std::string& text) { return write_file(options.header, text); });
+  }
+  return written.map([&] {
+    fmt::print("{}: {} bytes, {} of {} points\n", options.out.string(), table->bytes(),
+               name_of(*kind), options.points);
+  });
+}
+
+Expected<void> geomag_lookup(const GeomagLookupOptions& options) {
+  const auto table = table_in(options);
+  if (!table) {
+    return Unexpected{table.error()};
+  }
+  std::string text = fmt::format("{},x_nt,y_nt,z_nt\n", kAnomaly);
+  return for_each_row(options.points, kAnomaly,
+                      [&](const FileLine& line) {
+                        return anomaly_deg_of(line).map([&](double deg) {
+                          const Eigen::Vector3d field_nt = lookup(*table, deg * kRadPerDeg);
+                          fmt::format_to(std::back_inserter(text), "{},{:.4f},{:.4f},{:.4f}\n", deg,
+                                         field_nt.x(), field_nt.y(), field_nt.z());
+                        });
+                      })
+      .map([&] { fmt::print("{}", text); });
+}
+
+Expected<void> geomag_study(const GeomagStudyOptions& options) {
+  const auto study =
+      orbit_and_field(options.mission, options.year, options.degree)
+          .and_then([](const OrbitAndField& of) { return study_tables(of.orbit, of.field); });
+  if (!study) {
+    return Unexpected{study.error()};
+  }
+  for (const auto& [name, svg] : plots_of(*study)) {
+    if (auto written = write_file(options.out / name, svg); !written) {
+      return written;
+    }
+  }
+  fmt::print("{}", options.json ? json_line(with_warnings(to_json(*study))) : to_text(*study));
+  return {};
+}
+
+}  // namespace spindrift
