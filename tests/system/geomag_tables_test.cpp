@@ -16,6 +16,7 @@
 #include "pipelines/frames/angle.h"
 #include "tests/support/matchers.h"
 #include "tests/support/ran.h"
+#include "tests/support/test_paths.h"
 
 namespace spindrift::geomag_tables_test {
 

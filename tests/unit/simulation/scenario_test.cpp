@@ -92,7 +92,7 @@ TEST(Scenario, LoadsThoseThatComeWithTheProgram) {
       ++count;
     }
   }
-  EXPECT_EQ(count, 7);
+  EXPECT_EQ(count, 8);
 }
 
 TEST(Scenario, TakesWhatIsLeftOutAsTheMissionFileHasIt) {
