@@ -46,6 +46,18 @@ nlohmann::json answer_json(const Estimate& estimate) {
   return row;
 }
 
+/// Returns the other axis that an estimate names; null when it names none.
+nlohmann::json other_axis_json(const nlohmann::json& estimate_row) {
+  for (const nlohmann::json& reason : estimate_row["reasons"]) {
+    if (reason["code"] == name_of(ReasonCode::OtherAxis)) {
+      return {{"ra_deg", reason["ra_deg"]},
+              {"dec_deg", reason["dec_deg"]},
+              {"sigma_deg", reason["sigma_deg"]}};
+    }
+  }
+  return nullptr;
+}
+
 /// Returns the archive's row with the arguments as a JSON object.
 nlohmann::json action_json(const OperatorAction& action) {
   nlohmann::json row{{"action_id", action.action_id},
@@ -193,13 +205,15 @@ nlohmann::json ShownSpacecraft::show(const SpinEstimate& estimate) {
     row["bound_deg"] = bound_deg_->second;
   }
   answers_["estimates"][row["estimator"].get<std::string>()] = row;
+  if (estimate.estimator == SpinEstimator::Sequential) {
+    answers_["other_axis"] = other_axis_json(row);
+  }
   return row;
 }
 
 nlohmann::json ShownSpacecraft::show(const SpinFix& fix) {
   nlohmann::json row = json_of(fix);
-  for (const char* const name :
-       {"geometry_case", "resolution", "alternate_ra_deg", "alternate_dec_deg"}) {
+  for (const char* const name : {"geometry_case", "resolution"}) {
     answers_[name] = row[name];
   }
   return row;

@@ -115,6 +115,22 @@ TEST_F(Feed, ShowsThePriorThatAnOperatorHasSetFromItsTimeOn) {
   EXPECT_TRUE(shown()["prior"].is_null());
 }
 
+TEST_F(Feed, TellsTheOtherAxisThatSequentialFollows) {
+  const auto put_open = [&](SpinEstimator estimator, double ra_deg) {
+    SpinEstimate estimate = estimate_at(kT, estimator);
+    estimate.assessment = {
+        Quality::Ambiguous,
+        {{ReasonCode::OtherAxis, {{"ra_deg", ra_deg}, {"dec_deg", -10.0}, {"sigma_deg", 2.0}}}}};
+    put(estimate);
+  };
+  put_open(SpinEstimator::Sequential, 80.0);
+  put_open(SpinEstimator::Batch, 70.0);
+  EXPECT_EQ(shown()["other_axis"],
+            (nlohmann::json{{"ra_deg", 80.0}, {"dec_deg", -10.0}, {"sigma_deg", 2.0}}));
+  put(estimate_at(kT, SpinEstimator::Sequential));
+  EXPECT_TRUE(shown()["other_axis"].is_null());
+}
+
 TEST_F(Feed, TellsTheBoundWithTheBatchSolution) {
   put(estimate_at(kT, SpinEstimator::Sequential));
   BatchSolution solution{};
