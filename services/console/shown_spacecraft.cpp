@@ -143,14 +143,20 @@ SaysOfUse use_by(const OperatorAction& action) {
       action.does);
 }
 
-/// Returns whether a notice tells the effect of such an action.
-bool may_have_effect(const std::string& action, const RunNotice& notice) {
-  if (notice.code == name_of(NoticeCode::BatchLeavesOut)) {
-    return notice.arguments.find('"' + action + '"') != std::string::npos;
+/// Returns whether a notice tells the effect of the action: it names it, or is of what it chooses.
+bool tells_effect_of(const OperatorAction& action, const RunNotice& notice) {
+  const nlohmann::json said = parsed_json(notice.arguments);
+  if (said.contains("action_id")) {
+    return said["action_id"] == action.action_id;
   }
-  const bool of_root = notice.code == name_of(NoticeCode::RootFarFromAll);
+  if (said.contains("action")) {
+    return said["action"] == action.action;
+  }
+  const bool of_root = notice.code == name_of(NoticeCode::RootFarFromAll) ||
+                       notice.code == name_of(NoticeCode::RootChosen);
   const bool of_prior = notice.code == name_of(NoticeCode::PriorContradicted);
-  return ((of_root || of_prior) && action == "choose_root") || (of_prior && action == "set_prior");
+  return ((of_root || of_prior) && action.action == "choose_root") ||
+         (of_prior && action.action == "set_prior");
 }
 
 /// Keeps the last actions, and of those before them the exclusions in force.
@@ -339,10 +345,10 @@ void ShownSpacecraft::show(const OperatorAction& action) {
   }
 }
 
-/// Notes what the service says of the last action that may have such an effect.
+/// Notes what the service says of the last action that has such an effect.
 void ShownSpacecraft::show_effect(const RunNotice& notice) {
   const auto told = std::find_if(actions_.rbegin(), actions_.rend(), [&](const auto& action) {
-    return may_have_effect(action.action, notice);
+    return tells_effect_of(action, notice);
   });
   if (told != actions_.rend()) {
     effects_[told->action_id] = notice.says;

@@ -681,6 +681,7 @@ void SpinPass::choose_root(TaiTime t, const AxisCandidates& found) {
   }
   const SpinPrior prior = prior_choosing(root.axis_icrf, others_icrf);
   if (prior.sigma_rad > sigma_rad) {
+    notices_.root_chosen(t, root.axis_icrf, apart_rad);
     apply(t, SetPrior{prior});
   }
 }

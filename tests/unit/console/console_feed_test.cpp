@@ -259,15 +259,21 @@ TEST_F(Feed, TellsWhatAnActionHasDoneOnceTheRunSaysSo) {
   };
   feed_->put_details({.run_id = "run",
                       .spacecraft_id = "SPINNER",
-                      .actions = {said("1", "exclude_segment"), said("2", "choose_root")}});
+                      .actions = {said("1", "exclude_segment"), said("2", "choose_root"),
+                                  said("3", "set_limit"), said("4", "set_limit")}});
   EXPECT_FALSE(shown()["actions"][0].contains("effect"));
   put_details({RunNotice{.code = "batch_leaves_out",
                          .arguments = R"({"action":"exclude_segment","edges":412})",
                          .says = "batch leaves out 412 edges"},
                RunNotice{.code = "root_far_from_all", .arguments = "{}", .says = "no candidate"},
+               RunNotice{.code = "limits_set", .arguments = R"({"action_id":"3"})", .says = "set"},
                RunNotice{.code = "late_edges", .arguments = "{}", .says = "late"}});
   EXPECT_EQ(shown()["actions"][0]["effect"], "batch leaves out 412 edges");
   EXPECT_EQ(shown()["actions"][1]["effect"], "no candidate");
+  EXPECT_EQ(shown()["actions"][2]["effect"], "set");
+  EXPECT_FALSE(shown()["actions"][3].contains("effect"));
+  put_details({RunNotice{.code = "root_chosen", .arguments = "{}", .says = "taken"}});
+  EXPECT_EQ(shown()["actions"][1]["effect"], "taken");
 }
 
 TEST_F(Feed, TellsEveryExclusionThatIsInForce) {
