@@ -125,14 +125,14 @@ TEST_F(OperatorActions, SayBackWhatHoldsFromTheirTimeOn) {
                   again,
                   {{"action", "set_limit"}, {"key", "spin.sigma"}, {"deg", 0.5}, {"after_s", 9}}},
                  true);
-  EXPECT_THAT(
-      rows_of(path(),
-              "SELECT substr(says, 34) FROM notice JOIN operator_action ON action_id = "
-              "arguments ->> 'action_id' AND arguments ->> 't_tai_ns' = operator_action.t_tai_ns"
-              " ORDER BY arrival"),
-      ElementsAre(": north_in is not left out here: nothing changes|",
-                  ": north_in is used again from here on|",
-                  ": spin.sigma is held to after_s 9, deg 0.5 from here on|"));
+  EXPECT_THAT(rows_of(path(),
+                      "SELECT substr(says, 34) FROM notice JOIN operator_action ON action_id = "
+                      "notice.arguments ->> 'action_id'"
+                      " AND notice.arguments ->> 't_tai_ns' = operator_action.t_tai_ns"
+                      " ORDER BY arrival"),
+              ElementsAre(": north_in is not left out here: nothing changes|",
+                          ": north_in is used again from here on|",
+                          ": spin.sigma is held to after_s 9, deg 0.5 from here on|"));
 }
 
 TEST_F(OperatorActions, SaidBeforeTheTelemetryOfAReplayHoldForAllOfIt) {
