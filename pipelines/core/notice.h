@@ -38,7 +38,11 @@ enum class NoticeCode {
   HealthyBeamSilent,       ///< beam
   PriorContradicted,       ///< t_tai_ns, prior_from
   RootFarFromAll,          ///< t_tai_ns, limit_deg, ra_deg, dec_deg, deg (of the nearest candidate)
+  RootChosen,              ///< t_tai_ns, ra_deg, dec_deg, deg (from what was asked for)
   BatchLeavesOut,          ///< t_tai_ns, edges, action
+  ChannelIncluded,         ///< t_tai_ns, channel, action_id
+  ChannelNotLeftOut,       ///< t_tai_ns, channel, action_id
+  LimitsSet,               ///< t_tai_ns, key, limits, action_id
   PriorFar,                ///< t_tai_ns, deg, sigmas, prior_from
   AxisMoved,               ///< t_tai_ns, deg
   MeanNeverBegan,          ///< fixes, near_tangent, ambiguous, not_accepted

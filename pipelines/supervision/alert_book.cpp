@@ -57,6 +57,11 @@ void AlertBook::take_up(const std::string& run_id, Alert alert) {
       key, Entry{.last = std::move(alert), .run_id = run_id, .settled = settled, .given = state});
 }
 
+std::string AlertBook::run_of(const std::string& key) const {
+  const auto entry = by_key_.find(key);
+  return entry == by_key_.end() ? std::string{} : entry->second.run_id;
+}
+
 std::int64_t AlertBook::count_of(const std::string& key) const {
   const auto entry = by_key_.find(key);
   return entry == by_key_.end() ? 0 : entry->second.last.count;
@@ -121,7 +126,12 @@ TaiTime AlertBook::after(const std::string& key, TaiTime t) const {
 std::optional<Alert> AlertBook::raise(const Occurrence& occurrence) {
   const auto [found, is_first] = by_key_.try_emplace(occurrence.key);
   Entry& entry = found->second;
-  if (!is_first && (is_open(entry.last) || is_known(entry, occurrence))) {
+  if (!is_first && is_known(entry, occurrence)) {
+    return std::nullopt;
+  }
+  if (!is_first && is_open(entry.last)) {
+    entry.run_id = occurrence.run_id;
+    entry.settled = occurrence.t;
     return std::nullopt;
   }
   Alert& alert = entry.last;

@@ -52,6 +52,9 @@ class AlertBook {
   /// conditions that are not recomputed and whose clock may be set back.
   TaiTime after(const std::string& key, TaiTime t) const;
 
+  /// Returns the run that found the condition of the key last; empty when none did.
+  std::string run_of(const std::string& key) const;
+
   /// Returns how often the condition of the key has begun so far.
   std::int64_t count_of(const std::string& key) const;
 
@@ -77,7 +80,7 @@ class AlertBook {
  private:
   struct Entry {
     Alert last;
-    std::string run_id;                    ///< Run that raised the alert.
+    std::string run_id;                    ///< Run that found the condition last.
     TaiTime settled;                       ///< Time of the condition's last change.
     std::optional<AlertState> given = {};  ///< State when the alert was last given.
     std::int64_t not_given = 0;            ///< Changes since then.

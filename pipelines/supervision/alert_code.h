@@ -119,7 +119,8 @@ constexpr std::string_view about_of(std::string_view key) {
 }
 
 /// Returns whether the condition says something about the answer itself, so that no operator can
-/// accept it.
+/// accept it. What is left out of an answer does not: the quality of the answer says what the rest
+/// is worth.
 constexpr bool bears_on_answer(AlertCode code) {
   switch (code) {
     case AlertCode::ServiceTwice:
@@ -127,6 +128,8 @@ constexpr bool bears_on_answer(AlertCode code) {
     case AlertCode::ChannelSilent:
     case AlertCode::SensorStuck:
     case AlertCode::SpinInterference:
+    case AlertCode::SpinPeriod:
+    case AlertCode::SpinRejection:
     case AlertCode::SpinOffTarget:
     case AlertCode::SpinNutation:
     case AlertCode::SpinRate:

@@ -49,6 +49,9 @@ class SpinAnswers {
  public:
   explicit SpinAnswers(double contradiction_sigmas) : limit_{contradiction_sigmas} {}
 
+  /// Sets the limit by which what comes next is weighed.
+  void set_contradiction_sigmas(double sigmas) { limit_ = sigmas; }
+  double contradiction_sigmas() const { return limit_; }
   void note_manoeuvre(TaiTime t) { changes_.insert(t); }
   /// Notes that the computation failed: no answer is better than DOUBTFUL from now on.
   void note_fault();

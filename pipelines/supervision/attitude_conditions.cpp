@@ -100,13 +100,28 @@ ConditionChanges AttitudeConditions::evaluate(const AttitudeEstimate& estimate) 
   std::ranges::move(stuck_.see_answer(estimate.t), std::back_inserter(changes));
   std::ranges::move(views_.see_answer(estimate), std::back_inserter(changes));
   presence_.see_answer(estimate.t);
-  add(doubtful_.update(estimate.t, estimate.assessment.quality == Quality::Doubtful), changes);
-  const Quality quality = estimate.assessment.quality;
+  const Quality quality = at_best(estimate.assessment.quality);
+  add(doubtful_.update(estimate.t, quality == Quality::Doubtful), changes);
   add(lost_.update(estimate.t, quality == Quality::Lost || begins_anew(estimate), quality),
       changes);
   add(see_innovations(estimate), changes);
   last_ = estimate.t;
   quality_ = quality;
+  return changes;
+}
+
+Quality AttitudeConditions::at_best(Quality quality) const {
+  return has_failed_ ? std::max(quality, Quality::Doubtful) : quality;
+}
+
+/// Does not wait, since no answer may come any more that shows that the condition lasts.
+ConditionChanges AttitudeConditions::note_fault(TaiTime t) {
+  ConditionChanges changes;
+  has_failed_ = true;
+  quality_ = at_best(quality_);
+  doubtful_.end();
+  last_ = std::max(last_.value_or(t), t) + std::chrono::nanoseconds{1};
+  add(doubtful_.update(*last_, quality_ == Quality::Doubtful), changes);
   return changes;
 }
 

@@ -45,11 +45,15 @@ class AttitudeConditions {
   ConditionChanges evaluate(const SampleObservation& observation);
   ConditionChanges evaluate(const ReconstructedSeparation& separation);
 
+  /// Notes that the computation of the run failed at `t`: no answer is better than DOUBTFUL now.
+  ConditionChanges note_fault(TaiTime t);
+
   /// Settles the conditions of the answer and of the sensors by the last answer, without hold. To
   /// be called once, when the run has ended.
   ConditionChanges settle();
 
  private:
+  Quality at_best(Quality quality) const;
   std::optional<ConditionChange> see_innovations(const AttitudeEstimate& estimate);
 
   double launcher_percent_;
@@ -70,9 +74,10 @@ class AttitudeConditions {
   LostWatch lost_;
   ConditionWatch doubtful_;
   AnswerPresence presence_;
-  std::vector<TaiTime> awaited_;           ///< Samples whose answers may not have come yet.
-  std::optional<TaiTime> last_;            ///< Time of the answer in force.
-  Quality quality_ = Quality::Converging;  ///< Its quality.
+  std::vector<TaiTime> awaited_;  ///< Samples whose answers may not have come yet.
+  std::optional<TaiTime> last_;   ///< Time of the answer in force, or of a fault behind it.
+  Quality quality_ = Quality::Converging;  ///< Quality of that answer.
+  bool has_failed_ = false;                ///< Whether the computation failed.
   ConditionWatch launcher_;
 };
 

@@ -82,7 +82,8 @@ ConditionChanges SpinConditions::evaluate(const PulseUse& use) {
     add(presence_.see_sample(use.pulse.t), changes);
   }
   add(interference_.update(use.pulse.t, use.rejected_by == Rejection::Interference), changes);
-  if (use.revolution || is_copy || use.rejected_by == Rejection::Unassociated) {
+  if (use.revolution || is_copy || use.rejected_by == Rejection::Unassociated ||
+      use.rejected_by == Rejection::Late) {
     if (const auto percent = left_out_.count(use.revolution, use.rejected_by.has_value())) {
       add(rejection_.update(use.pulse.t, {.value = *percent, .limit = limits_.rejection.percent}),
           changes);
@@ -140,6 +141,10 @@ ConditionChanges SpinConditions::evaluate(const SpinMeasurement& measurement) {
 
 ConditionChanges SpinConditions::evaluate(const SpinEstimate& estimate) {
   ConditionChanges changes;
+  // A solution of `batch`, which comes at any time, is weighed by the limit of the newest answer.
+  if (estimate.estimator != SpinEstimator::Batch) {
+    answers_.set_contradiction_sigmas(limits_.disagree_sigmas);
+  }
   answers_.take(estimate);
   presence_.see_answer(estimate.t);
   if (estimate.estimator == SpinEstimator::Batch) {
@@ -163,9 +168,7 @@ void SpinConditions::evaluate_in_force(TaiTime t, const SpinAnswer& answer,
   for (auto due = targets_.begin(); due != later; due = targets_.erase(due)) {
     target_ = SpinTarget{.axis_icrf = due->second, .rate = target_ ? target_->rate : std::nullopt};
   }
-  add(ambiguous_.update(t, answer.quality == Quality::Ambiguous), changes);
-  add(doubtful_.update(t, answer.quality == Quality::Doubtful), changes);
-  add(lost_.update(t, answer.quality == Quality::Lost, answer.quality), changes);
+  evaluate_quality(t, answer.quality, changes);
   if (first_ && seconds_between(*first_, t) >= limits_.sigma_after_s) {
     add(sigma_.update(t, {.value = sigma_deg_of(answer.estimate), .limit = limits_.sigma_deg}),
         changes);
@@ -173,6 +176,23 @@ void SpinConditions::evaluate_in_force(TaiTime t, const SpinAnswer& answer,
   if (target_ && is_unopposed(answer.quality)) {
     evaluate_target(t, answer.estimate, changes);
   }
+}
+
+void SpinConditions::evaluate_quality(TaiTime t, Quality quality, ConditionChanges& changes) {
+  add(ambiguous_.update(t, quality == Quality::Ambiguous), changes);
+  add(doubtful_.update(t, quality == Quality::Doubtful), changes);
+  add(lost_.update(t, quality == Quality::Lost, quality), changes);
+}
+
+/// Does not wait, since no answer may come any more that shows that the condition lasts.
+ConditionChanges SpinConditions::note_fault(TaiTime t) {
+  ConditionChanges changes;
+  answers_.note_fault();
+  ambiguous_.end();
+  doubtful_.end();
+  judged_ = std::max(judged_.value_or(t), t) + std::chrono::nanoseconds{1};
+  evaluate_quality(*judged_, in_force() ? in_force()->quality : Quality::Doubtful, changes);
+  return changes;
 }
 
 void SpinConditions::evaluate_target(TaiTime t, const SpinEstimate& estimate,
@@ -192,12 +212,13 @@ void SpinConditions::evaluate_target(TaiTime t, const SpinEstimate& estimate,
 }
 
 void SpinConditions::evaluate_disagreement(TaiTime t, ConditionChanges& changes) {
+  const double limit = answers_.contradiction_sigmas();
   const std::vector<AxesApart> pairs = answers_.apart();
   const auto worst =
       std::max_element(pairs.begin(), pairs.end(),
                        [](const AxesApart& a, const AxesApart& b) { return a.sigmas < b.sigmas; });
   if (worst != pairs.end()) {
-    add(disagree_.update(t, {.value = worst->sigmas, .limit = limits_.disagree_sigmas}), changes);
+    add(disagree_.update(t, {.value = worst->sigmas, .limit = limit}), changes);
   }
 }
 
@@ -217,7 +238,7 @@ ConditionChanges SpinConditions::settle() {
   evaluate_in_force(t, *answer, changes);
   evaluate_disagreement(t, changes);
   if (answers_.apart().empty()) {
-    add(disagree_.update(t, {.value = 0.0, .limit = limits_.disagree_sigmas}), changes);
+    add(disagree_.update(t, {.value = 0.0, .limit = answers_.contradiction_sigmas()}), changes);
   }
   return changes;
 }

@@ -44,8 +44,8 @@ class SpinConditions {
     manoeuvres_.insert(t);
     answers_.note_manoeuvre(t);
   }
-  /// Notes that the computation of the run failed.
-  void note_fault() { answers_.note_fault(); }
+  /// Notes that the computation of the run failed at `t`: no answer is better than DOUBTFUL now.
+  ConditionChanges note_fault(TaiTime t);
   /// Takes up the alert of a run before that is open, if only a watch for it can end it.
   void take_up(AlertCode code, const std::string& about) {
     if (code == AlertCode::SensorContradicts) {
@@ -73,6 +73,7 @@ class SpinConditions {
  private:
   std::span<const AxisSeen> axes_in_question();
   void evaluate_in_force(TaiTime t, const SpinAnswer& answer, ConditionChanges& changes);
+  void evaluate_quality(TaiTime t, Quality quality, ConditionChanges& changes);
   void evaluate_target(TaiTime t, const SpinEstimate& estimate, ConditionChanges& changes);
   void evaluate_disagreement(TaiTime t, ConditionChanges& changes);
   ConditionWatch::Reading reading_of(const Estimated& half_angle_rad);

@@ -85,6 +85,9 @@ class ThreeAxisPass {
   ThreeAxisOutput push(const MagneticField& field) { return process({field.t, field}); }
   ThreeAxisOutput push(const TimedOrbitState& state) { return process({state.t, state}); }
 
+  /// Returns whether operators have excluded the sensor at `t`.
+  bool leaves_out(TaiTime t, SampleKind sensor) const { return excluded_.hold(t, sensor); }
+
   /// Applies an operator's action to telemetry from `t` on that is not yet processed.
   void act(TaiTime t, const AttitudeAction& action);
 

@@ -28,7 +28,9 @@ template <class Conditions>
 ConditionChanges changes_by_product(Conditions& conditions, const Product& product) {
   return std::visit(
       [&](const auto& value) -> ConditionChanges {
-        if constexpr (requires { conditions.evaluate(value); }) {
+        if constexpr (std::is_same_v<std::remove_cvref_t<decltype(value)>, RunFault>) {
+          return conditions.note_fault(value.t);
+        } else if constexpr (requires { conditions.evaluate(value); }) {
           return conditions.evaluate(value);
         } else if constexpr (requires { conditions.evaluate(*value); }) {
           return conditions.evaluate(*value);
@@ -112,17 +114,13 @@ void append(ConditionChanges changes, ConditionChanges& all) {
   std::move(changes.begin(), changes.end(), std::back_inserter(all));
 }
 
-/// Tells the conditions of the products that they do not judge, and adds to `batch` which answer is
-/// in force if that may have changed.
-void weigh_answers(SpinConditions& conditions, ArchiveBatch& batch) {
-  bool may_change = false;
-  for (const Product& product : batch.products) {
-    const bool is_fault = std::holds_alternative<RunFault>(product);
-    if (is_fault) {
-      conditions.note_fault();
-    }
-    may_change = may_change || is_fault || std::holds_alternative<SpinEstimate>(product);
-  }
+/// Adds to `batch` which answer is in force if its products may have changed that.
+void add_answer(const SpinConditions& conditions, ArchiveBatch& batch) {
+  const bool may_change =
+      std::any_of(batch.products.begin(), batch.products.end(), [](const Product& product) {
+        return std::holds_alternative<RunFault>(product) ||
+               std::holds_alternative<SpinEstimate>(product);
+      });
   if (const auto& answer = conditions.in_force(); may_change && answer) {
     batch.products.emplace_back(*answer);
   }
@@ -288,10 +286,7 @@ void AlertDesk::evaluate(ArchiveBatch& batch) {
     begin(desk);
   }
   if (supervised.ended && supervised.ended_run == batch.run_id) {
-    for (const Product& product : batch.products) {
-      changes_by_product(*supervised.ended, product);
-    }
-    weigh_answers(*supervised.ended, batch);
+    append(ended_by(batch, desk), batch.products);
   }
   if (supervised.run_id != batch.run_id) {
     return;
@@ -311,7 +306,7 @@ void AlertDesk::tell(const ConditionChanges& changes, ArchiveBatch& batch) {
   const auto desk = desks_.find(batch.spacecraft_id);
   if (desk != desks_.end() && desk->second.supervised &&
       desk->second.supervised->run_id == batch.run_id) {
-    append(settled(changes, desk->second), batch.products);
+    append(settled(changes, batch.run_id, desk->second), batch.products);
   }
 }
 
@@ -323,7 +318,8 @@ void AlertDesk::go_on(const std::string& spacecraft, const std::string& run_id,
       desk->second.supervised->run_id != run_id) {
     return;
   }
-  std::vector<Alert> alerts = settled(changes_by(samples, *desk->second.supervised), desk->second);
+  std::vector<Alert> alerts =
+      settled(changes_by(samples, *desk->second.supervised), run_id, desk->second);
   std::move(alerts.begin(), alerts.end(), std::back_inserter(desk->second.waiting));
 }
 
@@ -404,23 +400,43 @@ std::vector<Alert> AlertDesk::changed_by(ArchiveBatch& batch, Desk& desk) {
     append(contradictions_by(supervised.contradictions, product), all);
   }
   if (auto* const spin = std::get_if<SpinConditions>(&supervised.conditions)) {
-    weigh_answers(*spin, batch);
+    add_answer(*spin, batch);
   }
   if (batch.finished_utc) {
     append(std::visit([](auto& conditions) { return conditions.settle(); }, supervised.conditions),
            all);
   }
-  return settled(all, desk);
+  return settled(all, supervised.run_id, desk);
 }
 
-std::vector<Alert> AlertDesk::settled(const ConditionChanges& changes, Desk& desk) {
+/// Lets the last answers of a run that another one has followed end its alerts that are still open.
+/// Only the run that goes on raises alerts, since it alone can end them.
+std::vector<Alert> AlertDesk::ended_by(ArchiveBatch& batch, Desk& desk) {
+  SpinConditions& ended = *desk.supervised->ended;
+  ConditionChanges changes;
+  for (const Product& product : batch.products) {
+    append(changes_by_product(ended, product), changes);
+  }
+  add_answer(ended, batch);
+  if (batch.finished_utc) {
+    append(ended.settle(), changes);
+  }
+  std::erase_if(changes, [&](const ConditionChange& change) {
+    return change.change != Change::Cleared ||
+           desk.book.run_of(alert_key(change.code, change.about)) != batch.run_id;
+  });
+  return settled(changes, batch.run_id, desk);
+}
+
+std::vector<Alert> AlertDesk::settled(const ConditionChanges& changes, const std::string& run_id,
+                                      Desk& desk) {
   Supervised& supervised = *desk.supervised;
   std::vector<Alert> alerts;
   for (const ConditionChange& change : changes) {
     if (auto alert = settle(desk.book, change.change,
-                            occurrence_of(change, supervised.run_id, supervised.mission.sha256,
+                            occurrence_of(change, run_id, supervised.mission.sha256,
                                           supervised.limits.at(change.t), desk.book))) {
-      desk.run_of.try_emplace(alert->alert_id, supervised.run_id);
+      desk.run_of.try_emplace(alert->alert_id, run_id);
       alerts.push_back(*std::move(alert));
     }
   }

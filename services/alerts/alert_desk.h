@@ -132,7 +132,9 @@ class AlertDesk {
   static ConditionChanges changes_by(const Samples& samples, Supervised& supervised);
   static std::vector<Alert> changed_by(ArchiveBatch& batch, Desk& desk);
   static std::vector<Alert> changed_by(const ServiceState& state, Desk& desk);
-  static std::vector<Alert> settled(const ConditionChanges& changes, Desk& desk);
+  static std::vector<Alert> ended_by(ArchiveBatch& batch, Desk& desk);
+  static std::vector<Alert> settled(const ConditionChanges& changes, const std::string& run_id,
+                                    Desk& desk);
 
   RunMode mode_ = RunMode::Process;
   mutable std::mutex mutex_;

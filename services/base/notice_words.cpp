@@ -122,7 +122,14 @@ constexpr std::array<NoticePattern, kNoticeCodes> kNoticePatterns{{
     {RootFarFromAll, "root_far_from_all",
      "{t_tai_ns}: no candidate lies within {limit_deg:.0f} deg of the chosen axis: the nearest is "
      "ra {ra_deg:.2f} dec {dec_deg:.2f} deg, {deg:.1f} deg away; the choice waits for one"},
+    {RootChosen, "root_chosen",
+     "{t_tai_ns}: the candidate ra {ra_deg:.2f} dec {dec_deg:.2f} deg is taken, {deg:.1f} deg from "
+     "the chosen axis"},
     {BatchLeavesOut, "batch_leaves_out", "{t_tai_ns}: batch leaves out {edges} edges by {action}"},
+    {ChannelIncluded, "channel_included", "{t_tai_ns}: {channel} is used again from here on"},
+    {ChannelNotLeftOut, "channel_not_left_out",
+     "{t_tai_ns}: {channel} is not left out here: nothing changes"},
+    {LimitsSet, "limits_set", "{t_tai_ns}: {key} is held to {limits} from here on"},
     {PriorFar, "prior_far",
      "{t_tai_ns}: the axis is {deg:.1f} deg from the prior of the {prior_from}, "
      "{sigmas:.0f} times the sigma of both: the edges decide without it"},

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <string>
 #include <utility>
@@ -42,6 +43,20 @@ void see_answer(const PassVerdict& verdict, Objections& against) {
   }
 }
 
+/// An unknown key is held to bear on the answer.
+bool is_accepted(const Alert& alert) {
+  const auto code = code_of(alert.key);
+  return alert.state == AlertState::Acknowledged && alert.accepted &&
+         alert.severity == AlertSeverity::Warning && code && !bears_on_answer(*code);
+}
+
+/// Returns whether an operator has accepted that the condition holds.
+bool is_accepted(const std::vector<Alert>& alerts, AlertCode code) {
+  return std::any_of(alerts.begin(), alerts.end(), [code](const Alert& alert) {
+    return code_of(alert.key) == code && is_accepted(alert);
+  });
+}
+
 void see_axis(const Standing& standing, const AlertLimits& limits, Objections& against) {
   if (!has_answer(standing.verdict)) {
     return;
@@ -52,17 +67,11 @@ void see_axis(const Standing& standing, const AlertLimits& limits, Objections& a
         {"sigma", fmt::format("sigma {:.3g} deg, limit {:g}", sigma_deg, limits.sigma_deg)});
   }
   const double limit_deg = limits.off_target_deg + limits.off_target_sigmas * sigma_deg;
-  if (standing.to_target_deg && *standing.to_target_deg > limit_deg) {
+  if (standing.to_target_deg && *standing.to_target_deg > limit_deg &&
+      !is_accepted(standing.alerts, AlertCode::SpinOffTarget)) {
     against.push_back({"target", fmt::format("{:.3g} deg off the target, limit {:.3g}",
                                              *standing.to_target_deg, limit_deg)});
   }
-}
-
-/// An unknown key is held to bear on the answer.
-bool is_accepted(const Alert& alert) {
-  const auto code = code_of(alert.key);
-  return alert.state == AlertState::Acknowledged && alert.accepted &&
-         alert.severity == AlertSeverity::Warning && code && !bears_on_answer(*code);
 }
 
 AcceptedAlert accepted_of(const Alert& alert) {

@@ -46,6 +46,18 @@ nlohmann::json answer_json(const Estimate& estimate) {
   return row;
 }
 
+/// Returns the other axis that an estimate names; null when it names none.
+nlohmann::json other_axis_json(const nlohmann::json& estimate_row) {
+  for (const nlohmann::json& reason : estimate_row["reasons"]) {
+    if (reason["code"] == name_of(ReasonCode::OtherAxis)) {
+      return {{"ra_deg", reason["ra_deg"]},
+              {"dec_deg", reason["dec_deg"]},
+              {"sigma_deg", reason["sigma_deg"]}};
+    }
+  }
+  return nullptr;
+}
+
 /// Returns the archive's row with the arguments as a JSON object.
 nlohmann::json action_json(const OperatorAction& action) {
   nlohmann::json row{{"action_id", action.action_id},
@@ -131,14 +143,20 @@ SaysOfUse use_by(const OperatorAction& action) {
       action.does);
 }
 
-/// Returns whether a notice tells the effect of such an action.
-bool may_have_effect(const std::string& action, const RunNotice& notice) {
-  if (notice.code == name_of(NoticeCode::BatchLeavesOut)) {
-    return notice.arguments.find('"' + action + '"') != std::string::npos;
+/// Returns whether a notice tells the effect of the action: it names it, or is of what it chooses.
+bool tells_effect_of(const OperatorAction& action, const RunNotice& notice) {
+  const nlohmann::json said = parsed_json(notice.arguments);
+  if (said.contains("action_id")) {
+    return said["action_id"] == action.action_id;
   }
-  const bool of_root = notice.code == name_of(NoticeCode::RootFarFromAll);
+  if (said.contains("action")) {
+    return said["action"] == action.action;
+  }
+  const bool of_root = notice.code == name_of(NoticeCode::RootFarFromAll) ||
+                       notice.code == name_of(NoticeCode::RootChosen);
   const bool of_prior = notice.code == name_of(NoticeCode::PriorContradicted);
-  return ((of_root || of_prior) && action == "choose_root") || (of_prior && action == "set_prior");
+  return ((of_root || of_prior) && action.action == "choose_root") ||
+         (of_prior && action.action == "set_prior");
 }
 
 /// Keeps the last actions, and of those before them the exclusions in force.
@@ -193,13 +211,15 @@ nlohmann::json ShownSpacecraft::show(const SpinEstimate& estimate) {
     row["bound_deg"] = bound_deg_->second;
   }
   answers_["estimates"][row["estimator"].get<std::string>()] = row;
+  if (estimate.estimator == SpinEstimator::Sequential) {
+    answers_["other_axis"] = other_axis_json(row);
+  }
   return row;
 }
 
 nlohmann::json ShownSpacecraft::show(const SpinFix& fix) {
   nlohmann::json row = json_of(fix);
-  for (const char* const name :
-       {"geometry_case", "resolution", "alternate_ra_deg", "alternate_dec_deg"}) {
+  for (const char* const name : {"geometry_case", "resolution"}) {
     answers_[name] = row[name];
   }
   return row;
@@ -325,10 +345,10 @@ void ShownSpacecraft::show(const OperatorAction& action) {
   }
 }
 
-/// Notes what the service says of the last action that may have such an effect.
+/// Notes what the service says of the last action that has such an effect.
 void ShownSpacecraft::show_effect(const RunNotice& notice) {
   const auto told = std::find_if(actions_.rbegin(), actions_.rend(), [&](const auto& action) {
-    return may_have_effect(action.action, notice);
+    return tells_effect_of(action, notice);
   });
   if (told != actions_.rend()) {
     effects_[told->action_id] = notice.says;

@@ -277,17 +277,60 @@ Expected<OperatorAction> with_time(OperatorAction action) {
   return action;
 }
 
-Expected<SpacecraftKind> kind_of(const std::string& spacecraft, const KnownSpacecraft& known) {
+Expected<Nameable> find(const std::string& spacecraft, const KnownSpacecraft& known) {
   const auto found = known.find(spacecraft);
   if (found != known.end()) {
     return found->second;
   }
   std::vector<std::string> names;
-  for (const auto& [name, kind] : known) {
+  for (const auto& [name, of_spacecraft] : known) {
     names.push_back(name);
   }
   return invalid(fmt::format("spacecraft: '{}': must be one of {}", shown(spacecraft),
                              fmt::join(names, ", ")));
+}
+
+template <class What>
+std::optional<std::string_view> channel_in(const What& what) {
+  if constexpr (requires { what.channel.has_value(); }) {
+    return what.channel ? std::optional{name_of(*what.channel)} : std::nullopt;
+  } else if constexpr (requires { name_of(what.channel); }) {
+    return name_of(what.channel);
+  } else {
+    return std::nullopt;
+  }
+}
+
+/// A name that an action names, and those that it may.
+struct Named {
+  const char* key;
+  std::optional<std::string_view> name;
+  const std::vector<std::string_view>& allowed;
+};
+
+Named named_in(const ActionEffect& does, const Nameable& known) {
+  return std::visit(
+      [&](const auto& of_kind) -> Named {
+        if constexpr (requires { of_kind.key; }) {
+          return {"key", of_kind.key, known.alerts};
+        } else {
+          return {"channel", std::visit([](const auto& what) { return channel_in(what); }, of_kind),
+                  known.channels};
+        }
+      },
+      does);
+}
+
+/// Refuses what the mission lacks. An action from an archive, whose mission may have had it, is not
+/// asked.
+Expected<OperatorAction> within_mission(OperatorAction action, const Nameable& known) {
+  const auto [key, name, allowed] = named_in(action.does, known);
+  if (!name || std::find(allowed.begin(), allowed.end(), *name) != allowed.end()) {
+    return action;
+  }
+  return invalid(fmt::format("{}: {}: \"{}\": the mission of {} has none: must be one of {}",
+                             action.action, key, *name, action.spacecraft,
+                             fmt::join(allowed, ", ")));
 }
 
 }  // namespace
@@ -366,12 +409,14 @@ Expected<OperatorAction> parse_action(const nlohmann::json& request, const Known
   if (const std::string problems = said.problems(); !problems.empty()) {
     return invalid(problems);
   }
-  return kind_of(action.spacecraft, known)
-      .and_then([&](SpacecraftKind kind) { return what_it_does(kind, action.action, arguments); })
-      .and_then([&](const ActionEffect& does) {
-        action.does = does;
-        return with_time(action);
-      });
+  return find(action.spacecraft, known).and_then([&](const Nameable& of_spacecraft) {
+    return what_it_does(of_spacecraft.kind, action.action, arguments)
+        .and_then([&](const ActionEffect& does) {
+          action.does = does;
+          return within_mission(action, of_spacecraft);
+        })
+        .and_then(with_time);
+  });
 }
 
 }  // namespace spindrift

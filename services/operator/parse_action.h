@@ -9,7 +9,6 @@
 
 #pragma once
 
-#include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -18,12 +17,10 @@
 
 #include "pipelines/core/expected.h"
 #include "services/mission/spacecraft_kind.h"
+#include "services/operator/known_spacecraft.h"
 #include "services/telemetry/operator_action.h"
 
 namespace spindrift {
-
-/// The spacecraft that actions may name.
-using KnownSpacecraft = std::map<std::string, SpacecraftKind>;
 
 /// Parses the body of POST /api/v1/actions: `spacecraft`, `by`, `action` and its arguments; `note`
 /// and `t_tai_ns` are optional. A segment without `t_tai_ns` applies from its own beginning.

@@ -19,6 +19,7 @@
 #include "pipelines/core/notice.h"
 #include "services/archive/records.h"
 #include "services/archive/stored_pass.h"
+#include "services/processor/action_effects.h"
 #include "services/processor/last_answers.h"
 #include "services/processor/pass_input.h"
 #include "services/processor/what_is_thrown.h"
@@ -164,11 +165,12 @@ class PassComputing {
     }
   }
 
-  /// An action gives no products itself, but for notices of its effect on what came before; else it
-  /// affects the samples after it.
+  /// An action gives no products itself, but for notices of its effect; else it affects the samples
+  /// after it.
   template <class Note>
   void process(const Placed<OperatorAction>& placed, const Note& note, Computed& computed) {
     const OperatorAction& action = placed.value;
+    const bool was_left_out = names_what_is_left_out(action);
     std::visit(
         [&](const auto& does) {
           if constexpr (requires { pass_.act(action.t.value(), does); }) {
@@ -176,9 +178,29 @@ class PassComputing {
           }
         },
         action.does);
+    keep({}, told(spacecraft_id_, effects_of(action, was_left_out)), std::nullopt, computed);
     if constexpr (requires { note(action); }) {
       keep({}, told(spacecraft_id_, note(action)), std::nullopt, computed);
     }
+  }
+
+  bool names_what_is_left_out(const OperatorAction& action) const {
+    const auto is_left_out = [&](const auto& what) {
+      if constexpr (requires { pass_.leaves_out(*action.t, what.channel); }) {
+        return pass_.leaves_out(action.t.value(), what.channel);
+      } else {
+        return false;
+      }
+    };
+    return std::visit(
+        [&](const auto& does) {
+          if constexpr (requires { std::visit(is_left_out, does); }) {
+            return std::visit(is_left_out, does);
+          } else {
+            return false;
+          }
+        },
+        action.does);
   }
 
   template <class Note>

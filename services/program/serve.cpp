@@ -79,14 +79,6 @@ RunMode mode_of(const ServeOptions& options) {
   return options.partition == "replay" ? RunMode::Replay : RunMode::Live;
 }
 
-KnownSpacecraft kinds_of(const std::vector<Mission>& missions) {
-  KnownSpacecraft known;
-  for (const Mission& mission : missions) {
-    known.emplace(mission.spacecraft_id, mission.kind());
-  }
-  return known;
-}
-
 std::string host_name() {
   std::array<char, 48> host{};
   if (::gethostname(host.data(), host.size() - 1) != 0) {
@@ -315,7 +307,7 @@ Expected<void> take_and_answer(const ServeOptions& options, const ServiceParts& 
                                ConsoleFeed* feed, ServiceTerminal& terminal, StoredActions& actions,
                                GoneOn stored) {
   ActionInbox inbox{
-      kinds_of(parts.missions), parts.db, parts.mode, parts.archive, parts.taken, actions};
+      known_spacecraft(parts.missions), parts.db, parts.mode, parts.archive, parts.taken, actions};
   const auto requests = answer_requests(options.db, parts.archive, parts.desk, inbox);
   const auto console = start_console(options, feed, parts, inbox);
   if (!console) {

@@ -178,11 +178,13 @@ test('shows no digit finer than sigma, and the other axis only while the answer 
     const { drawSky } = await import('/sky.js');
     drawHeader(one, { mode: 'live' }, 0, false);
     drawSky(one);
-    return [document.getElementById('figure-axis-ra-dec').textContent, document.getElementById('other-root').hidden];
-  }, { ra_deg: 100.337, dec_deg: -54.815, sigma_deg: 0.51, alternate_ra_deg: 80, alternate_dec_deg: -10, resolution: 'AMBIGUOUS', ...craft });
-  assert.deepEqual(await shownOf({ quality: 'OK' }), ['100.34° / -54.81°', true]);
-  assert.deepEqual(await shownOf({ quality: 'AMBIGUOUS', sigma_deg: 12 }), ['100° / -55°', false]);
+    const other = document.getElementById('other-root');
+    return [document.getElementById('figure-axis-ra-dec').textContent, other.hidden, other.textContent];
+  }, { ra_deg: 100.337, dec_deg: -54.815, sigma_deg: 0.51, other_axis: { ra_deg: 80.126, dec_deg: -9.874, sigma_deg: 2.3 }, resolution: 'AMBIGUOUS', ...craft });
+  assert.deepEqual((await shownOf({ quality: 'OK' })).slice(0, 2), ['100.34° / -54.81°', true]);
+  assert.deepEqual(await shownOf({ quality: 'AMBIGUOUS', sigma_deg: 12 }), ['100° / -55°', false, 'Choose RA 80.1° Dec -9.9°']);
   assert.equal((await shownOf({}))[1], false);
+  assert.equal((await shownOf({ quality: 'AMBIGUOUS', other_axis: null }))[1], true);
 });
 
 test('needs no scrolling at 1366x768 and on a tablet', async () => {

@@ -132,7 +132,7 @@ class ThreeAxisRestart : public testing::ArchiveFixture {
                           {"channel", "sun"},
                           {"from_tai_ns", first_ns_ + 40'000'000'000},
                           {"to_tai_ns", first_ns_ + 80'000'000'000}},
-                         {{"SAT", SpacecraftKind::ThreeAxis}})
+                         known_spacecraft({load_mission(pass_ / "mission.toml").value()}))
                 .value();
   }
 

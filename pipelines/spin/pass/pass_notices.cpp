@@ -151,6 +151,15 @@ void PassNotices::root_far_from_all(TaiTime t, const Eigen::Vector3d& nearest_ic
                                           {"deg", degrees(apart_rad)}}});
 }
 
+void PassNotices::root_chosen(TaiTime t, const Eigen::Vector3d& root_icrf, double apart_rad) {
+  const RaDec root = ra_dec_of(root_icrf);
+  say({NoticeCode::RootChosen,
+       {at(t),
+        {"ra_deg", degrees(root.ra_rad)},
+        {"dec_deg", degrees(root.dec_rad)},
+        {"deg", degrees(apart_rad)}}});
+}
+
 void PassNotices::prior_set(const SpinPrior& prior) {
   config_.prior = prior;
   prior_from_.value = "operator";

@@ -61,6 +61,7 @@ class PassNotices {
   /// Notes that an operator's choice is no candidate; once a choice.
   void root_far_from_all(TaiTime t, const Eigen::Vector3d& nearest_icrf, double apart_rad,
                          double limit_rad);
+  void root_chosen(TaiTime t, const Eigen::Vector3d& root_icrf, double apart_rad);
   /// Resets what was said of the choice before.
   void root_to_choose() { said_.erase(NoticeCode::RootFarFromAll); }
   void axis_moved(TaiTime t, double apart_rad);

@@ -638,13 +638,14 @@ void SpinPass::apply(TaiTime /*t*/, const ChooseRoot& action) {
   notices_.root_to_choose();
 }
 
-/// Returns the axes among which an operator chooses: those of the fix, or those that the filters
-/// follow where noise scatters the fix.
+/// Returns the axes among which an operator chooses: those that `sequential` follows, which its
+/// estimate names. Those of a fix that noise does not scatter, while it follows only one.
 std::vector<StartingPoint> SpinPass::roots_of(const AxisCandidates& found) const {
-  if (found.near_tangent) {
-    return sequential_.followed();
+  std::vector<StartingPoint> roots = sequential_.followed();
+  if (roots.size() > 1 || found.near_tangent) {
+    return roots;
   }
-  std::vector<StartingPoint> roots;
+  roots.clear();
   for (const AxisCandidate& root : found.candidates) {
     roots.push_back({.axis_icrf = root.axis_icrf, .covariance_rad2 = root.total_covariance_rad2()});
   }
@@ -680,6 +681,7 @@ void SpinPass::choose_root(TaiTime t, const AxisCandidates& found) {
   }
   const SpinPrior prior = prior_choosing(root.axis_icrf, others_icrf);
   if (prior.sigma_rad > sigma_rad) {
+    notices_.root_chosen(t, root.axis_icrf, apart_rad);
     apply(t, SetPrior{prior});
   }
 }

@@ -71,6 +71,9 @@ class SpinPass {
   /// Takes a frame of edges that were timed on board.
   SpinOutput push(const CodedFrame& frame);
 
+  /// Returns whether operators have excluded the channel at `t`.
+  bool leaves_out(TaiTime t, PulseChannel channel) const { return excluded_.hold(t, channel); }
+
   /// Applies an operator action to telemetry from `t` on.
   void act(TaiTime t, const SpinAction& action);
 

@@ -41,7 +41,7 @@ SampleBatch batch_of(json action) {
   action["spacecraft"] = "SPINNER";
   action["by"] = "shift";
   SampleBatch batch;
-  batch.actions.push_back(parse_action(action, {{"SPINNER", SpacecraftKind::Spin}}).value());
+  batch.actions.push_back(parse_action(action, known_spacecraft({mission()})).value());
   return batch;
 }
 
@@ -115,6 +115,24 @@ TEST_F(OperatorActions, AreStoredAmongTheSamplesWithTheTimeThatTelemetryHadReach
   EXPECT_EQ(left_out(), count("pulse WHERE channel = 'north_in' AND t_tai_ns >= (SELECT t_tai_ns "
                               "FROM operator_action)"));
   EXPECT_GT(left_out(), 50);
+}
+
+TEST_F(OperatorActions, SayBackWhatHoldsFromTheirTimeOn) {
+  const json again{{"action", "include_channel"}, {"channel", "north_in"}};
+  live().receive(0, kAll,
+                 {again,
+                  kNoNorthIn,
+                  again,
+                  {{"action", "set_limit"}, {"key", "spin.sigma"}, {"deg", 0.5}, {"after_s", 9}}},
+                 true);
+  EXPECT_THAT(rows_of(path(),
+                      "SELECT substr(says, 34) FROM notice JOIN operator_action ON action_id = "
+                      "notice.arguments ->> 'action_id'"
+                      " AND notice.arguments ->> 't_tai_ns' = operator_action.t_tai_ns"
+                      " ORDER BY arrival"),
+              ElementsAre(": north_in is not left out here: nothing changes|",
+                          ": north_in is used again from here on|",
+                          ": spin.sigma is held to after_s 9, deg 0.5 from here on|"));
 }
 
 TEST_F(OperatorActions, SaidBeforeTheTelemetryOfAReplayHoldForAllOfIt) {

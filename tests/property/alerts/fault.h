@@ -155,4 +155,22 @@ inline std::set<std::string> contradicts(const std::string& culprit) {
   return {"sensor.contradicts:" + culprit};
 }
 
+inline Flight spoilt(const Fault& fault) {
+  Flight flight = flown(fault.scenario, fault.more_of_mission);
+  if (!fault.is_separation) {
+    flight.mission.separation.reset();
+  }
+  if (fault.mission) {
+    fault.mission(flight.mission);
+  }
+  if (fault.sensors) {
+    fault.sensors(flight.sent, fault.window);
+  }
+  number(flight.sent);
+  if (fault.link) {
+    fault.link(flight.sent, fault.window);
+  }
+  return flight;
+}
+
 }  // namespace spindrift::testing

@@ -28,24 +28,6 @@ RaisedByKey served(const Fault& fault, const Flight& flight) {
   return supervised.serve(flight.sent, kBeforeSilence_s);
 }
 
-Flight spoilt(const Fault& fault) {
-  Flight flight = flown(fault.scenario, fault.more_of_mission);
-  if (!fault.is_separation) {
-    flight.mission.separation.reset();
-  }
-  if (fault.mission) {
-    fault.mission(flight.mission);
-  }
-  if (fault.sensors) {
-    fault.sensors(flight.sent, fault.window);
-  }
-  number(flight.sent);
-  if (fault.link) {
-    fault.link(flight.sent, fault.window);
-  }
-  return flight;
-}
-
 void expect_found(const Fault& fault) {
   SCOPED_TRACE(fault.name);
   const Flight flight = spoilt(fault);

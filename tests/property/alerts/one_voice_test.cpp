@@ -1,4 +1,4 @@
-/// The verdict on a spinner and its open alerts agree, row by row and at the end of the pass.
+/// The verdict on a spacecraft and its open alerts agree, row by row and at the end of the pass.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -14,7 +14,8 @@
 #include "pipelines/frames/celestial.h"
 #include "pipelines/spin/pass/spin_pass.h"
 #include "pipelines/supervision/answer_in_force.h"
-#include "tests/property/alerts/supervised_pass.h"
+#include "tests/property/alerts/fault.h"
+#include "tests/property/alerts/three_axis_faults.h"
 
 namespace spindrift::testing::one_voice_test {
 
@@ -23,7 +24,8 @@ using Keys = std::set<std::string>;
 /// The open alerts that say something about the quality of the answer.
 Keys of_quality(const Keys& open) {
   Keys found;
-  for (const char* const key : {"spin.ambiguous", "spin.doubtful", "attitude.lost"}) {
+  for (const char* const key :
+       {"spin.ambiguous", "spin.doubtful", "attitude.doubtful", "attitude.lost"}) {
     if (open.contains(key)) {
       found.insert(key);
     }
@@ -31,12 +33,12 @@ Keys of_quality(const Keys& open) {
   return found;
 }
 
-Keys expected_of(Quality quality) {
+Keys expected_of(SpacecraftKind kind, Quality quality) {
   switch (quality) {
     case Quality::Ambiguous:
       return {"spin.ambiguous"};
     case Quality::Doubtful:
-      return {"spin.doubtful"};
+      return {kind == SpacecraftKind::Spin ? "spin.doubtful" : "attitude.doubtful"};
     case Quality::Lost:
       return {"attitude.lost"};
     default:
@@ -45,45 +47,75 @@ Keys expected_of(Quality quality) {
 }
 
 /// Compares an answer with the alerts open behind it, as long as it has stayed the same for longer
-/// than any of them holds. Rows must follow each other closely, as those of a service do.
+/// than any of them holds. Rows must follow each other closely, as those of a service do. What was
+/// lost is so until it is OK again.
 class Compared {
  public:
-  void operator()(const SpinAnswer& answer, const Keys& open) {
-    if (!last_ || last_->quality != answer.quality) {
-      since_ = answer.t;
+  explicit Compared(SpacecraftKind kind) : kind_{kind} {}
+
+  void operator()(TaiTime t, Quality quality, const Keys& open) {
+    if (last_ != quality) {
+      since_ = t;
     }
-    last_ = answer;
-    if (seconds_between(since_, answer.t) > kLongestHold_s) {
-      EXPECT_EQ(of_quality(open), expected_of(answer.quality));
-      ++compared_;
+    last_ = quality;
+    was_lost_ = quality == Quality::Lost || (was_lost_ && quality != Quality::Ok);
+    if (seconds_between(since_, t) > kLongestHold_s) {
+      Keys expected = expected_of(kind_, quality);
+      if (was_lost_) {
+        expected.insert("attitude.lost");
+      }
+      EXPECT_EQ(of_quality(open), expected);
+      qualities_.insert(quality);
     }
   }
-  const SpinAnswer& last() const { return last_.value(); }
-  int compared() const { return compared_; }
+  Quality last() const { return last_.value(); }
+  /// Returns the qualities that were compared.
+  const std::set<Quality>& qualities() const { return qualities_; }
 
  private:
   static constexpr double kLongestHold_s = 62.0;
-  std::optional<SpinAnswer> last_;
+  SpacecraftKind kind_;
+  std::optional<Quality> last_;
   TaiTime since_ = {};
-  int compared_ = 0;
+  bool was_lost_ = false;
+  std::set<Quality> qualities_;
 };
 
-void expect_one_voice(const Flight& flight, const std::string& pass) {
+/// @return The qualities that were compared row by row.
+std::set<Quality> expect_one_voice(const Flight& flight, const std::string& pass) {
   SCOPED_TRACE(pass);
-  Compared live;
+  const SpacecraftKind kind = flight.mission.kind();
+  Compared live{kind};
   SupervisedPass served{flight.mission, RunMode::Live};
-  served.on_answer = [&](const SpinAnswer& answer) { live(answer, served.open()); };
+  served.on_answer = [&](TaiTime t, Quality quality) { live(t, quality, served.open()); };
   served.serve(flight.sent);
-  EXPECT_GT(live.compared(), 0);
+  EXPECT_FALSE(live.qualities().empty());
   served.finish();
-  EXPECT_EQ(of_quality(served.open()), expected_of(live.last().quality)) << "at the end, live";
+  EXPECT_EQ(of_quality(served.open()), expected_of(kind, live.last())) << "at the end, live";
 
-  SpinAnswer last;
+  Quality last{};
   SupervisedPass processed{flight.mission, RunMode::Process};
-  processed.on_answer = [&](const SpinAnswer& answer) { last = answer; };
+  processed.on_answer = [&](TaiTime /*t*/, Quality quality) { last = quality; };
   processed.process(flight.sent);
-  EXPECT_EQ(of_quality(processed.open()), expected_of(last.quality)) << "at the end";
-  ::testing::Test::RecordProperty(pass, std::string{name_of(last.quality)});
+  EXPECT_EQ(of_quality(processed.open()), expected_of(kind, last)) << "at the end";
+  ::testing::Test::RecordProperty(pass, std::string{name_of(last)});
+  return live.qualities();
+}
+
+TEST(OneVoice, OfAThreeAxisSpacecraft) {
+  const std::set<std::string> names{"gyro dead", "star tracker turned by 5 deg",
+                                    "tumbling beyond the gyro's range",
+                                    "gyro dead, no attitude held"};
+  std::set<Quality> compared;
+  std::size_t flown_of_table = 0;
+  for (const Fault& fault : three_axis_faults()) {
+    if (names.contains(fault.name)) {
+      compared.merge(expect_one_voice(spoilt(fault), fault.name));
+      ++flown_of_table;
+    }
+  }
+  EXPECT_EQ(flown_of_table, names.size());
+  EXPECT_EQ(compared, (std::set{Quality::Ok, Quality::Doubtful}));
 }
 
 TEST(OneVoice, OfANutatingSpinner) {

@@ -121,8 +121,8 @@ class SupervisedPass {
     return keys;
   }
 
-  /// Called with each answer in force when supervision has seen it.
-  std::function<void(const SpinAnswer&)> on_answer = [](const SpinAnswer& /*answer*/) {};
+  /// Called with time and quality of each answer in force when supervision has seen it.
+  std::function<void(TaiTime, Quality)> on_answer = [](TaiTime /*t*/, Quality /*quality*/) {};
   /// Called with each state of the service before supervision sees it, and the seconds since start.
   std::function<void(ServiceState&, double)> on_state = [](ServiceState& /*state*/, double /*t*/) {
   };
@@ -207,7 +207,9 @@ class SupervisedPass {
       note_alerts(batch);
       for (const Product& product : batch.products) {
         if (const auto* const answer = std::get_if<SpinAnswer>(&product)) {
-          on_answer(*answer);
+          on_answer(answer->t, answer->quality);
+        } else if (const auto* const attitude = std::get_if<AttitudeEstimate>(&product)) {
+          on_answer(attitude->t, attitude->assessment.quality);
         }
       }
     }

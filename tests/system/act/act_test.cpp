@@ -57,6 +57,9 @@ TEST(Act, SetsALimitOfAnAlertThatHoldsOverARestart) {
   EXPECT_EQ(count_rows(service.db(), "alert WHERE key = 'spin.sigma'"), 0);
   refused(act(service.db(), {"--action", "set_limit", "--key", "spin.sigma", "--gib", "1"}),
           {"gib is not known here: key, after_s, deg, hold_off_s are"});
+  refused(
+      act(service.db(), {"--action", "set_limit", "--key", "attitude.doubtful", "--seconds", "1"}),
+      {"\"attitude.doubtful\": the mission of SPINNER has none: must be one of link.silent"});
   succeeded(act(service.db(), {"--action", "set_limit", "--key", "spin.sigma", "--deg", "0.0001",
                                "--after_s", "0"}));
   ASSERT_TRUE(front_end.send_until(0.3));
@@ -66,6 +69,7 @@ TEST(Act, SetsALimitOfAnAlertThatHoldsOverARestart) {
                       "evidence ->> 'limit' = 0.0001") == 1;
   };
   EXPECT_TRUE(eventually(is_open)) << service.log();
+  EXPECT_THAT(service.log(), HasSubstr("spin.sigma is held to after_s 0, deg 0.0001"));
   service.kill_and_go_on();
   ASSERT_TRUE(front_end.send_until(0.4));
   ASSERT_EQ(service.stop_when_computed(), 0) << service.log();

@@ -192,6 +192,99 @@ TEST(AlertDesk, TakesLimitsByTheTimeOfWhatIsJudgedWhateverCameBeforeIt) {
   }
 }
 
+SpinEstimate axis_at(double t_s, Quality quality,
+                     SpinEstimator estimator = SpinEstimator::Sequential, double off_rad = 0.0) {
+  return {
+      .t = at(t_s),
+      .estimator = estimator,
+      .axis_icrf = Eigen::AngleAxisd{off_rad, Eigen::Vector3d::UnitX()} * Eigen::Vector3d::UnitZ(),
+      .covariance_rad2 = Eigen::Matrix2d::Identity() * 5e-9,
+      .spin_rate_rad_s = 6.0,
+      .spin_rate_sigma_rad_s = 0.1,
+      .assessment = {quality}};
+}
+
+/// Returns the quality of the answer in force that a batch of estimates is given.
+std::string quality_behind(AlertDesk& desk, const std::vector<SpinEstimate>& estimates) {
+  ArchiveBatch batch = batch_of_run();
+  batch.products.assign(estimates.begin(), estimates.end());
+  desk.evaluate(batch);
+  const auto answer = std::ranges::find_if(batch.products, [](const Product& product) {
+    return std::holds_alternative<SpinAnswer>(product);
+  });
+  return std::string{name_of(std::get<SpinAnswer>(*answer).quality)};
+}
+
+TEST(AlertDesk, HasOneLimitOfDisagreementForAlertAndVerdict) {
+  Served served;
+  ArchiveBatch said = batch_of_run();
+  said.actions = {limit("spin.disagree", {{"sigmas", 20.0}}, 0.0),
+                  limit("spin.disagree", {{"sigmas", 5.0}}, 30.0)};
+  served.desk.evaluate(said);
+  const auto apart = [&](double t_s) {
+    constexpr double kTenSigmas_rad = 1e-3;
+    return std::vector{axis_at(t_s, Quality::Ok),
+                       axis_at(t_s, Quality::Ok, SpinEstimator::Mean, kTenSigmas_rad)};
+  };
+  for (const double t_s : {1.0, 15.0, 29.0}) {
+    EXPECT_EQ(quality_behind(served.desk, apart(t_s)), "OK") << t_s;
+  }
+  EXPECT_THAT(served.desk.open(), IsEmpty());
+  EXPECT_EQ(quality_behind(served.desk, apart(30.0)), "DOUBTFUL");
+  EXPECT_EQ(quality_behind(served.desk, {axis_at(25.0, Quality::Ok, SpinEstimator::Batch)}),
+            "DOUBTFUL")
+      << "a late solution of before brings no limit of before back";
+  EXPECT_EQ(quality_behind(served.desk, apart(45.0)), "DOUBTFUL");
+  ASSERT_EQ(served.desk.open().size(), 1U);
+  EXPECT_EQ(served.desk.open().front().alert.key, "spin.disagree");
+}
+
+TEST(AlertDesk, DoubtsAtOnceWhereComputingFails) {
+  for (const auto& [mission, key] :
+       {std::pair{spinner(), "spin.doubtful"}, {three_axis(), "attitude.doubtful"}}) {
+    Served served{mission};
+    ArchiveBatch batch = batch_of_run(mission.spacecraft_id);
+    batch.products = {RunFault{.t = at(5.0), .what = "no memory"}};
+    served.desk.evaluate(batch);
+    ASSERT_EQ(served.desk.open().size(), 1U);
+    EXPECT_EQ(served.desk.open().front().alert.key, key);
+    ArchiveBatch last = batch_of_run(mission.spacecraft_id);
+    last.finished_utc = "2026-11-20T04:00:00.000Z";
+    served.desk.evaluate(last);
+    EXPECT_EQ(served.desk.open().size(), 1U);
+  }
+}
+
+/// Gives the last answer of a run when the next one has begun with `of_next`.
+/// @return The keys of the alerts that are open then.
+Changes open_behind_late_end(const std::vector<Product>& of_next) {
+  Served served;
+  EXPECT_EQ(quality_behind(served.desk, {axis_at(1.0, Quality::Doubtful)}), "DOUBTFUL");
+  EXPECT_EQ(quality_behind(served.desk, {axis_at(40.0, Quality::Doubtful)}), "DOUBTFUL");
+  EXPECT_EQ(served.desk.open().size(), 1U);
+  ArchiveBatch next = beginning();
+  next.run_id = "next";
+  next.products = of_next;
+  served.desk.evaluate(next);
+  ArchiveBatch last = batch_of_run();
+  last.products = {axis_at(41.0, Quality::Ok)};
+  last.finished_utc = "2026-11-20T04:00:00.000Z";
+  served.desk.evaluate(last);
+  Changes keys;
+  for (const OpenAlert& open : served.desk.open()) {
+    keys.push_back(open.alert.key);
+  }
+  return keys;
+}
+
+TEST(AlertDesk, EndsWithTheLastAnswerOfARunWhatIsOpenOfItAlsoBehindTheStartOfTheNext) {
+  EXPECT_THAT(open_behind_late_end({}), IsEmpty());
+  EXPECT_EQ(
+      open_behind_late_end({axis_at(100.0, Quality::Doubtful), axis_at(140.0, Quality::Doubtful)}),
+      Changes{"spin.doubtful"})
+      << "the next run has found it too";
+}
+
 TEST(AlertDesk, RaisesNothingOfQualityBeforeAosAndBehindLos) {
   Mission mission = spinner();
   mission.contact = Contact{.from = at(0.0), .to = at(100.0)};

@@ -115,6 +115,22 @@ TEST_F(Feed, ShowsThePriorThatAnOperatorHasSetFromItsTimeOn) {
   EXPECT_TRUE(shown()["prior"].is_null());
 }
 
+TEST_F(Feed, TellsTheOtherAxisThatSequentialFollows) {
+  const auto put_open = [&](SpinEstimator estimator, double ra_deg) {
+    SpinEstimate estimate = estimate_at(kT, estimator);
+    estimate.assessment = {
+        Quality::Ambiguous,
+        {{ReasonCode::OtherAxis, {{"ra_deg", ra_deg}, {"dec_deg", -10.0}, {"sigma_deg", 2.0}}}}};
+    put(estimate);
+  };
+  put_open(SpinEstimator::Sequential, 80.0);
+  put_open(SpinEstimator::Batch, 70.0);
+  EXPECT_EQ(shown()["other_axis"],
+            (nlohmann::json{{"ra_deg", 80.0}, {"dec_deg", -10.0}, {"sigma_deg", 2.0}}));
+  put(estimate_at(kT, SpinEstimator::Sequential));
+  EXPECT_TRUE(shown()["other_axis"].is_null());
+}
+
 TEST_F(Feed, TellsTheBoundWithTheBatchSolution) {
   put(estimate_at(kT, SpinEstimator::Sequential));
   BatchSolution solution{};
@@ -243,15 +259,21 @@ TEST_F(Feed, TellsWhatAnActionHasDoneOnceTheRunSaysSo) {
   };
   feed_->put_details({.run_id = "run",
                       .spacecraft_id = "SPINNER",
-                      .actions = {said("1", "exclude_segment"), said("2", "choose_root")}});
+                      .actions = {said("1", "exclude_segment"), said("2", "choose_root"),
+                                  said("3", "set_limit"), said("4", "set_limit")}});
   EXPECT_FALSE(shown()["actions"][0].contains("effect"));
   put_details({RunNotice{.code = "batch_leaves_out",
                          .arguments = R"({"action":"exclude_segment","edges":412})",
                          .says = "batch leaves out 412 edges"},
                RunNotice{.code = "root_far_from_all", .arguments = "{}", .says = "no candidate"},
+               RunNotice{.code = "limits_set", .arguments = R"({"action_id":"3"})", .says = "set"},
                RunNotice{.code = "late_edges", .arguments = "{}", .says = "late"}});
   EXPECT_EQ(shown()["actions"][0]["effect"], "batch leaves out 412 edges");
   EXPECT_EQ(shown()["actions"][1]["effect"], "no candidate");
+  EXPECT_EQ(shown()["actions"][2]["effect"], "set");
+  EXPECT_FALSE(shown()["actions"][3].contains("effect"));
+  put_details({RunNotice{.code = "root_chosen", .arguments = "{}", .says = "taken"}});
+  EXPECT_EQ(shown()["actions"][1]["effect"], "taken");
 }
 
 TEST_F(Feed, TellsEveryExclusionThatIsInForce) {

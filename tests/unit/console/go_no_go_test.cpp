@@ -96,8 +96,10 @@ TEST(GoNoGo, IsGoUnlessSomethingStandsAgainstIt) {
 }
 
 /// Returns the decision on a good standing with an alert that OPS1 has acknowledged.
-GoNoGo with_accepted(const char* key, AlertSeverity severity, AlertState state) {
+GoNoGo with_accepted(const char* key, AlertSeverity severity, AlertState state,
+                     double to_target_deg = 0.0) {
   Standing standing = good();
+  standing.to_target_deg = to_target_deg;
   standing.alerts = {alert(key, severity, state)};
   standing.alerts.front().accepted =
       Acknowledgement{.by = "OPS1", .t = tai_from_ns(1'795'144'357'000'000'000)};
@@ -118,6 +120,19 @@ TEST(GoNoGo, AcceptsAnAcknowledgedWarningThatDoesNotBearOnTheAnswer) {
         with_accepted("data.outdated:leap_seconds", AlertSeverity::Warning, state);
     EXPECT_EQ(not_yet.against.size(), 1U);
     EXPECT_THAT(not_yet.accepted, IsEmpty());
+  }
+}
+
+TEST(GoNoGo, AcceptsAnAxisOffTheTargetAndMeasurementsThatAreLeftOut) {
+  using enum AlertState;
+  const auto off_target = [](AlertState state) {
+    return with_accepted("spin.off_target", AlertSeverity::Warning, state, 2.4);
+  };
+  EXPECT_THAT(off_target(Acknowledged).against, IsEmpty());
+  EXPECT_EQ(off_target(Acknowledged).accepted.size(), 1U);
+  EXPECT_EQ(off_target(Active).against.size(), 2U);
+  for (const char* const key : {"spin.rejection", "spin.period"}) {
+    EXPECT_THAT(with_accepted(key, AlertSeverity::Warning, Acknowledged).against, IsEmpty());
   }
 }
 

@@ -2,18 +2,27 @@
 
 #include <map>
 #include <string>
+#include <tuple>
 #include <vector>
 
 #include "pipelines/frames/angle.h"
 #include "tests/support/matchers.h"
 #include "tests/support/outcome.h"
+#include "tests/support/test_paths.h"
 
 namespace spindrift::parse_action_test {
 
 using nlohmann::json;
 
-const KnownSpacecraft kKnown{{"SPINNER", SpacecraftKind::Spin},
-                             {"STABLE", SpacecraftKind::ThreeAxis}};
+/// A spinner with all its channels but no ground model, and a spacecraft without a magnetometer.
+KnownSpacecraft known() {
+  Mission spinner = load_mission(recorded_passes() / "nominal" / "mission.toml").value();
+  Mission stable = load_mission(test_data() / "mission" / "separation.toml").value();
+  spinner.spacecraft_id = "SPINNER";
+  stable.spacecraft_id = "STABLE";
+  return known_spacecraft({spinner, stable});
+}
+const KnownSpacecraft kKnown = known();
 constexpr std::int64_t kFrom = 1'795'143'637'000'000'000;
 
 json request(const json& more) {
@@ -60,16 +69,17 @@ TEST(ParseAction, OfThreeAxesKnowsSensors) {
 }
 
 TEST(ParseAction, TakesLimitsOfAnAlertByTheirNameWithinTheirBounds) {
-  for (const char* const spacecraft : {"SPINNER", "STABLE"}) {
+  for (const auto& [spacecraft, key, limit] :
+       {std::tuple{"SPINNER", "spin.sigma", "deg"}, {"STABLE", "attitude.doubtful", "seconds"}}) {
     const auto action = value_or_throw(parse_action(request({{"spacecraft", spacecraft},
                                                              {"action", "set_limit"},
-                                                             {"key", "spin.sigma"},
-                                                             {"deg", 0.5},
+                                                             {"key", key},
+                                                             {limit, 0.5},
                                                              {"hold_off_s", 120}}),
                                                     kKnown));
     const auto& set = std::get<SetLimit>(action.does);
-    EXPECT_EQ(set.key, "spin.sigma");
-    EXPECT_EQ(set.limits, (std::map<std::string, double>{{"deg", 0.5}, {"hold_off_s", 120.0}}));
+    EXPECT_EQ(set.key, key);
+    EXPECT_EQ(set.limits, (std::map<std::string, double>{{limit, 0.5}, {"hold_off_s", 120.0}}));
   }
   const auto refused = [](const json& more) {
     json said{{"action", "set_limit"}, {"key", "spin.sigma"}};
@@ -86,6 +96,36 @@ TEST(ParseAction, TakesLimitsOfAnAlertByTheirNameWithinTheirBounds) {
             "set_limit: deg: \"wide\": must be a number, 0.0001 to 180");
   EXPECT_EQ(why_not({{"action", "set_limit"}, {"spacecraft", "OTHER"}}),
             "spacecraft: 'OTHER': must be one of SPINNER, STABLE");
+}
+
+TEST(ParseAction, RefusesWhatTheMissionLacks) {
+  const auto of_stable = [](json said) {
+    said["spacecraft"] = "STABLE";
+    return why_not(said);
+  };
+  for (const char* const action : {"exclude_channel", "include_channel"}) {
+    EXPECT_EQ(of_stable({{"action", action}, {"channel", "magnetometer"}}),
+              std::string{action} +
+                  ": channel: \"magnetometer\": the mission of STABLE has none: must be one of "
+                  "gyro, star, sun");
+  }
+  const json segment{
+      {"action", "exclude_segment"}, {"from_tai_ns", kFrom}, {"to_tai_ns", kFrom + 1}};
+  EXPECT_EQ(of_stable(segment), "it is one");
+  json of_sensor = segment;
+  of_sensor["channel"] = "magnetometer";
+  EXPECT_THAT(of_stable(of_sensor), HasSubstr("must be one of gyro, star, sun"));
+  const auto limit = [](const char* key, const char* name) {
+    return json{{"action", "set_limit"}, {"key", key}, {name, 1.0}};
+  };
+  EXPECT_THAT(of_stable(limit("spin.sigma", "deg")),
+              HasSubstr("set_limit: key: \"spin.sigma\": the mission of STABLE has none: must be "
+                        "one of link.silent, link.late"));
+  EXPECT_THAT(why_not(limit("attitude.doubtful", "seconds")), HasSubstr("must be one of link."));
+  EXPECT_THAT(why_not(limit("reconstruction.launcher", "hold_off_s")), HasSubstr("has none"));
+  EXPECT_EQ(of_stable(limit("reconstruction.launcher", "hold_off_s")), "it is one");
+  EXPECT_EQ(why_not(limit("attitude.lost", "hold_off_s")), "it is one");
+  EXPECT_THAT(why_not(limit("model.departure", "sigmas")), HasSubstr("has none"));
 }
 
 TEST(ParseAction, TakesASegmentAsOfItsBeginningOrOfATimeBeforeItsEnd) {

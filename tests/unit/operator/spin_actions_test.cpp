@@ -10,6 +10,7 @@
 #include "pipelines/spin/batch/multi_start.h"
 #include "pipelines/spin/batch/pass_edges.h"
 #include "pipelines/spin/pass/spin_pass.h"
+#include "tests/support/assessed.h"
 #include "tests/support/matchers.h"
 #include "tests/support/observed_spin.h"
 #include "tests/support/product_text.h"
@@ -209,6 +210,21 @@ TEST(SpinActions, AChosenRootSettlesAnAmbiguousPassForAllEstimators) {
   EXPECT_EQ(batch.choice.settled_by, SettledBy::Prior);
   EXPECT_GT(angle_between_rad(batch.choice.other_icrf.value(), pass.body.axis_icrf),
             5.0 * kRadPerDeg);
+}
+
+TEST(SpinActions, ARootIsChosenAmongTheAxesThatSequentialNames) {
+  const TwoRoots pass;
+  std::vector<SpinEstimate> before = all_of<SpinEstimate>(pass.run({}).output);
+  std::erase_if(before, [](const SpinEstimate& estimate) {
+    return estimate.estimator != SpinEstimator::Sequential || estimate.t >= at(100.0);
+  });
+  const auto& reasons = before.back().assessment.reasons;
+  const Eigen::Vector3d named = direction_icrf(
+      {.ra_rad = kRadPerDeg * number_of(reasons, ReasonCode::OtherAxis, "ra_deg"),
+       .dec_rad = kRadPerDeg * number_of(reasons, ReasonCode::OtherAxis, "dec_deg")});
+  const Passed passed = pass.run({{.said_s = 100.0, .from_s = 100.0, .action = ChooseRoot{named}}});
+  ASSERT_TRUE(passed.prior);
+  EXPECT_LT(angle_between_rad(passed.prior->axis_icrf, named), 1e-9);
 }
 
 TEST(SpinActions, WhereNothingSettlesAPassItsEdgesAllTogetherMay) {

@@ -31,7 +31,7 @@ class ActionInboxTest : public ::testing::Test {
   std::unique_ptr<Archive> archive_ = Archive::open(folder_.path() / "pass.db", {}).value();
   BoundedQueue<SampleBatch> taken_{10};
   StoredActions stored_;
-  ActionInbox inbox_{{{"SPINNER", SpacecraftKind::Spin}},
+  ActionInbox inbox_{{{"SPINNER", Nameable{SpacecraftKind::Spin, {}, {}}}},
                      folder_.path() / "pass.db",
                      RunMode::Live,
                      *archive_,

@@ -403,7 +403,7 @@ PulseUse left_over(double t_s, PulseChannel channel, Rejection rejection) {
 }
 
 TEST_F(SpinConditionsTest, CountEdgesThatFoundNoRevolution) {
-  for (const Rejection rejection : {Rejection::Unassociated, Rejection::Copy}) {
+  for (const Rejection rejection : {Rejection::Unassociated, Rejection::Copy, Rejection::Late}) {
     Supervised copied;
     Supervised without_axis;
     for (int revolution = 0; revolution < 110; ++revolution) {

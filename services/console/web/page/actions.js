@@ -16,8 +16,6 @@ const channel = (craft, first = []) => field('Channel', 'channel', {
   required: !first.length, options: [...first, ...channels[craft.kind].map(name => [name, name])] });
 
 const at = ({ ra_deg, dec_deg }) => `RA ${ra_deg}°, Dec ${dec_deg}°`;
-const other = craft => Number.isFinite(craft.alternate_ra_deg)
-  ? { ra_deg: craft.alternate_ra_deg, dec_deg: craft.alternate_dec_deg } : undefined;
 
 // `place`: the axis that was pointed at, if any was.
 const actions = {
@@ -30,7 +28,7 @@ const actions = {
     does: said => `Leaves out ${said.channel ? `channel ${said.channel}` : 'all channels'} from ${said.from} to ${said.to} UTC: ${
       'batch and reconstruction forget what came of it, other answers that are computed stay'}`,
   },
-  choose_root: { word: 'Choose the axis of two', of: 'spin', fields: (craft, place) => axis(place ?? other(craft)),
+  choose_root: { word: 'Choose the axis of two', of: 'spin', fields: (craft, place) => axis(place ?? craft.other_axis),
     does: said => `Takes, of two axes that fit, the one near ${at(said)}` },
   set_prior: {
     word: 'Set a prior', of: 'spin',

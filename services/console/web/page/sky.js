@@ -1,6 +1,6 @@
 // The sky in right ascension (rising to the left) and declination.
 import { begin, colours, cross } from './canvas.js';
-import { byId, number, sigma, withinSigma } from './text.js';
+import { byId, sigma, withinSigma } from './text.js';
 
 const left = 34;
 const bottom = 18;
@@ -83,7 +83,7 @@ function drawEllipse(pen, [x, y], craft, estimate, deg_px) {
 
 const otherText = byId('other-root');
 // A single fix of two axes asks nothing while the answer is sure.
-const otherRoot = craft => (craft.quality ?? craft.resolution) === 'AMBIGUOUS' ? [craft.alternate_ra_deg, craft.alternate_dec_deg] : [NaN, NaN];
+const otherRoot = craft => (craft.quality ?? craft.resolution) === 'AMBIGUOUS' && craft.other_axis ? [craft.other_axis.ra_deg, craft.other_axis.dec_deg] : [NaN, NaN];
 const candidates = craft => [[craft.ra_deg, craft.dec_deg], otherRoot(craft)]
   .filter(place => place.every(Number.isFinite));
 
@@ -95,13 +95,14 @@ export function onRoot(craft, choose) {
       .filter(([, away]) => away < near_px).sort(([, a], [, b]) => a - b);
     if (near.length) choose({ ra_deg: near[0][0][0], dec_deg: near[0][0][1] });
   });
-  otherText.addEventListener('click', () => choose({ ra_deg: craft().alternate_ra_deg, dec_deg: craft().alternate_dec_deg }));
+  otherText.addEventListener('click', () => choose(craft().other_axis));
 }
 
 function drawOtherText(craft) {
   const [ra, dec] = otherRoot(craft);
   otherText.hidden = !Number.isFinite(ra);
-  const text = `Choose RA ${number(ra, 2, '°')} Dec ${number(dec, 2, '°')}`;
+  const shown = degrees => withinSigma(degrees, 2, craft.other_axis?.sigma_deg, '°');
+  const text = `Choose RA ${shown(ra)} Dec ${shown(dec)}`;
   if (otherText.textContent !== text) otherText.textContent = text;
 }
 

@@ -395,7 +395,9 @@ TEST(SpinPass, ARootIsChosenAmongTheFollowedAxesAndNotAmongGrazingFixes) {
   }
   EXPECT_GT(ok, 35);
   EXPECT_FALSE(testing::has(chosen.notices, NoticeCode::RootFarFromAll));
+  EXPECT_TRUE(testing::has(chosen.notices, NoticeCode::RootChosen));
   EXPECT_TRUE(testing::has(refused.notices, NoticeCode::RootFarFromAll));
+  EXPECT_FALSE(testing::has(refused.notices, NoticeCode::RootChosen));
 }
 
 TEST(SpinPass, ARootFarFromAllCandidatesIsNotTakenAndTheNearestIsNamed) {
