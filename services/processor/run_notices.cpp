@@ -60,9 +60,9 @@ void RunNotices::tell_sources(SourceWatch& sources, std::vector<Product>& produc
 RunNotice RunNotices::clock_told(const std::string& source, TaiTime t) const {
   return told("source_apart_from_host",
               {{"spacecraft", spacecraft_id_}, {"source", source}, {"t_tai_ns", tai_ns(t)}},
-              fmt::format("{}: source '{}' says {}, which is not the time of this host: one of "
-                          "them is wrong, or what it sends is recorded; until a source is in time "
-                          "by the host, this one is the clock",
+              fmt::format("{}: source '{}' says {}, and the clock of this host another time: one "
+                          "of them is wrong, or what it sends is recorded; until a source is in "
+                          "time by the host, this one is the clock",
                           spacecraft_id_, source, format_utc(t)));
 }
 
