@@ -2,7 +2,6 @@
 #include <chrono>
 #include <iterator>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "pipelines/time/time_span.h"
@@ -203,42 +202,6 @@ TEST_F(ServeSources, OneThatBeginsWithItsLastMinutesCatchesUp) {
   EXPECT_EQ(number("SELECT count(*) FROM run"), 1) << log;
   EXPECT_EQ(number("SELECT count(*) FROM pulse WHERE arrival < 0"), 0) << log;
   EXPECT_EQ(last_batch_rows(service_.db()), whole().batch) << log;
-}
-
-/// Two sources send at once and as fast as the service takes.
-class ServeTwoAtOnce : public ServeSources {
- protected:
-  ServeTwoAtOnce() : ServeSources{""} {}
-
-  void send(const std::vector<Pulse>& one, const std::vector<Pulse>& other) const {
-    const auto start = [this](const std::vector<Pulse>& pulses, const std::string& name) {
-      return std::jthread{[this, pulses, name] {
-        EXPECT_TRUE((FrontEnd{service_.bus(), "SPINNER", pulses, name}.send_until(1.0)));
-      }};
-    };
-    const std::jthread first = start(one, "one");
-    const std::jthread second = start(other, "other");
-  }
-};
-
-TEST_F(ServeTwoAtOnce, WithTheSameEdgesLoseNoneAtTheStop) {
-  send(whole().pulses, whole().pulses);
-  expect_the_whole_pass();
-  EXPECT_EQ(number("SELECT count(*) FROM pulse WHERE arrival < 0"), 0) << service_.log();
-}
-
-/// One of them soon sends more than a minute ahead of the other, which catches up with it.
-TEST_F(ServeTwoAtOnce, ThatShareTheEdgesLoseNoneAtTheStop) {
-  std::vector<Pulse> even;
-  std::vector<Pulse> odd;
-  for (std::size_t i = 0; i < whole().pulses.size() / 3; ++i) {
-    (i % 2 == 0 ? even : odd).push_back(whole().pulses[i]);
-  }
-  send(even, odd);
-  ASSERT_EQ(service_.stop_when_computed(), 0) << service_.log();
-  EXPECT_EQ(number("SELECT count(*) FROM pulse_use"), std::ssize(even) + std::ssize(odd))
-      << service_.log();
-  EXPECT_EQ(number("SELECT count(*) FROM pulse WHERE arrival < 0"), 0);
 }
 
 /// Runs a live service, which front-ends tell of the present.
