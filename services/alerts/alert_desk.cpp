@@ -477,7 +477,7 @@ std::vector<OpenAlert> AlertDesk::open() const {
 
 Expected<ArchiveBatch> AlertDesk::obey(const OperatorWord& word, TaiTime now) {
   const std::lock_guard lock{mutex_};
-  const auto& [alert_id, by, note, minutes] = word;
+  const auto& [alert_id, by, note, minutes, said] = word;
   std::string open;
   for (auto& [spacecraft, desk] : desks_) {
     for (const Alert& alert : desk.book.open()) {
@@ -509,7 +509,7 @@ Expected<ArchiveBatch> take_word(const OperatorWord& word, AlertDesk& desk, Arch
           {ErrorCode::InvalidInput, fmt::format("{}: '{}': {}", key, shown(text), kPlainText)}};
     }
   }
-  const auto until = std::chrono::steady_clock::now() + kPatience;
+  const auto until = word.said + kPatience;
   return desk.obey(word, tai_now()).and_then([&](const ArchiveBatch& changed) {
     return archive.submit(changed, until)
         .and_then([&] { return archive.flush(until); })

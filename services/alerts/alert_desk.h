@@ -3,6 +3,7 @@
 
 #pragma once
 
+#include <chrono>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -38,6 +39,8 @@ struct OperatorWord {
   std::string by;
   std::string note;
   int minutes = 0;  ///< Duration of shelving; 0 acknowledges.
+  /// From then on somebody waits, also while other words are taken before.
+  std::chrono::steady_clock::time_point said = std::chrono::steady_clock::now();
 };
 
 /// Safe to use from any thread.
@@ -143,7 +146,7 @@ class AlertDesk {
 
 /// Applies an operator's word to an alert of `desk` from now on. @return What was stored and
 /// announced; InvalidInput for a name or note that is no plain text; the errors of AlertDesk::obey;
-/// Unavailable when it is in force but not stored within 5 s.
+/// Unavailable when it is in force but not stored within 5 s after it was said.
 Expected<ArchiveBatch> take_word(const OperatorWord& word, AlertDesk& desk, Archive& archive);
 
 }  // namespace spindrift

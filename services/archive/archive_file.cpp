@@ -82,7 +82,8 @@ ArchiveFile::ArchiveFile(int file, const std::filesystem::path& path, const Iden
 ArchiveFile::ArchiveFile(ArchiveFile&& other) noexcept
     : file_{std::exchange(other.file_, kNoFile)},
       names_{std::move(other.names_)},
-      seen_bytes_{other.seen_bytes_},
+      least_bytes_{other.least_bytes_},
+      most_bytes_{other.most_bytes_},
       damage_{std::move(other.damage_)} {}
 
 ArchiveFile::~ArchiveFile() {
@@ -115,6 +116,11 @@ Expected<void> ArchiveFile::in_place() const {
   return {};
 }
 
+void ArchiveFile::note_bytes(std::int64_t sqlite_bytes) {
+  least_bytes_ = std::min(least_bytes_, sqlite_bytes);
+  most_bytes_ = std::max(most_bytes_, sqlite_bytes);
+}
+
 Expected<void> ArchiveFile::undamaged(const std::function<std::int64_t()>& sqlite_bytes) {
   if (damage_) {
     return Unexpected{*damage_};
@@ -128,9 +134,10 @@ Expected<void> ArchiveFile::undamaged(const std::function<std::int64_t()>& sqlit
   const bool is_ours =
       pread(file_, header.data(), header.size(), 0) == kHeaderBytes && is_header_of_archive(header);
   // Asked after the file, so that a checkpoint by another program between the two is no damage.
-  const auto [least_bytes, most_bytes] = std::minmax({seen_bytes_, sqlite_bytes()});
-  if (is_ours && status->st_size >= least_bytes && status->st_size <= most_bytes) {
-    seen_bytes_ = status->st_size;
+  const std::int64_t now_bytes = sqlite_bytes();
+  note_bytes(now_bytes);
+  if (is_ours && status->st_size >= least_bytes_ && status->st_size <= most_bytes_) {
+    least_bytes_ = std::min(status->st_size, now_bytes);
     return {};
   }
   damage_ = Error{
@@ -141,7 +148,7 @@ Expected<void> ArchiveFile::undamaged(const std::function<std::int64_t()>& sqlit
                   "sqlite3 reads what is left, and start again: front-ends send again what they "
                   "keep",
                   path.string(), is_ours ? "an archive" : "no archive", status->st_size,
-                  least_bytes, most_bytes, names_[1].path.string())};
+                  least_bytes_, most_bytes_, names_[1].path.string())};
   return Unexpected{*damage_};
 }
 

@@ -39,8 +39,11 @@ class ArchiveFile {
   /// @return Unavailable, with the reason, when a name leads to no file or to another file.
   Expected<void> in_place() const;
 
-  /// @param sqlite_bytes Returns the size that the database has by SQLite, which the file reaches
-  /// with the next checkpoint: a larger one, or after VACUUM a smaller one.
+  /// Notes a size that the database has by SQLite, which the file reaches with a checkpoint: a
+  /// larger one, or after VACUUM by another program a smaller one. To be called after each commit.
+  void note_bytes(std::int64_t sqlite_bytes);
+
+  /// @param sqlite_bytes Returns the size that the database has by SQLite.
   /// @return Unavailable, now and ever after, when the file itself was truncated or overwritten.
   Expected<void> undamaged(const std::function<std::int64_t()>& sqlite_bytes);
 
@@ -68,8 +71,9 @@ class ArchiveFile {
   static std::optional<Identity> identity_at(const std::filesystem::path& path);
 
   int file_;
-  std::array<Name, 3> names_;  ///< The archive, its log and the log's index.
-  std::int64_t seen_bytes_ = 0;
+  std::array<Name, 3> names_;     ///< The archive, its log and the log's index.
+  std::int64_t least_bytes_ = 0;  ///< Since the file was seen last.
+  std::int64_t most_bytes_ = 0;   ///< Since the file is held.
   std::optional<Error> damage_;
 };
 

@@ -23,11 +23,13 @@ constexpr std::int64_t kSamplesAProduct = 8;
 
 std::int64_t signed_size(std::size_t size) { return static_cast<std::int64_t>(size); }
 
-/// Two kinds of batches go with the samples, whatever else is in them: the first of a run, because
-/// the rows of all others refer to the run and the spacecraft that it begins, and one with counts
-/// of sources, because these are cumulative and the last ones stored hold.
+/// Three kinds of batches go with the samples, whatever else is in them: the first of a run,
+/// because the rows of all others refer to the run and the spacecraft that it begins; one with
+/// samples, because what is stored is always what has arrived up to some moment; and one with
+/// counts of sources, because these are cumulative and the last ones stored hold.
 bool waits_as_product(const ArchiveBatch& batch) {
-  return !batch.start && batch.source_counts.empty() &&
+  return !batch.start && count_of(batch.samples) == 0 && count_of(batch.moved) == 0 &&
+         batch.source_counts.empty() &&
          (!batch.products.empty() || batch.continuation || batch.finished_utc);
 }
 

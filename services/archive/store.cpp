@@ -50,8 +50,19 @@ Store::Store(ArchiveFile file, SQLite::Database database, OwnLog log)
 Expected<void> Store::write(std::span<const ArchiveBatch> batches) {
   return writer_.write(batches).map([this] {
     // What cannot be noted now is noted with the next commit.
-    static_cast<void>(contained("noting the log", [this] { log_.note(database_); }));
+    static_cast<void>(contained("noting the log", [this] {
+      file_.note_bytes(bytes());
+      log_.note(database_);
+    }));
   });
+}
+
+std::int64_t Store::bytes() {
+  bytes_.tryReset();
+  bytes_.executeStep();
+  const std::int64_t bytes = bytes_.getColumn(0).getInt64();
+  bytes_.reset();
+  return bytes;
 }
 
 double Store::log_mib() const {
@@ -61,12 +72,7 @@ double Store::log_mib() const {
 
 Expected<void> Store::undamaged() {
   try {
-    auto whole = file_.undamaged([this] {
-      bytes_.executeStep();
-      const std::int64_t bytes = bytes_.getColumn(0).getInt64();
-      bytes_.reset();
-      return bytes;
-    });
+    auto whole = file_.undamaged([this] { return bytes(); });
     if (!whole) {
       leave_alone_when_closed();
     }

@@ -43,6 +43,7 @@ class Store {
  private:
   /// @throws SQLite::Exception
   Store(ArchiveFile file, SQLite::Database database, OwnLog log);
+  std::int64_t bytes();
   void leave_alone_when_closed();
 
   // The order matters: members are destroyed from the last to the first.

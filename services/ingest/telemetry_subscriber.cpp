@@ -84,17 +84,19 @@ Expected<std::unique_ptr<TelemetrySubscriber>> TelemetrySubscriber::start(
     return Unexpected{readers.error()};
   }
   return std::unique_ptr<TelemetrySubscriber>{new TelemetrySubscriber{
-      participant, std::move(arrivals), std::move(*readers), std::move(*waitset), queue}};
+      participant, std::move(arrivals), std::move(*readers), std::move(*waitset), queue, stored}};
 }
 
 TelemetrySubscriber::TelemetrySubscriber(const bus::Participant& participant,
                                          std::unique_ptr<Arrivals> arrivals, Readers readers,
-                                         bus::WaitSet waitset, BoundedQueue<SampleBatch>& queue)
+                                         bus::WaitSet waitset, BoundedQueue<SampleBatch>& queue,
+                                         const LastOrigins& stored)
     : participant_{participant},
       arrivals_{std::move(arrivals)},
       readers_{std::move(readers)},
       waitset_{std::move(waitset)},
-      queue_{queue} {
+      queue_{queue},
+      order_{stored} {
   thread_ = std::thread{[this] { run(); }};
 }
 

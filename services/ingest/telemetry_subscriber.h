@@ -42,7 +42,8 @@ class TelemetrySubscriber {
  public:
   /// Creates the readers and starts the thread. `participant` and `queue` must outlive the
   /// subscriber. @param spacecraft Spacecraft that have a mission here.
-  /// @param stored Origins stored before a restart; their gaps are not counted again.
+  /// @param stored Origins stored before a restart; their gaps are not counted again, and new
+  /// samples wait for the topics to come that far again.
   /// @return Unavailable when Cyclone refuses.
   static Expected<std::unique_ptr<TelemetrySubscriber>> start(
       const bus::Participant& participant, BoundedQueue<SampleBatch>& queue,
@@ -70,7 +71,8 @@ class TelemetrySubscriber {
   using Readers = TelemetryKinds::Of<std::tuple, ReaderOf>;
 
   TelemetrySubscriber(const bus::Participant& participant, std::unique_ptr<Arrivals> arrivals,
-                      Readers readers, bus::WaitSet waitset, BoundedQueue<SampleBatch>& queue);
+                      Readers readers, bus::WaitSet waitset, BoundedQueue<SampleBatch>& queue,
+                      const LastOrigins& stored);
 
   void run();
   Expected<void> take_until_stopped();

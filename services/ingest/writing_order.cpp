@@ -40,17 +40,24 @@ void sort_if_of_several_kinds(TelemetrySamples& samples) {
 
 }  // namespace
 
+WritingOrder::WritingOrder(const LastOrigins& stored) {
+  for (std::size_t kind = 0; kind < stored.size(); ++kind) {
+    for (const Origin& origin : stored.at(kind)) {
+      const std::pair topic{Session{origin.source, origin.session}, kind};
+      behind_.insert(topic);
+      std::uint64_t& last = stored_.try_emplace(topic, origin.seq).first->second;
+      last = std::max(last, origin.seq);
+    }
+  }
+}
+
 SampleBatch WritingOrder::pass_on(SampleBatch taken, Instant now) {
   SampleBatch out;
   out.rejected = std::move(taken.rejected);
-  bool first_heard = false;
-  taken.samples.for_each([&](const auto& of_kind) {
-    for (const auto& sample : of_kind) {
-      first_heard |= is_new(sample.origin);
-    }
-  });
-  if (first_heard && !until_) {
-    until_ = now + kLastMinutes;
+  begin_waiting(taken.samples, now);
+  if (until_) {
+    until_ = is_behind() ? std::min(now + kLastMinutes, longest_) : until_;
+    catch_up(taken.samples, out.samples);
   }
   if (until_ && now < *until_ && count_of(held_.samples) + count_of(taken.samples) < kMost) {
     TelemetryKinds::for_each([&]<class Value>(Kind<Value> /*kind*/) {
@@ -59,7 +66,11 @@ SampleBatch WritingOrder::pass_on(SampleBatch taken, Instant now) {
     return out;
   }
   until_.reset();
-  out.samples = std::exchange(held_.samples, std::move(taken.samples));
+  std::erase_if(behind_, [this](const auto& topic) { return heard_.contains(topic.first); });
+  TelemetryKinds::for_each([&]<class Value>(Kind<Value> /*kind*/) {
+    move_all(held_.samples.of<Value>(), out.samples.of<Value>());
+  });
+  held_.samples = std::move(taken.samples);
   const BatchPlace last = last_written(out.samples);
   TelemetryKinds::for_each([&]<class Value>(Kind<Value> /*kind*/) {
     auto& newer = held_.samples.of<Value>();
@@ -75,6 +86,52 @@ SampleBatch WritingOrder::pass_on(SampleBatch taken, Instant now) {
 SampleBatch WritingOrder::rest() {
   sort_if_of_several_kinds(held_.samples);
   return std::exchange(held_, {});
+}
+
+void WritingOrder::begin_waiting(const TelemetrySamples& taken, Instant now) {
+  bool first_heard = false;
+  taken.for_each([&](const auto& of_kind) {
+    for (const auto& sample : of_kind) {
+      first_heard |= is_new(sample.origin);
+    }
+  });
+  if (first_heard && !until_) {
+    until_ = now + kLastMinutes;
+    longest_ = now + kLongest;
+  }
+}
+
+/// Moves what is stored already from `taken` to `stored`: it need not wait.
+void WritingOrder::catch_up(TelemetrySamples& taken, TelemetrySamples& stored) {
+  if (stored_.empty()) {
+    return;
+  }
+  TelemetryKinds::for_each([&]<class Value>(Kind<Value> /*kind*/) {
+    auto& samples = taken.of<Value>();
+    const auto known =
+        std::stable_partition(samples.begin(), samples.end(),
+                              [this](const auto& sample) { return !this->is_stored(sample); });
+    std::move(known, samples.end(), std::back_inserter(stored.of<Value>()));
+    samples.erase(known, samples.end());
+  });
+}
+
+/// Notes, too, that the topic has come again as far as it is stored.
+template <class Value>
+bool WritingOrder::is_stored(const TelemetrySample<Value>& sample) {
+  const std::pair topic{Session{sample.origin.source, sample.origin.session},
+                        kTelemetryKind<Value>};
+  const auto last = stored_.find(topic);
+  if (last != stored_.end() && sample.origin.seq >= last->second) {
+    behind_.erase(topic);
+  }
+  return last != stored_.end() && sample.origin.seq <= last->second;
+}
+
+/// Returns whether a session that is heard has topics that have not come again.
+bool WritingOrder::is_behind() const {
+  return std::any_of(behind_.begin(), behind_.end(),
+                     [this](const auto& topic) { return heard_.contains(topic.first); });
 }
 
 bool WritingOrder::is_new(const Origin& origin) {

@@ -37,8 +37,7 @@ RunNotices::RunNotices(const Mission& mission)
       spacecraft_kind_{mission.kind()},
       tables_{mission.tables} {}
 
-void RunNotices::tell_sources(SourceWatch& sources, const Moment& moment,
-                              std::vector<Product>& products) {
+void RunNotices::tell_sources(SourceWatch& sources, std::vector<Product>& products) const {
   for (const SourceWatch::News& news : sources.take_news()) {
     if (news.healed) {
       products.emplace_back(told("source_agrees",
@@ -56,21 +55,15 @@ void RunNotices::tell_sources(SourceWatch& sources, const Moment& moment,
                            problem_text(spacecraft_id_, news))));
     }
   }
-  const auto pass = sources.pass_time();
-  const auto& leader = sources.leader();
-  if (moment.host && pass && leader && told_host_.size() < SourceWatch::kMostSources &&
-      told_host_.insert(leader->name).second) {
-    products.emplace_back(told(
-        "source_apart_from_host",
-        {{"spacecraft", spacecraft_id_},
-         {"source", leader->name},
-         {"t_tai_ns", tai_ns(*pass)},
-         {"host_tai_ns", tai_ns(*moment.host)}},
-        fmt::format("{}: source {} says {}, and the clock of this host {}: one of them is wrong, "
-                    "or what it sends is recorded; until a source is in time by the host, this one "
-                    "is the clock",
-                    spacecraft_id_, named(*leader), format_utc(*pass), format_utc(*moment.host))));
-  }
+}
+
+RunNotice RunNotices::clock_told(const std::string& source, TaiTime t) const {
+  return told("source_apart_from_host",
+              {{"spacecraft", spacecraft_id_}, {"source", source}, {"t_tai_ns", tai_ns(t)}},
+              fmt::format("{}: source '{}' says {}, and the clock of this host another time: one "
+                          "of them is wrong, or what it sends is recorded; until a source is in "
+                          "time by the host, this one is the clock",
+                          spacecraft_id_, source, format_utc(t)));
 }
 
 void RunNotices::tell_new_run(const SourceId& successor, TaiTime t,

@@ -22,9 +22,13 @@ class RunNotices {
  public:
   explicit RunNotices(const Mission& mission);
 
-  /// Reports which sources are left out or agree again, and which is the clock instead of the host.
+  /// Reports which sources are left out or agree again.
   /// @param products Receive each notice that is reported; the same holds for the functions below.
-  void tell_sources(SourceWatch& sources, const Moment& moment, std::vector<Product>& products);
+  void tell_sources(SourceWatch& sources, std::vector<Product>& products) const;
+  /// Reports that the telemetry of a source is the clock instead of the host's. The notice holds no
+  /// time of the host and no session, so that the same telemetry gives the same one.
+  /// @param t Time of its telemetry.
+  RunNotice clock_told(const std::string& source, TaiTime t) const;
   /// Logs that a new run begins with another source.
   /// @param leader Source whose telemetry was the clock until now; empty when the host's was.
   /// @param before Time that the pass had reached with it.
@@ -43,7 +47,6 @@ class RunNotices {
   std::set<std::string> tables_;  ///< Names of the tables in the mission file.
   bool told_both_ = false;
   std::array<bool, kTelemetryKindCount> told_undescribed_{};
-  std::set<std::string> told_host_;  ///< Names of sources reported as apart from the host.
 };
 
 }  // namespace spindrift

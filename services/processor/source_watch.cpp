@@ -71,9 +71,8 @@ void SourceWatch::hear(const Origin& origin, const Moment& moment) {
   }
 }
 
-TelemetryValues SourceWatch::take_held(const Origin& origin) {
-  TelemetryValues held =
-      std::exchange(sources_.at({origin.source, origin.session}).held, TelemetryValues{});
+TelemetryValues SourceWatch::take_held(const SourceId& source) {
+  TelemetryValues held = std::exchange(sources_.at(source).held, TelemetryValues{});
   held_ -= count_of(held);
   const TaiTime end = later_by(pass_.time().value_or(TaiTime::max()), limits_.within);
   held.for_each([end](auto& of_kind) {
@@ -121,11 +120,18 @@ std::optional<SourceId> SourceWatch::successor(const Moment& moment) const {
   return first == nullptr ? std::nullopt : std::optional{first->first};
 }
 
+std::optional<SourceId> SourceWatch::caught_up_with() const {
+  const auto found = std::find_if(sources_.begin(), sources_.end(), [&](const Entry& entry) {
+    const Source& source = entry.second;
+    return leader_ && count_of(source.held) > 0 && source.time.goes_on() &&
+           is_near(source.time.recent(), pass_.time());
+  });
+  return found == sources_.end() ? std::nullopt : std::optional{found->first};
+}
+
 std::optional<SourceId> SourceWatch::successor_at_end(std::size_t samples) const {
   const auto found = std::find_if(sources_.begin(), sources_.end(), [&](const Entry& entry) {
-    const auto& [id, source] = entry;
-    return leader_ && has_last_word(source) &&
-           (count_of(source.held) > samples || is_near(source.time.recent(), pass_.time()));
+    return leader_ && has_last_word(entry.second) && count_of(entry.second.held) > samples;
   });
   return found == sources_.end() ? std::nullopt : std::optional{found->first};
 }

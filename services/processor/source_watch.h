@@ -82,12 +82,15 @@ class SourceWatch {
   void hear(const Origin& origin, const Moment& moment);
 
   /// Returns the held samples of a healed source; drops those from ahead of the pass.
-  TelemetryValues take_held(const Origin& origin);
+  TelemetryValues take_held(const SourceId& source);
 
   /// Returns the source that the pass follows from now on; empty when nothing changes.
   std::optional<SourceId> successor(const Moment& moment) const;
+  /// Returns a source that still holds samples though the pass has come to its time meanwhile, if
+  /// the host's clock has nothing against it.
+  std::optional<SourceId> caught_up_with() const;
   /// Returns the source to follow when no more samples come: the last to speak, if the host's clock
-  /// has nothing against it and it holds more than `samples`, or what it holds continues the pass.
+  /// has nothing against it and it holds more than `samples`.
   std::optional<SourceId> successor_at_end(std::size_t samples) const;
   /// Returns when `successor` may change its answer without a sample; empty: never.
   std::optional<std::chrono::steady_clock::time_point> next_decision() const;

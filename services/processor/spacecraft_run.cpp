@@ -238,10 +238,11 @@ void SpacecraftRun::decide(const Moment& moment, Taken& out) {
   if (const auto successor = sources_.successor(moment)) {
     follow(*successor, moment, out);
   }
-  notices_.tell_sources(sources_, moment, out.batches.back().products);
+  notices_.tell_sources(sources_, out.batches.back().products);
 }
 
-/// Stores whose telemetry is the clock from the next sample on, where that has changed.
+/// Stores whose telemetry is the clock from the next sample on, where that has changed, and reports
+/// it live.
 void SpacecraftRun::note_clock(Taken& out) {
   if (leader_ == sources_.leader()) {
     return;
@@ -250,6 +251,10 @@ void SpacecraftRun::note_clock(Taken& out) {
   SourceClock clock{.arrival = next_arrival_, .source = std::nullopt};
   if (leader_) {
     clock.source = Origin{.source = leader_->name, .session = leader_->session, .seq = 0};
+    if (start_.mode == RunMode::Live) {
+      out.batches.back().products.emplace_back(
+          notices_.clock_told(leader_->name, sources_.recent(*leader_)));
+    }
   }
   out.batches.back().clocks.push_back(std::move(clock));
 }
@@ -321,6 +326,9 @@ void SpacecraftRun::repeat_actions_before(RunPlace first_arrival, Taken& out) {
 
 SpacecraftRun::Taken SpacecraftRun::finish() {
   Taken rest = nothing_taken();
+  while (const auto source = sources_.caught_up_with()) {
+    accept(sources_.take_held(*source), rest);
+  }
   if (const auto successor = sources_.successor_at_end(total(received_))) {
     follow(*successor, {}, rest);
   }
@@ -367,7 +375,7 @@ void SpacecraftRun::sort(TelemetrySample<Value>&& sample, const Moment& moment, 
       return;
     }
     case SourceWatch::Verdict::Healed:
-      accept(sources_.take_held(sample.origin), out);
+      accept(sources_.take_held({sample.origin.source, sample.origin.session}), out);
       break;
     case SourceWatch::Verdict::InTime:
       break;

@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <malloc.h>
 #include <poll.h>
 #include <spdlog/spdlog.h>
 #include <unistd.h>
@@ -286,6 +287,10 @@ void show(const Health& health, ServiceTerminal& terminal, ConsoleFeed* feed) {
   }
 }
 
+/// Makes all threads share two heaps. What one thread takes another frees, so that with a heap for
+/// each thread, as by default, most of the memory would be free and of no use to the others.
+void share_heaps() { mallopt(M_ARENA_MAX, 2); }
+
 /// Continues the stored runs and alerts and submits the routed samples to the archive again.
 Expected<GoneOn> go_on(const ServiceParts& parts, ConsoleFeed* feed, Announcer& announcer) {
   return parts.processor.arrive_after(parts.db)
@@ -324,6 +329,7 @@ Expected<void> take_and_answer(const ServeOptions& options, const ServiceParts& 
 }  // namespace
 
 Expected<void> serve(const ServeOptions& options) {
+  share_heaps();
   const TellAs tell_as = how_to_tell(options.json);
   if (tell_as == TellAs::JsonLines) {
     log_as_json();

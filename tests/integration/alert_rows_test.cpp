@@ -1,5 +1,8 @@
 // What is stored of alerts that come and go.
 
+#include <SQLiteCpp/Database.h>
+
+#include <chrono>
 #include <map>
 #include <memory>
 #include <string>
@@ -72,6 +75,24 @@ TEST_F(AlertRows, AConditionThatFlapsForTenMinutesIsOneOccurrenceThatIsCounted) 
   EXPECT_EQ(count("alert_transition"), 300);
   EXPECT_EQ(count("alert_transition WHERE from_state = 'cleared' AND to_state = 'active'"), 149);
   EXPECT_EQ(number("SELECT evidence ->> 'count' FROM alert"), 150);
+}
+
+TEST_F(AlertRows, AWordThatHasWaitedBehindOthersIsAnsweredFiveSecondsAfterItWasSaid) {
+  using namespace std::chrono_literals;
+  silent(0.0, 6.0);
+  const auto begun = std::chrono::steady_clock::now();
+  SQLite::Database other{path().string(), SQLite::OPEN_READWRITE};
+  other.exec("BEGIN IMMEDIATE");
+  EXPECT_THAT(take_word({.alert_id = text("SELECT alert_id FROM alert"),
+                         .by = "shift",
+                         .note = "seen",
+                         .said = begun - 4900ms},
+                        *desk_, *archive_),
+              IsRefused(ErrorCode::Unavailable, HasSubstr("not stored within 5 s")));
+  EXPECT_LT(std::chrono::steady_clock::now() - begun, 3s);
+  other.exec("ROLLBACK");
+  EXPECT_TRUE(archive_->flush());
+  EXPECT_EQ(text("SELECT state FROM alert"), "acknowledged");
 }
 
 TEST_F(AlertRows, AreAtMostAThousandAnHourWhateverHappens) {

@@ -89,10 +89,10 @@ TEST_F(SourceWatchTest, OneThatDisagreesIsApartSampleBySampleUntilItHeals) {
   EXPECT_EQ(see("other", kStart + 8s), Verdict::InTime);
   EXPECT_EQ(see("other", kStart + 11min), Verdict::Apart);
   EXPECT_EQ(see("other", kStart + 9s), Verdict::Healed);
-  EXPECT_EQ(count_of(watch_.take_held({.source = "other", .session = 1, .seq = 0})), 0U);
+  EXPECT_EQ(count_of(watch_.take_held({.name = "other", .session = 1})), 0U);
   EXPECT_EQ(see("other", kStart - 10min), Verdict::Apart) << "607 s behind";
   EXPECT_EQ(see_some("other", kStart + 10s), Verdict::Healed);
-  EXPECT_EQ(count_of(watch_.take_held({.source = "other", .session = 1, .seq = 0})), 1U);
+  EXPECT_EQ(count_of(watch_.take_held({.name = "other", .session = 1})), 1U);
   const auto news = watch_.take_news();
   ASSERT_EQ(news.size(), 2U);
   EXPECT_EQ(news[0].source.name, "other");
@@ -180,6 +180,23 @@ TEST_F(SourceWatchTest, AtTheEndWhatContinuesThePassIsTakenAndTheHostHasTheLastW
     EXPECT_FALSE(watch_.successor_at_end(kEnough));
     see_some("farther", kStart + 2h + 8s, 1);
     EXPECT_EQ(watch_.successor_at_end(kEnough).has_value(), !hosted);
+  }
+}
+
+TEST_F(SourceWatchTest, OneAheadIsCaughtUpWithUnlessTheHostIsAgainstIt) {
+  for (const bool hosted : {false, true}) {
+    watch_ = SourceWatch{kByClock, kByClock};
+    moment_.host = hosted ? std::optional{kStart} : std::nullopt;
+    see_some("first", kStart);
+    ASSERT_EQ(see_some("ahead", kStart + 100s), Verdict::Apart);
+    see_some("first", kStart + 8s, 30);
+    EXPECT_FALSE(watch_.caught_up_with()) << "it is still ahead";
+    see_some("first", kStart + 38s, 15);
+    ASSERT_EQ(watch_.caught_up_with().has_value(), !hosted);
+    if (const auto source = watch_.caught_up_with()) {
+      EXPECT_EQ(count_of(watch_.take_held(*source)), kEnough);
+      EXPECT_FALSE(watch_.caught_up_with());
+    }
   }
 }
 

@@ -17,9 +17,8 @@
 #include "services/mission/mission.h"
 #include "services/operator/parse_action.h"
 #include "services/processor/processor.h"
-#include "services/telemetry/telemetry_files.h"
-#include "services/telemetry/telemetry_stream.h"
 #include "tests/integration/archive_fixture.h"
+#include "tests/support/any_front_end.h"
 #include "tests/support/archive_rows.h"
 #include "tests/support/recorded_edges.h"
 #include "tests/support/three_axis_files.h"
@@ -34,20 +33,10 @@ constexpr testing::ThreeAxisScene kLongPass{
 constexpr std::size_t kSamplesABatch = 13;
 constexpr std::size_t kSilence = 90;  ///< Index of the batch before which the stream falls silent.
 
-using AnySample = TelemetryKinds::Of<std::variant, TelemetrySample>;
-
 /// Returns the samples of one source in order of time, except that every 31st arrives nine samples
 /// later, either late or within the reorder window.
 std::vector<AnySample> disordered_samples(const std::filesystem::path& pass) {
-  const std::vector<std::filesystem::path> paths{pass};
-  auto stream = TelemetryStream::open(scan_telemetry(paths).value(), "SAT").value();
-  std::vector<AnySample> all;
-  for (auto batch = stream.next().value(); !is_empty(batch); batch = stream.next().value()) {
-    in_order_of_arrival(batch.samples, [&](auto& sample) {
-      sample.origin.source = "front-end";
-      all.emplace_back(std::move(sample));
-    });
-  }
+  std::vector<AnySample> all = samples_in(pass, "SAT");
   for (std::size_t i = 22; i + 9 < all.size(); i += 31) {
     const auto first = all.begin() + static_cast<std::ptrdiff_t>(i);
     std::rotate(first, first + 1, first + 9);

@@ -93,6 +93,14 @@ class Program {
     return false;
   }
 
+  /// Returns the memory that the running program has for itself, without what stands in files.
+  long memory_kib() const {
+    const std::string status = text_of("/proc/" + std::to_string(pid_) + "/status");
+    const std::string name = "RssAnon:";
+    const std::size_t at = status.find(name);
+    return at == std::string::npos ? 0 : std::stol(status.substr(at + name.size()));
+  }
+
   /// Returns the peak memory; valid once exit_status() has returned.
   long peak_kib() const { return peak_kib_; }
 

@@ -75,6 +75,15 @@ TEST(BatchQueue, BeginsARunBeforeItsSamplesWhateverIsToldWithIt) {
   EXPECT_THAT(names_of(queue.take()), ElementsAre("first", "samples"));
 }
 
+TEST(BatchQueue, KeepsSamplesInOrderWhateverIsToldWithThem) {
+  BatchQueue queue{1000};
+  ArchiveBatch told = samples(10);
+  told.run_id = "told";
+  told.products.emplace_back(RunNotice{});
+  push(queue, std::move(told), samples(10));
+  EXPECT_THAT(names_of(queue.take()), ElementsAre("told", "samples"));
+}
+
 TEST(BatchQueue, KeepsCountsOfSourcesInOrderWhateverIsToldWithThem) {
   BatchQueue queue{1000};
   ArchiveBatch noticed = batch_of("noticed");

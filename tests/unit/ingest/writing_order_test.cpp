@@ -95,6 +95,52 @@ TEST_F(WritingOrderTest, TooManyDoNotWait) {
   EXPECT_EQ(pass_on({}).size(), many.size());
 }
 
+/// Returns gyro samples and star fixes, as `look`, whose seq are their writing times.
+SampleBatch look_again(const std::vector<std::int64_t>& gyro,
+                       const std::vector<std::int64_t>& star) {
+  SampleBatch taken = look(gyro, star);
+  taken.samples.for_each([](auto& of_kind) {
+    for (auto& sample : of_kind) {
+      sample.origin.seq = static_cast<std::uint64_t>(sample.place.number);
+    }
+  });
+  return taken;
+}
+
+class WritingOrderAfterARestart : public WritingOrderTest {
+ protected:
+  void SetUp() override {
+    LastOrigins stored;
+    stored[kTelemetryKind<GyroSample>] = {{.source = "station", .session = 0, .seq = 20}};
+    stored[kTelemetryKind<StarFix>] = {{.source = "station", .session = 0, .seq = 15}};
+    order_ = WritingOrder{stored};
+    EXPECT_THAT(pass_on(look_again({10, 20, 30, 40}, {})), ElementsAre(10, 20));
+  }
+};
+
+TEST_F(WritingOrderAfterARestart, NewSamplesWaitUntilAllTopicsHaveSentAgainWhatIsStored) {
+  now_ += 4s;
+  EXPECT_THAT(pass_on(look_again({50}, {5})), ElementsAre(5));
+  now_ += 500ms;
+  EXPECT_THAT(pass_on(look_again({}, {15})), ElementsAre(15));
+  now_ += 100ms;
+  EXPECT_THAT(pass_on(look_again({}, {25, 35})), IsEmpty());
+  now_ += WritingOrder::kLastMinutes;
+  EXPECT_THAT(pass_on({}), ElementsAre(25, 30, 35, 40, 50));
+  EXPECT_THAT(pass_on(look_again({60}, {})), IsEmpty());
+  EXPECT_THAT(pass_on({}), ElementsAre(60));
+}
+
+TEST_F(WritingOrderAfterARestart, ATopicThatSendsNothingAgainIsNotWaitedForForEver) {
+  now_ += WritingOrder::kLongest - 1ms;
+  EXPECT_THAT(pass_on({}), IsEmpty());
+  now_ += 1ms;
+  EXPECT_THAT(pass_on({}), ElementsAre(30, 40));
+  EXPECT_FALSE(order_.wait_until());
+  EXPECT_THAT(pass_on(look({50}, {}, "front-end")), IsEmpty());
+  EXPECT_EQ(order_.wait_until(), now_ + WritingOrder::kLastMinutes);
+}
+
 TEST_F(WritingOrderTest, GivesTheRestAtTheEnd) {
   EXPECT_THAT(pass_on(look({30}, {20}, "front-end")), IsEmpty());
   EXPECT_THAT(written(order_.rest()), ElementsAre(20, 30));
