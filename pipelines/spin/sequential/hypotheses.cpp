@@ -64,8 +64,10 @@ bool Hypotheses::closed() const {
                      [](const Hypothesis& other) { return other.late; });
 }
 
+/// Where all fixes are near-tangent the edges must fit as well, since filters that began to one
+/// side of the axis need not converge to it.
 bool Hypotheses::prior_stands() const {
-  return published().preferred_by_prior && !provisional_ &&
+  return published().preferred_by_prior && (!provisional_ || fits(published())) &&
          std::all_of(all_.begin() + 1, all_.end(), [&](const Hypothesis& other) {
            return other.log_likelihood - published().log_likelihood < kUnlikely;
          });

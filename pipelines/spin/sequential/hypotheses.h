@@ -71,8 +71,6 @@ class Hypotheses {
   bool contradicted_by(const StartingPoint& point) const;
 
   /// Returns whether only a prior chose the published candidate and the edges do not oppose it.
-  /// Where all fixes are near-tangent no prior makes an axis certain: filters that began to one side
-  /// of it need not converge to it, and their edges may fit there.
   bool prior_stands() const;
 
   /// Adds a candidate with the log likelihood of the published one. If that one was settled or the

@@ -252,7 +252,20 @@ Eigen::Matrix2d SequentialEstimator::covariance_rad2() const {
   const Eigen::Matrix<double, 2, kModelErrors> moved = filter.axis_of_errors();
   const Eigen::Matrix2d shown_rad2 = filter.axis_covariance_rad2() * verdict_.excess_noise +
                                      moved * verdict_.errors_rad2 * moved.transpose();
-  return shown_rad2 + filter.considered_rad2(considered_prior(config_.noise, config_.alignment));
+  return shown_rad2 + filter.considered_rad2(considered_prior(config_.noise, config_.alignment)) +
+         grazing_rad2();
+}
+
+/// Where all fixes graze the limb, a filter that began to one side of the axis may stay there, and
+/// its edges fit. Its axis is then known no better than the prior that chose it, and no better than
+/// the two agree.
+Eigen::Matrix2d SequentialEstimator::grazing_rad2() const {
+  if (!config_.prior || !hypotheses_.provisional() || !hypotheses_.prior_stands()) {
+    return Eigen::Matrix2d::Zero();
+  }
+  const double off_rad = angle_between_rad(config_.prior->axis_icrf, axis_icrf());
+  const double sigma_rad = std::hypot(config_.prior->sigma_rad, off_rad);
+  return 0.5 * sigma_rad * sigma_rad * Eigen::Matrix2d::Identity();
 }
 
 Eigen::Matrix2d SequentialEstimator::alignment_rad2() const {

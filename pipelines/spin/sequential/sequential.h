@@ -117,6 +117,7 @@ class SequentialEstimator {
   bool most_left_out() const;
   void work_in(const Revolution& revolution, const Sky& sky);
   Eigen::Matrix2d covariance_rad2() const;
+  Eigen::Matrix2d grazing_rad2() const;
   Eigen::Matrix2d alignment_rad2() const;
   bool model_contradicts() const;
   Assessment assess_ambiguous() const;
