@@ -127,6 +127,11 @@ double KeplerOrbit::true_anomaly_at_epoch_rad() const {
   return true_rad < 0.0 ? true_rad + kTurn_rad : true_rad;
 }
 
+double KeplerOrbit::mean_anomaly_at_epoch_rad() const {
+  const double mean_rad = std::fmod(mean_anomaly_rad_, kTurn_rad);
+  return mean_rad < 0.0 ? mean_rad + kTurn_rad : mean_rad;
+}
+
 TaiTime KeplerOrbit::when_behind_epoch(double true_anomaly_rad) const {
   const double first_rad = true_anomaly_at_epoch_rad();
   const double mean_rad = mean_anomaly_of_rad(first_rad + true_anomaly_rad, eccentricity_) -

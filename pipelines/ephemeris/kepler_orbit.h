@@ -45,7 +45,8 @@ class KeplerOrbit {
   TaiTime when_behind_epoch(double true_anomaly_rad) const;
 
   TaiTime epoch() const { return epoch_; }
-  double mean_anomaly_at_epoch_rad() const { return mean_anomaly_rad_; }
+  /// Returns the mean anomaly at the epoch of the elements, [0, 2 pi).
+  double mean_anomaly_at_epoch_rad() const;
   double eccentricity() const { return eccentricity_; }
   double mean_motion_rad_s() const { return mean_motion_rad_s_; }
 

@@ -23,23 +23,6 @@ nlohmann::json by_axis(const Vector3d& values, const std::array<const char*, 3>&
   return json;
 }
 
-struct MostOff {
-  Vector3d with_field_rad = Vector3d::Zero();
-  Vector3d with_table_rad = Vector3d::Zero();
-  Vector3d by_table_rad = Vector3d::Zero();  ///< Largest difference of the two.
-};
-
-MostOff most_off(const FieldStudy& study) {
-  MostOff most;
-  for (const StudiedAttitude& at : study.attitudes) {
-    most.with_field_rad = most.with_field_rad.cwiseMax(at.with_field_rad.cwiseAbs());
-    most.with_table_rad = most.with_table_rad.cwiseMax(at.with_table_rad.cwiseAbs());
-    most.by_table_rad =
-        most.by_table_rad.cwiseMax((at.with_table_rad - at.with_field_rad).cwiseAbs());
-  }
-  return most;
-}
-
 std::string degrees_text(const Vector3d& angles_rad) {
   const Vector3d deg = kDegPerRad * angles_rad;
   return fmt::format("{:.3f}, {:.3f}, {:.3f} deg", deg.x(), deg.y(), deg.z());
@@ -67,15 +50,19 @@ std::string to_text(const FieldStudy& study) {
                    name_of(is.kind), is.points, is.bytes, mean.x(), mean.y(), mean.z(),
                    is.errors.most_nt.maxCoeff(), armse_deg.x(), armse_deg.y(), armse_deg.z());
   }
-  const MostOff most = most_off(study);
+  const MostOff& most = study.most;
   fmt::format_to(
       std::back_inserter(text),
-      "\nAttitude from Sun and field over the revolution, largest errors of phi, theta, psi\n"
+      "\nAttitude from Sun and field over the revolution, largest errors of phi, theta, psi in all "
+      "runs\n"
       "  with the field itself            {}\n"
       "  with the table of {} points     {}  (curvature, K = {:.2f})\n"
-      "  the table's own share            {}\n",
+      "  the table's own share            {}\n"
+      "Errors grow where Sun and field are nearly in line; left out are {} of {} places where they "
+      "give no attitude.\n",
       degrees_text(most.with_field_rad), kChosenPoints, degrees_text(most.with_table_rad),
-      best_weight(study), degrees_text(most.by_table_rad));
+      best_weight(study), degrees_text(most.by_table_rad), study.places_in_line,
+      study.places.size());
   return text;
 }
 
@@ -89,9 +76,10 @@ nlohmann::json to_json(const FieldStudy& study) {
                       {"largest_error_nt", by_axis(is.errors.most_nt, kAxes)},
                       {"armse_deg", by_axis(kDegPerRad * is.armse_rad, kAngles)}});
   }
-  const MostOff most = most_off(study);
+  const MostOff& most = study.most;
   return {{"tables", std::move(tables)},
           {"curvature_weight", best_weight(study)},
+          {"places_in_line", study.places_in_line},
           {"largest_attitude_error_deg",
            {{"with_field", by_axis(kDegPerRad * most.with_field_rad, kAngles)},
             {"with_table", by_axis(kDegPerRad * most.with_table_rad, kAngles)},

@@ -94,6 +94,11 @@ std::string why_no_table(const FieldTable& table) {
   if (!is_finite(table)) {
     return "it has values that are no numbers";
   }
+  if (!(table.first_anomaly_rad >= 0.0F &&
+        table.first_anomaly_rad <= static_cast<float>(kTurn_rad))) {
+    return fmt::format("its first anomaly is {:.4g} rad, which must lie in [0, 2 pi]",
+                       table.first_anomaly_rad);
+  }
   if (table.kind == TableKind::Curvature && !rises_over_a_turn(table.knots_rad)) {
     return "its knots do not rise from 0 to 2 pi";
   }

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <iterator>
 
 #include "pipelines/ephemeris/earth_orientation.h"
@@ -31,6 +32,14 @@ const char* lookup_of(TableKind kind) {
       break;
   }
   return embedded::on_board_chebyshev;
+}
+
+/// Returns text that does not end a comment of C, or begin one.
+std::string in_comment(std::string_view text) {
+  std::string plain{text};
+  std::replace(plain.begin(), plain.end(), '*', '_');
+  std::replace(plain.begin(), plain.end(), '\\', '_');
+  return plain;
 }
 
 /// @param unit Unit vector in the axes of the Earth at the epoch.
@@ -73,7 +82,7 @@ std::string constants_text(const FieldTable& table, const KeplerOrbit& orbit) {
 }  // namespace
 
 Expected<std::string> header_of(const FieldTable& table, const KeplerOrbit& orbit,
-                                std::string_view made_of) {
+                                std::string_view made_of, double later_nt) {
   const TaiTime epoch = orbit.epoch();
   return orbit.at(epoch).and_then([&](const OrbitState& spacecraft) {
     return orbit_frame(spacecraft).map([&](const Eigen::Quaterniond& q_icrf_orbit) {
@@ -84,7 +93,7 @@ Expected<std::string> header_of(const FieldTable& table, const KeplerOrbit& orbi
           "table. */\n#ifndef FIELD_TABLE_H\n#define FIELD_TABLE_H\n\n#include <math.h>\n\n{}\n"
           "/* Directions to the first position, and ahead of it in the plane of the orbit, in the "
           "axes of the Earth at the epoch. */\n{}{}\n{}{}{}\n#endif\n",
-          made_of, tai_ns(epoch), constants_text(table, orbit),
+          in_comment(made_of), tai_ns(epoch), later_nt, constants_text(table, orbit),
           vector_text("first", q_itrf_orbit * -Eigen::Vector3d::UnitZ()),
           vector_text("ahead", q_itrf_orbit * Eigen::Vector3d::UnitX()), rows_text(table),
           embedded::on_board_anomaly, lookup_of(table.kind));

@@ -13,8 +13,9 @@
 namespace spindrift {
 
 /// @param made_of What the table is of, for a reader: spacecraft, model, date. One line of text.
+/// @param later_nt How far the field at the same anomaly is off a revolution later, on average.
 /// @return Unobservable for an orbit without a plane.
 Expected<std::string> header_of(const FieldTable& table, const KeplerOrbit& orbit,
-                                std::string_view made_of);
+                                std::string_view made_of, double later_nt);
 
 }  // namespace spindrift

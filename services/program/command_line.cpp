@@ -259,6 +259,7 @@ void add_geomag_table(CLI::App& geomag, Request& request) {
   command.add_option("--out", options.out, "Table to write")->check(check_path)->required();
   command.add_option("--header", options.header, "C header to write, with table and lookup")
       ->check(check_path);
+  command.add_flag("--json", options.json, "Print one JSON object");
   command.callback([&] { request.run = [&] { return geomag_table(request.geomag_table); }; });
 }
 
@@ -270,6 +271,7 @@ void add_geomag_lookup(CLI::App& geomag, Request& request) {
   command.add_option("--points", options.points, "CSV file: anomaly_deg, behind the first")
       ->check(check_path)
       ->required();
+  command.add_flag("--json", options.json, "Print one JSON object");
   command.callback([&] { request.run = [&] { return geomag_lookup(request.geomag_lookup); }; });
 }
 

@@ -137,6 +137,7 @@ struct GeomagTableOptions {
   int points = 0;
   std::filesystem::path out;
   std::filesystem::path header;  ///< Path of a C header to write; empty means none.
+  bool json = false;
 };
 
 /// @return InvalidConfiguration for a mission without orbit elements, a date, degree, kind or
@@ -149,6 +150,7 @@ struct GeomagLookupOptions {
   std::filesystem::path table;
   std::string kind;
   std::filesystem::path points;  ///< CSV: anomaly_deg.
+  bool json = false;
 };
 
 /// Prints the field at the anomalies, CSV, on standard output.

@@ -3,8 +3,11 @@
 #include <algorithm>
 #include <filesystem>
 #include <iterator>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "pipelines/core/shown.h"
 #include "pipelines/frames/angle.h"
@@ -56,6 +59,21 @@ Expected<OrbitAndField> orbit_and_field(const std::filesystem::path& path, doubl
   return OrbitAndField{mission->spacecraft_id, *orbit, *field};
 }
 
+/// Refuses a file that would be written over another one that the command names.
+Expected<void> are_apart(std::vector<std::filesystem::path> paths) {
+  std::erase(paths, std::filesystem::path{});
+  for (auto& path : paths) {
+    path = std::filesystem::absolute(path).lexically_normal();
+  }
+  std::sort(paths.begin(), paths.end());
+  const auto twice = std::adjacent_find(paths.begin(), paths.end());
+  if (twice != paths.end()) {
+    return refused(fmt::format("{}: --mission, --out and --header must be different files",
+                               shown(twice->string())));
+  }
+  return {};
+}
+
 Expected<TableKind> kind_of(std::string_view name) {
   const auto* const kind = std::find_if(kTableKinds.begin(), kTableKinds.end(),
                                         [&](TableKind is) { return name_of(is) == name; });
@@ -94,6 +112,9 @@ Expected<FieldTable> table_in(const GeomagLookupOptions& options) {
 }  // namespace
 
 Expected<void> geomag_table(const GeomagTableOptions& options) {
+  if (auto apart = are_apart({options.mission, options.out, options.header}); !apart) {
+    return apart;
+  }
   const auto kind = kind_of(options.kind);
   if (!kind) {
     return Unexpected{kind.error()};
@@ -108,18 +129,32 @@ Expected<void> geomag_table(const GeomagTableOptions& options) {
   if (!table) {
     return refused(fmt::format("--points {}: {}", options.points, table.error().message));
   }
+  const auto later_nt = revolution.off_a_revolution_later_nt();
+  if (!later_nt) {
+    return Unexpected{later_nt.error()};
+  }
   auto written = write_file(options.out, bytes_of(*table));
   if (written && !options.header.empty()) {
     written =
         header_of(*table, of->orbit,
                   fmt::format("{}: field along one revolution, {} of {} to degree {}, kind {}",
                               of->spacecraft_id, kFieldModelName, options.year, options.degree,
-                              name_of(*kind)))
+                              name_of(*kind)),
+                  *later_nt)
             .and_then([&](const std::string& text) { return write_file(options.header, text); });
   }
   return written.map([&] {
-    fmt::print("{}: {} bytes, {} of {} points\n", options.out.string(), table->bytes(),
-               name_of(*kind), options.points);
+    if (options.json) {
+      fmt::print("{}", json_line(with_warnings({{"kind", options.kind},
+                                                {"points", options.points},
+                                                {"bytes", table->bytes()},
+                                                {"off_a_revolution_later_nt", *later_nt}})));
+      return;
+    }
+    fmt::print(
+        "{}: {} bytes, {} of {} points; a revolution later the field at the same anomaly is "
+        "{:.0f} nT off on average\n",
+        options.out.string(), table->bytes(), name_of(*kind), options.points, *later_nt);
   });
 }
 
@@ -129,15 +164,23 @@ Expected<void> geomag_lookup(const GeomagLookupOptions& options) {
     return Unexpected{table.error()};
   }
   std::string text = fmt::format("{},x_nt,y_nt,z_nt\n", kAnomaly);
+  nlohmann::json points = nlohmann::json::array();
   return for_each_row(options.points, kAnomaly,
                       [&](const FileLine& line) {
                         return anomaly_deg_of(line).map([&](double deg) {
                           const Eigen::Vector3d field_nt = lookup(*table, deg * kRadPerDeg);
                           fmt::format_to(std::back_inserter(text), "{},{:.4f},{:.4f},{:.4f}\n", deg,
                                          field_nt.x(), field_nt.y(), field_nt.z());
+                          points.push_back({{"anomaly_deg", deg},
+                                            {"x_nt", field_nt.x()},
+                                            {"y_nt", field_nt.y()},
+                                            {"z_nt", field_nt.z()}});
                         });
                       })
-      .map([&] { fmt::print("{}", text); });
+      .map([&] {
+        fmt::print("{}",
+                   options.json ? json_line(with_warnings({{"points", std::move(points)}})) : text);
+      });
 }
 
 Expected<void> geomag_study(const GeomagStudyOptions& options) {

@@ -154,7 +154,8 @@ TEST_F(GeomagTables, HeaderHasTheAnomalyOfAFixAndOfATime) {
   const KeplerOrbit orbit = orbit_of_mission();
   std::string program =
       "#include <stdio.h>\n#include \"uniform.h\"\nint main(void) {\ndouble p[3];\n";
-  const std::vector<double> anomalies_rad{0.01, 1.0, 3.0, 4.5, 6.2};
+  // The second is a metre before the epoch, the last two are a revolution later.
+  const std::vector<double> anomalies_rad{0.0, -1.3e-7, 0.01, 1.0, 3.0, 4.5, 6.2, 6.3, 9.0};
   for (const double anomaly_rad : anomalies_rad) {
     const TaiTime t = orbit.when_behind_epoch(anomaly_rad);
     const Eigen::Vector3d p_km =
@@ -173,6 +174,20 @@ TEST_F(GeomagTables, HeaderHasTheAnomalyOfAFixAndOfATime) {
     ASSERT_TRUE(printed >> of_fix_rad >> of_time_rad);
     EXPECT_NEAR(of_fix_rad, anomaly_rad, 1e-5);
     EXPECT_NEAR(of_time_rad, anomaly_rad, 1e-7);
+  }
+}
+
+TEST_F(GeomagTables, HeaderCompilesWhateverTheNameAndReadsNothingOutside) {
+  std::string named = kMission;
+  folder_.write("mission.toml", named.replace(named.find("FEMTOSAT"), 8, "A*/B /* C"));
+  for (const std::string kind : {"uniform", "curvature", "chebyshev"}) {
+    succeeded(table(kind, "80"));
+    const std::string source = folder_.write(
+        "main.c", "#include <stdio.h>\n#include \"" + kind +
+                      ".h\"\nint main(void) {\ndouble b[3];\nfield_table_lookup(NAN, b);\n"
+                      "printf(\"%d\", b[0] != b[0]);\nfield_table_lookup(INFINITY, b);\n"
+                      "printf(\"%d\", b[0] != b[0]);\nreturn 0;\n}\n");
+    EXPECT_EQ(compiled("gcc", folder_.path().string(), source), "11") << kind;
   }
 }
 
@@ -197,6 +212,9 @@ TEST_F(GeomagTables, RefuseWhatCannotBe) {
   refused(table("uniform", "100001"), {"must be 4 to 100000"});
   refused(table("chebyshev", "151"), {"must be 4 to 150"});
   refused(table("cubic", "80"), {"--kind cubic: must be uniform, curvature or chebyshev"});
+  Words over = table("uniform", "80");
+  over.back() = path("uniform.bin");
+  refused(over, {"must be different files"});
   Words late = table("uniform", "80");
   late[4] = "--date=2031";
   refused(late, {"known from 1900 to 2030"});

@@ -28,6 +28,10 @@ class RevolutionField {
   /// @return Field in the orbit frame, nT.
   Expected<Eigen::Vector3d> at(double behind_first_rad);
 
+  /// @return How far the field at the same anomaly is off a revolution later, when the Earth has
+  ///         turned: mean length of the difference, nT.
+  Expected<double> off_a_revolution_later_nt();
+
  private:
   KeplerOrbit orbit_;
   MainField field_;

@@ -71,23 +71,26 @@ Expected<Eigen::Quaterniond> attitude_of(const StudyPlace& place, const Measured
 class AttitudeStudy {
  public:
   AttitudeStudy(const std::vector<FieldTable>& tables, const FieldTable& chosen)
-      : tables_{tables}, chosen_{chosen}, armse_rad_(tables.size(), Vector3d::Zero()) {}
+      : tables_{tables}, chosen_{chosen}, sum_rad_(tables.size(), Vector3d::Zero()) {}
 
-  Expected<void> add(const StudyPlace& place) {
+  void add(const StudyPlace& place) {
     std::vector<Vector3d> squares(tables_.size(), Vector3d::Zero());
     for (int run = 0; run < kRuns; ++run) {
-      if (auto done = add_run(place, run, squares); !done) {
-        return done;
+      if (!add_run(place, run, squares)) {
+        ++in_line_;
+        return;
       }
     }
     for (std::size_t i = 0; i < tables_.size(); ++i) {
-      armse_rad_[i] += (squares[i] / kRuns).cwiseSqrt() / kPlaces;
+      sum_rad_[i] += (squares[i] / kRuns).cwiseSqrt();
     }
-    return {};
+    ++places_;
   }
 
-  const std::vector<Vector3d>& armse_rad() const { return armse_rad_; }
+  Vector3d armse_rad(std::size_t table) const { return sum_rad_[table] / std::max(places_, 1); }
   const std::vector<StudiedAttitude>& attitudes() const { return attitudes_; }
+  const MostOff& most() const { return most_; }
+  int in_line() const { return in_line_; }
 
  private:
   Measured measure(const StudyPlace& place) {
@@ -96,38 +99,50 @@ class AttitudeStudy {
             .field_body_nt = place.field_orbit_nt + kFieldNoise_nt * noise()};
   }
 
-  Expected<void> add_run(const StudyPlace& place, int run, std::vector<Vector3d>& squares) {
+  /// @return False where Sun and field are in line.
+  bool add_run(const StudyPlace& place, int run, std::vector<Vector3d>& squares) {
     const Measured measured = measure(place);
     const auto with_field = attitude_of(place, measured, place.field_orbit_nt);
-    if (!with_field) {
-      return Unexpected{with_field.error()};
-    }
     const auto with_table = [&](const FieldTable& table) {
       return attitude_of(place, measured, lookup(table, place.behind_first_rad));
     };
+    const auto with_chosen = with_table(chosen_);
+    if (!with_field || !with_chosen) {
+      return false;
+    }
     for (std::size_t i = 0; i < tables_.size(); ++i) {
       const auto attitude = with_table(tables_[i]);
       if (!attitude) {
-        return Unexpected{attitude.error()};
+        return false;
       }
       squares[i] += angles_of(with_field->conjugate() * *attitude).cwiseAbs2();
     }
-    if (run > 0) {
-      return {};
+    note({.behind_first_rad = place.behind_first_rad,
+          .with_field_rad = angles_of(*with_field),
+          .with_table_rad = angles_of(*with_chosen)},
+         run);
+    return true;
+  }
+
+  void note(const StudiedAttitude& at, int run) {
+    if (run == 0) {
+      attitudes_.push_back(at);
     }
-    return with_table(chosen_).map([&](const Eigen::Quaterniond& q_orbit_body) {
-      attitudes_.push_back({.behind_first_rad = place.behind_first_rad,
-                            .with_field_rad = angles_of(*with_field),
-                            .with_table_rad = angles_of(q_orbit_body)});
-    });
+    most_.with_field_rad = most_.with_field_rad.cwiseMax(at.with_field_rad.cwiseAbs());
+    most_.with_table_rad = most_.with_table_rad.cwiseMax(at.with_table_rad.cwiseAbs());
+    most_.by_table_rad =
+        most_.by_table_rad.cwiseMax((at.with_table_rad - at.with_field_rad).cwiseAbs());
   }
 
   const std::vector<FieldTable>& tables_;
   const FieldTable& chosen_;
   std::mt19937_64 rng_{kSeed};
   std::normal_distribution<double> normal_;
-  std::vector<Vector3d> armse_rad_;
+  std::vector<Vector3d> sum_rad_;
   std::vector<StudiedAttitude> attitudes_;
+  MostOff most_;
+  int places_ = 0;
+  int in_line_ = 0;
 };
 
 std::vector<StudiedWeight> weights_of(const SampledField& field_nt) {
@@ -175,14 +190,14 @@ Expected<FieldStudy> study_tables(const KeplerOrbit& orbit, const MainField& fie
       study.tables.begin());
   AttitudeStudy attitudes{tables, tables[chosen]};
   for (const StudyPlace& place : *places) {
-    if (auto done = attitudes.add(place); !done) {
-      return Unexpected{done.error()};
-    }
+    attitudes.add(place);
   }
   for (std::size_t i = 0; i < tables.size(); ++i) {
-    study.tables[i].armse_rad = attitudes.armse_rad()[i];
+    study.tables[i].armse_rad = attitudes.armse_rad(i);
   }
   study.attitudes = attitudes.attitudes();
+  study.most = attitudes.most();
+  study.places_in_line = attitudes.in_line();
   study.knots_rad.assign(tables[chosen].knots_rad.begin(), tables[chosen].knots_rad.end());
   study.weights = weights_of(*truth_nt);
   study.uniform_error_nt =

@@ -47,6 +47,13 @@ struct StudiedAttitude {
   Eigen::Vector3d with_table_rad;  ///< Error with the table of `kChosenPoints` by curvature.
 };
 
+/// Largest attitude errors of all runs, Euler angles phi, theta, psi.
+struct MostOff {
+  Eigen::Vector3d with_field_rad = Eigen::Vector3d::Zero();
+  Eigen::Vector3d with_table_rad = Eigen::Vector3d::Zero();
+  Eigen::Vector3d by_table_rad = Eigen::Vector3d::Zero();  ///< Largest difference of the two.
+};
+
 /// Mean error of a table of `kChosenPoints` by the weight K of equal steps (eq. 9).
 struct StudiedWeight {
   double weight;
@@ -57,13 +64,15 @@ struct FieldStudy {
   std::vector<StudyPlace> places;
   std::vector<StudiedTable> tables;
   std::vector<StudiedWeight> weights;
-  double uniform_error_nt;        ///< Mean error of equal steps, as `weights`.
-  std::vector<double> knots_rad;  ///< Knots of the table of `kChosenPoints` by curvature.
-  std::vector<StudiedAttitude> attitudes;
+  double uniform_error_nt;                 ///< Mean error of equal steps, as `weights`.
+  std::vector<double> knots_rad;           ///< Knots of the table of `kChosenPoints` by curvature.
+  std::vector<StudiedAttitude> attitudes;  ///< Of the first run.
+  MostOff most;
+  int places_in_line;  ///< Places left out, where Sun and field are in line and give no attitude.
 };
 
 /// Studies tables along the revolution of an orbit from the epoch of its elements on.
-/// @return What the field returns; Unobservable where Sun and field are collinear.
+/// @return What the field returns.
 Expected<FieldStudy> study_tables(const KeplerOrbit& orbit, const MainField& field);
 
 }  // namespace spindrift
