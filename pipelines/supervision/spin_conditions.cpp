@@ -236,6 +236,8 @@ ConditionChanges SpinConditions::settle() {
   // Behind all that was judged, since a change at the time of another would be taken for known.
   const TaiTime t = std::max(answer->t, judged_.value_or(answer->t)) + std::chrono::nanoseconds{1};
   evaluate_in_force(t, *answer, changes);
+  // The solution of the whole pass may be its only answer, behind its last edge.
+  add(presence_.see_sample(t), changes);
   evaluate_disagreement(t, changes);
   if (answers_.apart().empty()) {
     add(disagree_.update(t, {.value = 0.0, .limit = answers_.contradiction_sigmas()}), changes);

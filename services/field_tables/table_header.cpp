@@ -88,9 +88,12 @@ Expected<std::string> header_of(const FieldTable& table, const KeplerOrbit& orbi
     return orbit_frame(spacecraft).map([&](const Eigen::Quaterniond& q_icrf_orbit) {
       const Eigen::Quaterniond q_itrf_orbit = earth_orientation(epoch).conjugate() * q_icrf_orbit;
       return fmt::format(
-          "/* {}.\n   Seconds count from the epoch, {} ns of TAI since 1970. Made by spindrift "
-          "geomag "
-          "table. */\n#ifndef FIELD_TABLE_H\n#define FIELD_TABLE_H\n\n#include <math.h>\n\n{}\n"
+          "/* {}.\n   Seconds count from the epoch, {} ns of TAI since 1970. The table is of the "
+          "revolution from there on: one\n   revolution later, when the Earth has turned, the "
+          "field "
+          "at the same anomaly is {:.0f} nT off on average.\n   Made by spindrift geomag table. "
+          "*/\n"
+          "#ifndef FIELD_TABLE_H\n#define FIELD_TABLE_H\n\n#include <math.h>\n\n{}\n"
           "/* Directions to the first position, and ahead of it in the plane of the orbit, in the "
           "axes of the Earth at the epoch. */\n{}{}\n{}{}{}\n#endif\n",
           in_comment(made_of), tai_ns(epoch), later_nt, constants_text(table, orbit),

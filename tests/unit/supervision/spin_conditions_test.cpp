@@ -233,6 +233,16 @@ TEST_F(SpinConditionsTest, AreSettledByTheFinalAnswer) {
   EXPECT_EQ(apart.raised, (Keys{"spin.disagree", "spin.doubtful"}));
 }
 
+TEST_F(SpinConditionsTest, SettleThatNoAnswerCameByTheSolutionOfTheWholePass) {
+  for (int revolution = 0; revolution <= 60; ++revolution) {
+    give_edges(pass_, revolution, std::nullopt, {});
+  }
+  EXPECT_TRUE(pass_.raised.contains("spin.no_answer"));
+  pass_.evaluate(estimate(60.5, Quality::Doubtful, 0.1, 0.0, SpinEstimator::Batch));
+  pass_.settle();
+  EXPECT_FALSE(pass_.raised.contains("spin.no_answer"));
+}
+
 TEST_F(SpinConditionsTest, SettleAContradictionOfSensors) {
   pass_.evaluate(SensorsCompared{.t = at(0.0),
                                  .contradiction = SensorContradiction{.culprit = SampleSource::Sun2,
