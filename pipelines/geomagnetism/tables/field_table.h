@@ -37,7 +37,7 @@ struct FieldTable {
   TableKind kind = TableKind::Uniform;
   float first_anomaly_rad = 0.0F;
   std::vector<Eigen::Vector3f> rows = {};  ///< Fields at the knots, or coefficients; nT.
-  std::vector<float> knots_rad = {};  ///< Of `Curvature`: anomalies behind the first, 0 to 2 pi.
+  std::vector<float> knots_rad = {};       ///< Anomalies behind the first of a table by curvature.
 
   /// Returns the size of the table on board: first anomaly, number of rows, rows, knots.
   std::size_t bytes() const { return 8 + 12 * rows.size() + 4 * knots_rad.size(); }

@@ -1,6 +1,6 @@
 /// @file
-/// What a table of the field costs an attitude from Sun and field: the Monte Carlo of Liu 2019,
-/// par. 3.2 and 3.3.
+/// This study shows what a table of the field costs an attitude from Sun and field: the Monte Carlo
+/// of Liu 2019, par. 3.2 and 3.3.
 ///
 /// The body stands in the orbit frame and measures Sun and field with noise. From each measurement
 /// the two-vector attitude is computed twice, with the field itself and with the table's as the
@@ -66,7 +66,7 @@ struct FieldStudy {
   std::vector<StudiedWeight> weights;
   double uniform_error_nt;                 ///< Mean error of equal steps, as `weights`.
   std::vector<double> knots_rad;           ///< Knots of the table of `kChosenPoints` by curvature.
-  std::vector<StudiedAttitude> attitudes;  ///< Of the first run.
+  std::vector<StudiedAttitude> attitudes;  ///< Attitudes of the first run.
   MostOff most;
   int places_in_line;  ///< Places left out, where Sun and field are in line and give no attitude.
 };

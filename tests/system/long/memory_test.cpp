@@ -19,7 +19,7 @@
 namespace spindrift::memory_test {
 
 constexpr int kSpacecraft = 20;
-constexpr std::int64_t kSolutions = 99;  ///< Of each spacecraft, one a minute.
+constexpr std::int64_t kSolutions = 99;  ///< Each spacecraft gives one a minute.
 
 TEST(Memory, OfAServiceIsFlatFromATenthOfTheTelemetryOn) {
   if (is_sanitized()) {
