@@ -49,23 +49,43 @@ ChannelPresence::ChannelPresence(SpinConfig config, Orbit orbit, int silent_revo
 
 ConditionChanges ChannelPresence::evaluate(const Pulse& edge, std::span<const AxisSeen> axes) {
   ConditionChanges changes;
+  if (!newest_) {
+    for (Channel& one : channels_) {
+      one.since = edge.t;
+    }
+  }
+  newest_ = edge.t;
   for (std::size_t i = 0; i < kPulseChannels; ++i) {
     const auto channel = static_cast<PulseChannel>(i);
     Channel& one = channels_[i];
     if (channel == edge.channel) {
-      one.was_in_view = true;
       one.has_come = true;
       one.of_others = {};
+      one.since = edge.t;
     } else {
       ++one.of_others.at(index_of(edge.channel));
     }
     if (channel == edge.channel || is_silent(channel, edge.t, axes)) {
-      if (auto change = one.watch.update(edge.t, {.value = missed(channel), .limit = limit_})) {
-        changes.push_back(std::move(*change));
-      }
+      report(channel, edge.t, changes);
     }
   }
   return changes;
+}
+
+ConditionChanges ChannelPresence::settle(const AxisSeen& axis) {
+  ConditionChanges changes;
+  for (std::size_t i = 0; newest_ && i < kPulseChannels; ++i) {
+    const auto channel = static_cast<PulseChannel>(i);
+    if (is_silent(channel, *newest_, {&axis, 1})) {
+      report(channel, *newest_, changes);
+    }
+  }
+  return changes;
+}
+
+void ChannelPresence::report(PulseChannel channel, TaiTime t, ConditionChanges& changes) {
+  add(channels_[index_of(channel)].watch.update(t, {.value = missed(channel), .limit = limit_}),
+      changes);
 }
 
 /// Restarts the count when a channel comes into view. Where slit 2 sees the Sun, slit 1 does,
@@ -86,19 +106,22 @@ bool ChannelPresence::is_silent(PulseChannel channel, TaiTime t, std::span<const
     return false;
   }
   bool in_view = false;
+  bool was_in_view = one.since.has_value();
   for (const AxisSeen& axis : axes) {
     if (partner_comes && !is_in_view(partner, t, axis)) {
       continue;
     }
+    was_in_view = was_in_view && (one.has_come || is_in_view(channel, *one.since, axis));
     in_view = is_in_view(channel, t, axis);
     if (!in_view) {
       break;
     }
   }
-  const bool is_silent = std::exchange(one.was_in_view, in_view) && in_view;
+  const bool is_silent = was_in_view && in_view;
   if (!is_silent) {
     one.has_come = false;
     one.of_others = {};
+    one.since = in_view ? std::optional{t} : std::nullopt;
   }
   return is_silent;
 }

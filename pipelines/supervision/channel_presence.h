@@ -8,6 +8,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -35,22 +36,27 @@ class ChannelPresence {
   void set_silent_revolutions(int revolutions) { limit_ = revolutions; }
 
   ConditionChanges evaluate(const Pulse& edge, std::span<const AxisSeen> axes);
+  /// Judges the last edges by the final answer, of a pass that may have had none before its end.
+  ConditionChanges settle(const AxisSeen& axis);
 
  private:
+  void report(PulseChannel channel, TaiTime t, ConditionChanges& changes);
   bool is_silent(PulseChannel channel, TaiTime t, std::span<const AxisSeen> axes);
   bool is_in_view(PulseChannel channel, TaiTime t, const AxisSeen& axis) const;
   double missed(PulseChannel channel) const;
 
   struct Channel {
     ConditionWatch watch;
-    bool was_in_view = false;  ///< The channel was in view at its last edge or at the last check.
-    bool has_come = false;     ///< An edge came since the count was restarted.
+    bool has_come = false;  ///< The count began with an edge of the channel.
     std::array<int, kPulseChannels> of_others = {};  ///< Edges of each other channel since then.
+    /// When the count began, unless the channel was out of view then.
+    std::optional<TaiTime> since = {};
   };
   SpinConfig config_;
   Orbit orbit_;
   double limit_;
   std::vector<Channel> channels_;  ///< Indexed by PulseChannel.
+  std::optional<TaiTime> newest_ = {};
 };
 
 }  // namespace spindrift

@@ -31,6 +31,11 @@ double sigma_deg_of(const SpinEstimate& estimate) {
   return std::sqrt(estimate.covariance_rad2.trace()) * kDegPerRad;
 }
 
+/// @param found An estimate, a fix or an alternate of one.
+AxisSeen axis_seen(const auto& found) {
+  return {.axis_icrf = found.axis_icrf, .sigma_rad = std::sqrt(found.covariance_rad2.trace())};
+}
+
 double degrees_between(const Eigen::Vector3d& one, const Eigen::Vector3d& other) {
   return angle_between_rad(one, other) * kDegPerRad;
 }
@@ -101,8 +106,7 @@ std::span<const AxisSeen> SpinConditions::axes_in_question() {
   }
   in_question_.clear();
   if (is_unopposed(answer->quality)) {
-    in_question_.push_back({.axis_icrf = answer->estimate.axis_icrf,
-                            .sigma_rad = std::sqrt(answer->estimate.covariance_rad2.trace())});
+    in_question_.push_back(axis_seen(answer->estimate));
   }
   return in_question_;
 }
@@ -111,11 +115,9 @@ std::span<const AxisSeen> SpinConditions::axes_in_question() {
 ConditionChanges SpinConditions::evaluate(const SpinFix& fix) {
   of_last_fix_.clear();
   if (!fix.near_tangent) {
-    of_last_fix_.push_back(
-        {.axis_icrf = fix.axis_icrf, .sigma_rad = std::sqrt(fix.covariance_rad2.trace())});
+    of_last_fix_.push_back(axis_seen(fix));
     for (const SpinAlternate& other : fix.alternates) {
-      of_last_fix_.push_back(
-          {.axis_icrf = other.axis_icrf, .sigma_rad = std::sqrt(other.covariance_rad2.trace())});
+      of_last_fix_.push_back(axis_seen(other));
     }
   }
   return {};
@@ -241,6 +243,11 @@ ConditionChanges SpinConditions::settle() {
   evaluate_disagreement(t, changes);
   if (answers_.apart().empty()) {
     add(disagree_.update(t, {.value = 0.0, .limit = answers_.contradiction_sigmas()}), changes);
+  }
+  if (is_unopposed(answer->quality)) {
+    for (ConditionChange& silent : channels_.settle(axis_seen(answer->estimate))) {
+      changes.push_back(std::move(silent));
+    }
   }
   return changes;
 }

@@ -58,7 +58,7 @@ constexpr std::array<Pattern<ReasonCode>, kReasonCodes> kReasonPatterns{{
     {GyroUnit, "gyro rates {factor:.3g} times those of the star fixes"},
     {SensorGated, "many {sensor} samples gated"},
     {SensorNoise, "{sensor} noise x {factor:.1f}"},
-    {AlignmentOff, "{key} exceeded: off by {sigmas:.1f} sigma"},
+    {AlignmentOff, "model off {sigmas:.1f} sigma: {key}"},
     {Contradicted, "{sensor} wrong"},
     {OrbitSteps, "orbit steps by {km:.3f} km, {m_s:.2f} m/s at {t_tai_ns}"},
     {Withheld, "the last answer: {column} of {table} is not finite since"},

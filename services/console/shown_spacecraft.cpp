@@ -154,7 +154,8 @@ bool tells_effect_of(const OperatorAction& action, const RunNotice& notice) {
   }
   const bool of_root = notice.code == name_of(NoticeCode::RootFarFromAll) ||
                        notice.code == name_of(NoticeCode::RootChosen);
-  const bool of_prior = notice.code == name_of(NoticeCode::PriorContradicted);
+  const bool of_prior = notice.code == name_of(NoticeCode::PriorContradicted) ||
+                        notice.code == name_of(NoticeCode::PriorFar);
   return ((of_root || of_prior) && action.action == "choose_root") ||
          (of_prior && action.action == "set_prior");
 }

@@ -274,6 +274,10 @@ TEST_F(Feed, TellsWhatAnActionHasDoneOnceTheRunSaysSo) {
   EXPECT_FALSE(shown()["actions"][3].contains("effect"));
   put_details({RunNotice{.code = "root_chosen", .arguments = "{}", .says = "taken"}});
   EXPECT_EQ(shown()["actions"][1]["effect"], "taken");
+  for (const char* const code : {"prior_contradicted", "prior_far"}) {
+    put_details({RunNotice{.code = code, .arguments = "{}", .says = code}});
+    EXPECT_EQ(shown()["actions"][1]["effect"], code);
+  }
 }
 
 TEST_F(Feed, TellsEveryExclusionThatIsInForce) {

@@ -243,6 +243,22 @@ TEST_F(SpinConditionsTest, SettleThatNoAnswerCameByTheSolutionOfTheWholePass) {
   EXPECT_FALSE(pass_.raised.contains("spin.no_answer"));
 }
 
+TEST_F(SpinConditionsTest, SettleAChannelThatIsDeadFromTheStartByTheSolutionOfTheWholePass) {
+  EXPECT_EQ(give_turns(pass_, 0, 30, NorthOut), Keys{});
+  pass_.evaluate(estimate(29.5, Quality::Ok, 0.1, 0.0, SpinEstimator::Batch));
+  EXPECT_EQ(pass_.raised, Keys{});
+  pass_.settle();
+  EXPECT_EQ(pass_.raised, Keys{"channel.silent:north_out"});
+
+  Supervised out_of_view;
+  give_turns(out_of_view, 0, 30, NorthOut);
+  SpinEstimate away = estimate(29.5, Quality::Ok, 0.1, 0.0, SpinEstimator::Batch);
+  away.axis_icrf = Eigen::AngleAxisd{70.0 * kRadPerDeg, Eigen::Vector3d::UnitY()} * kAxis;
+  out_of_view.evaluate(away);
+  out_of_view.settle();
+  EXPECT_EQ(out_of_view.raised, Keys{});
+}
+
 TEST_F(SpinConditionsTest, SettleAContradictionOfSensors) {
   pass_.evaluate(SensorsCompared{.t = at(0.0),
                                  .contradiction = SensorContradiction{.culprit = SampleSource::Sun2,
