@@ -19,7 +19,7 @@
 namespace spindrift::memory_test {
 
 constexpr int kSpacecraft = 20;
-constexpr std::int64_t kSolutions = 99;  ///< Each spacecraft gives one a minute.
+constexpr std::int64_t kSolutions = 499;  ///< Each spacecraft gives one a minute of telemetry.
 
 TEST(Memory, OfAServiceIsFlatFromATenthOfTheTelemetryOn) {
   if (is_sanitized()) {
@@ -27,7 +27,7 @@ TEST(Memory, OfAServiceIsFlatFromATenthOfTheTelemetryOn) {
   }
   const Simulated pass{
       "geo-day.toml",
-      {{"duration_s = 86400.0", "duration_s = 6000.0"}, {"rate_rpm = 100.0", "rate_rpm = 200.0"}}};
+      {{"duration_s = 86400.0", "duration_s = 30000.0"}, {"rate_rpm = 100.0", "rate_rpm = 200.0"}}};
   const TemporaryFolder folder;
   const bus::BusConfig bus = bus_of_its_own();
   const std::string db = folder.path() / "served.db";
