@@ -151,7 +151,7 @@ AlertDesk::AlertDesk(const std::vector<Mission>& missions, RunMode mode, const G
                                  .contradictions = ContradictionConditions{mission.alerts},
                                  .comparison = {},
                                  .service = ServiceConditions{mission.alerts, mission.contact},
-                                 .limits = LimitsInForce{mission.alert_values}};
+                                 .limits = LimitsInForce{mission.alert_values, mission.contact}};
     begin(desk);
   }
 }
@@ -171,7 +171,7 @@ void AlertDesk::begin(Desk& desk) {
   if (supervised.model) {
     supervised.comparison.emplace(supervised.model, supervised.mission.alerts.departure_sigmas);
   }
-  supervised.limits = LimitsInForce{supervised.mission.alert_values};
+  supervised.limits = LimitsInForce{supervised.mission.alert_values, supervised.mission.contact};
   supervised.in_force = nullptr;
   for (const Alert& alert : desk.book.open()) {
     const auto code = code_of(alert.key);

@@ -80,7 +80,7 @@ class ShownSpacecraft {
   Ledger ledger_;  ///< Residuals of edges in `sequential`, or of samples in the filter.
   std::deque<OperatorAction> actions_;          ///< The latest actions.
   std::map<std::string, std::string> effects_;  ///< What actions have done, by action_id.
-  LimitsInForce limits_{mission_.alert_values};
+  LimitsInForce limits_{mission_.alert_values, mission_.contact};
   std::map<TaiTime, SpinPrior> priors_;                  ///< Set by actions, by start time.
   std::optional<std::pair<TaiTime, double>> bound_deg_;  ///< From the last batch solution.
   ApparentSun sun_;

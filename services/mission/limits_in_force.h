@@ -1,9 +1,12 @@
 /// @file
-/// The limits of a spacecraft's alerts: those of the mission file, as operators change them.
+/// The limits of a spacecraft's alerts: those of the mission file before, in and after the contact,
+/// as operators change them.
 
 #pragma once
 
 #include <map>
+#include <optional>
+#include <utility>
 
 #include "pipelines/supervision/limits.h"
 #include "pipelines/time/tai_time.h"
@@ -16,7 +19,8 @@ namespace spindrift {
 class LimitsInForce {
  public:
   /// @param values The values of [alerts] of the mission file, defaults filled in.
-  explicit LimitsInForce(TomlValues values) : values_{std::move(values)} {}
+  LimitsInForce(TomlValues values, const std::optional<Contact>& contact)
+      : values_{std::move(values)}, contact_{contact} {}
 
   /// Sets limits, which must be allowed, for what happens from `t` on.
   void set(TaiTime t, const SetLimit& limit) {
@@ -29,8 +33,10 @@ class LimitsInForce {
 
  private:
   void work_out();
+  AlertLimits from(TaiTime t) const;
 
   TomlValues values_;
+  std::optional<Contact> contact_;
   std::multimap<TaiTime, SetLimit> said_;
   std::map<TaiTime, AlertLimits>
       from_;  ///< Limits by the time from which they hold; empty: none yet.

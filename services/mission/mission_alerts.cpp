@@ -33,7 +33,27 @@ std::array<double, kAlertCodes> hold_offs_s(const TomlValues& values) {
   return all;
 }
 
+void refuse_phases(TomlDocument& document) {
+  for (const std::string_view phase : {kBeforeContact, kAfterContact}) {
+    const std::string table = fmt::format("{}{}", kAlerts, phase);
+    const auto limit = document.values.lower_bound(table + ".");
+    if (limit != document.values.end() && limit->first.starts_with(table + ".")) {
+      add_problem(document, table,
+                  fmt::format("{}: needs [contact], whose times it refers to", table));
+    }
+  }
+}
+
 }  // namespace
+
+void put_phase(std::string_view phase, TomlValues& values) {
+  const std::string table = fmt::format("{}{}.", kAlerts, phase);
+  for (auto limit = values.lower_bound(table);
+       limit != values.end() && limit->first.starts_with(table); ++limit) {
+    values.insert_or_assign(std::string{kAlerts} + limit->first.substr(table.size()),
+                            limit->second);
+  }
+}
 
 std::string limit_path(std::string_view key, std::string_view name) {
   return fmt::format("{}{}.{}", kAlerts, key, name);
@@ -89,6 +109,7 @@ std::optional<Contact> planned_contact(TomlDocument& document) {
   const auto aos = value_if<std::string>(document.values, "contact.aos_utc");
   const auto los = value_if<std::string>(document.values, "contact.los_utc");
   if (!aos || !los) {
+    refuse_phases(document);
     return std::nullopt;
   }
   const Contact contact{.from = parse_utc(*aos).value(), .to = parse_utc(*los).value()};

@@ -1,6 +1,8 @@
 #include "services/mission/mission_schema.h"
 
+#include <array>
 #include <string>
+#include <utility>
 
 #include "pipelines/supervision/alert_code.h"
 
@@ -36,10 +38,35 @@ TableRule with_hold_offs(TableRule schema) {
   return schema;
 }
 
+/// Lets the limits of the answer's quality differ before and after the contact.
+TableRule with_phases(TableRule schema) {
+  constexpr std::array kOfQuality{AlertCode::SpinAmbiguous,    AlertCode::SpinDoubtful,
+                                  AlertCode::SpinSigma,        AlertCode::SpinDisagree,
+                                  AlertCode::SpinNoAnswer,     AlertCode::AttitudeDoubtful,
+                                  AlertCode::AttitudeDiverged, AlertCode::AttitudeNoAnswer};
+  TableRule& alerts = schema.tables["alerts"];
+  for (const auto& [phase, about] :
+       {std::pair{"before_aos", "limits that hold before aos_utc of [contact]"},
+        std::pair{"after_los", "limits that hold from los_utc of [contact] on"}}) {
+    TableRule of_phase{.about = about};
+    for (const AlertCode code : kOfQuality) {
+      const std::string key{name_of(code)};
+      TableRule& alert = of_phase.tables[key] = alerts.tables.at(key);
+      alert.keys.erase("hold_off_s");
+      for (auto& [name, rule] : alert.keys) {
+        rule.default_value.reset();
+        rule.optional = true;
+      }
+    }
+    alerts.tables[phase] = std::move(of_phase);
+  }
+  return schema;
+}
+
 }  // namespace
 
 Expected<TableRule> mission_schema() {
-  return parse_schema(embedded::mission_schema_toml).map(with_hold_offs);
+  return parse_schema(embedded::mission_schema_toml).map(with_hold_offs).map(with_phases);
 }
 
 }  // namespace spindrift

@@ -27,9 +27,9 @@ inline AxisCandidate candidate(const Eigen::Vector3d& axis_icrf, double sigma_ra
 }
 
 /// Draws noisy axes: one that is constant, and others that drift.
-class Sky {
+class NoisyAxes {
  public:
-  explicit Sky(std::uint64_t seed) : rng_{seed} {}
+  explicit NoisyAxes(std::uint64_t seed) : rng_{seed} {}
 
   AxisCandidate seen(const Eigen::Vector3d& axis_icrf, double sigma_rad = kSigma_rad) {
     const Eigen::Vector2d off_rad{sigma_rad * normal_(rng_), sigma_rad * normal_(rng_)};
@@ -53,11 +53,12 @@ inline Eigen::Vector3d drifting(double moved_rad) {
 /// Gives each of many passes two constant axes, one twice as noisy, as its covariance states.
 inline void expect_noise_alone_settles_nothing(std::uint64_t passes) {
   for (std::uint64_t seed = 0; seed < passes; ++seed) {
-    Sky sky{1000 + seed};
+    NoisyAxes axes{1000 + seed};
     Dispersion dispersion{100};
     dispersion.note_unlike();  // Each branch has noise of its own here.
     for (int revolution = 0; revolution < 300; ++revolution) {
-      const std::array candidates{sky.seen(kTrue_icrf), sky.seen(drifting(0.0), 2.0 * kSigma_rad)};
+      const std::array candidates{axes.seen(kTrue_icrf),
+                                  axes.seen(drifting(0.0), 2.0 * kSigma_rad)};
       ASSERT_FALSE(dispersion.add(candidates)) << seed;
     }
   }

@@ -256,6 +256,10 @@ std::vector<Refusal> refusals() {
       {kLaunched,
        "mission.toml:6: reconstruction.launcher.launch_azimuth_deg: missing: euler312_launch_deg "
        "needs it"},
+      {kLeo + "[alerts.before_aos]\n\"attitude.doubtful\" = { seconds = 60.0 }\n",
+       "mission.toml:12: alerts.before_aos: needs [contact], whose times it refers to"},
+      {kLeo + "[alerts.after_los]\n\"link.silent\" = { seconds = 60.0 }\n",
+       HasSubstr("mission.toml:13: alerts.after_los.link.silent: unknown")},
       {kLeo + "[spni.noise]\nsun_pulse_s = 1\n",
        "mission.toml:12: spni: unknown; did you mean spin?"},
       {"colour = \"red\"\n" + kLeo,

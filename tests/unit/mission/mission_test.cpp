@@ -1,12 +1,14 @@
 #include "services/mission/mission.h"
 
 #include <Eigen/Geometry>
+#include <chrono>
 #include <cmath>
 #include <filesystem>
 #include <string>
 #include <vector>
 
 #include "pipelines/frames/angle.h"
+#include "services/mission/limits_in_force.h"
 #include "tests/support/matchers.h"
 #include "tests/support/outcome.h"
 #include "tests/support/temporary_folder.h"
@@ -231,6 +233,27 @@ TEST(Mission, KnowsThePlannedContact) {
   EXPECT_FALSE(load(kElements)->contact);
   const auto mission = value_or_throw(load(contract()));
   EXPECT_EQ(mission.contact->to - mission.contact->from, std::chrono::minutes{10});
+}
+
+TEST(Mission, HasLimitsOfItsOwnBeforeAndAfterTheContactUntilAnOperatorSetsOne) {
+  const auto mission = value_or_throw(
+      load(contract() + "\n[alerts.before_aos]\n\"spin.sigma\" = { deg = 3.0 }\n"
+                        "[alerts.after_los]\n\"spin.sigma\" = { deg = 2.0, after_s = 0.0 }\n"));
+  LimitsInForce limits{mission.alert_values, mission.contact};
+  const auto [aos, los] = mission.contact.value();
+  const auto sigma_deg = [&](TaiTime t) { return limits.at(t).sigma_deg; };
+  constexpr std::chrono::nanoseconds kMoment{1};
+  EXPECT_EQ(sigma_deg(aos - kMoment), 3.0);
+  EXPECT_EQ(limits.at(aos - kMoment).sigma_after_s, 120.0);
+  EXPECT_EQ(sigma_deg(aos), 1.0);
+  EXPECT_EQ(sigma_deg(los - kMoment), 1.0);
+  EXPECT_EQ(sigma_deg(los), 2.0);
+  EXPECT_EQ(limits.at(los).sigma_after_s, 0.0);
+  limits.set(aos + std::chrono::minutes{1}, {.key = "spin.sigma", .limits = {{"deg", 0.5}}});
+  EXPECT_EQ(sigma_deg(aos), 1.0);
+  EXPECT_EQ(sigma_deg(aos + std::chrono::minutes{1}), 0.5);
+  EXPECT_EQ(sigma_deg(los), 0.5);
+  EXPECT_EQ(limits.at(los).sigma_after_s, 0.0);
 }
 
 }  // namespace spindrift::mission_test

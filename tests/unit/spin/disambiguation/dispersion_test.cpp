@@ -20,37 +20,37 @@ using testing::drifting;
 using testing::expect_noise_alone_settles_nothing;
 using testing::kSigma_rad;
 using testing::kTrue_icrf;
-using testing::Sky;
+using testing::NoisyAxes;
 
 /// Returns the candidates of a revolution.
-using Candidates = std::function<std::vector<AxisCandidate>(Sky& sky, int revolution)>;
+using Candidates = std::function<std::vector<AxisCandidate>(NoisyAxes& axes, int revolution)>;
 
 /// Adds revolutions until a branch is found stationary, which has to be the true one.
 /// @return The branch and the number of revolutions.
 std::pair<StationaryBranch, int> found_of(std::uint64_t seed, int most, const Candidates& of) {
-  Sky sky{seed};
+  NoisyAxes axes{seed};
   Dispersion dispersion{100};
   std::optional<StationaryBranch> found;
   int revolution = 0;
   for (; revolution < most && !found; ++revolution) {
-    found = dispersion.add(of(sky, revolution));
+    found = dispersion.add(of(axes, revolution));
   }
   EXPECT_LT(angle_between_rad(found.value().axis.axis_icrf, kTrue_icrf), 0.2 * kRadPerDeg);
   return {*found, revolution};
 }
 
 TEST(Dispersion, TheBranchThatStaysIsFound) {
-  const auto [found, revolutions] = found_of(61, 200, [](Sky& sky, int revolution) {
-    const AxisCandidate other = sky.seen(drifting(0.1 * kRadPerDeg * revolution));
-    return std::vector{other, sky.seen(kTrue_icrf)};
+  const auto [found, revolutions] = found_of(61, 200, [](NoisyAxes& axes, int revolution) {
+    const AxisCandidate other = axes.seen(drifting(0.1 * kRadPerDeg * revolution));
+    return std::vector{other, axes.seen(kTrue_icrf)};
   });
   EXPECT_EQ(found.axis.count, revolutions);
 }
 
 TEST(Dispersion, TheOrderOfTheCandidatesDoesNotMatter) {
-  found_of(62, 200, [](Sky& sky, int revolution) {
-    const AxisCandidate other = sky.seen(drifting(0.1 * kRadPerDeg * revolution));
-    const AxisCandidate true_one = sky.seen(kTrue_icrf);
+  found_of(62, 200, [](NoisyAxes& axes, int revolution) {
+    const AxisCandidate other = axes.seen(drifting(0.1 * kRadPerDeg * revolution));
+    const AxisCandidate true_one = axes.seen(kTrue_icrf);
     return revolution % 3 == 0 ? std::vector{true_one, other} : std::vector{other, true_one};
   });
 }
@@ -58,31 +58,31 @@ TEST(Dispersion, TheOrderOfTheCandidatesDoesNotMatter) {
 TEST(Dispersion, ADriftTooSlowForTheWindowShowsInALongPass) {
   // The drift of 0.3 deg in a hundred revolutions is a tenth of what their scatter could hide; in
   // all it is 9 deg.
-  const auto [found, revolutions] = found_of(63, 3000, [](Sky& sky, int revolution) {
-    const AxisCandidate true_one = sky.seen(kTrue_icrf);
-    return std::vector{true_one, sky.seen(drifting(0.003 * kRadPerDeg * revolution))};
+  const auto [found, revolutions] = found_of(63, 3000, [](NoisyAxes& axes, int revolution) {
+    const AxisCandidate true_one = axes.seen(kTrue_icrf);
+    return std::vector{true_one, axes.seen(drifting(0.003 * kRadPerDeg * revolution))};
   });
   EXPECT_GT(found.axis.count, 100.0);
 }
 
 TEST(Dispersion, OutliersAndDropOutsAreSurvived) {
-  found_of(65, 300, [](Sky& sky, int revolution) {
+  found_of(65, 300, [](NoisyAxes& axes, int revolution) {
     const double moved_rad = 0.08 * kRadPerDeg * revolution;
-    std::vector candidates{sky.seen(drifting(moved_rad)), sky.seen(kTrue_icrf)};
+    std::vector candidates{axes.seen(drifting(moved_rad)), axes.seen(kTrue_icrf)};
     if (revolution % 7 == 3) {
       candidates.pop_back();
     }
     if (revolution % 11 == 5) {  // A displaced edge moves both branches.
-      candidates = {sky.seen(drifting(moved_rad + 0.2)), sky.seen(drifting(-0.4))};
+      candidates = {axes.seen(drifting(moved_rad + 0.2)), axes.seen(drifting(-0.4))};
     }
     return candidates;
   });
 }
 
 TEST(Dispersion, AfterASilenceTheTrueBranchIsWhereItWas) {
-  found_of(66, 60, [](Sky& sky, int revolution) {
-    const AxisCandidate true_one = sky.seen(kTrue_icrf);
-    return std::vector{true_one, sky.seen(drifting(revolution < 20 ? 0.0 : 15.0 * kRadPerDeg))};
+  found_of(66, 60, [](NoisyAxes& axes, int revolution) {
+    const AxisCandidate true_one = axes.seen(kTrue_icrf);
+    return std::vector{true_one, axes.seen(drifting(revolution < 20 ? 0.0 : 15.0 * kRadPerDeg))};
   });
 }
 
@@ -141,12 +141,13 @@ TEST(Dispersion, WhereTheFTestDoesNotSettleItTheLikelihoodRatioIsStatedToo) {
 TEST(Dispersion, NoiseAloneSettlesNothing) { expect_noise_alone_settles_nothing(20); }
 
 TEST(Dispersion, WhereAllBranchesDriftNoneIsSteady) {
-  Sky sky{64};
+  NoisyAxes axes{64};
   Dispersion dispersion{100};
   for (int revolution = 0; revolution < 400; ++revolution) {
     const Eigen::Vector3d slow =
         Eigen::AngleAxisd{0.1 * kRadPerDeg * revolution, Eigen::Vector3d::UnitX()} * kTrue_icrf;
-    const std::array candidates{sky.seen(slow), sky.seen(drifting(0.15 * kRadPerDeg * revolution))};
+    const std::array candidates{axes.seen(slow),
+                                axes.seen(drifting(0.15 * kRadPerDeg * revolution))};
     ASSERT_FALSE(dispersion.add(candidates)) << revolution;
   }
 }
@@ -157,12 +158,12 @@ TEST(Dispersion, ABranchThatPassesThroughTheTrueOneIsNotTakenForIt) {
   };
   int settled = 0;
   for (std::uint64_t seed = 0; seed < 300; ++seed) {
-    Sky sky{2000 + seed};
+    NoisyAxes axes{2000 + seed};
     Dispersion dispersion{100};
     const int beginning = -10 - static_cast<int>(seed % 50);
     for (int revolution = beginning; revolution < 40; ++revolution) {
-      const std::array candidates{sky.seen(kTrue_icrf),
-                                  sky.seen(passing(0.2 * kRadPerDeg * revolution))};
+      const std::array candidates{axes.seen(kTrue_icrf),
+                                  axes.seen(passing(0.2 * kRadPerDeg * revolution))};
       if (const auto found = dispersion.add(candidates)) {
         ++settled;
         ASSERT_LT(angle_between_rad(found->axis.axis_icrf, kTrue_icrf), 0.5 * kRadPerDeg) << seed;
@@ -176,14 +177,14 @@ TEST(Dispersion, ABranchThatPassesThroughTheTrueOneIsNotTakenForIt) {
 TEST(Dispersion, AnErrorOfTheModelIsNoDrift) {
   // Both branches move as a constant mounting error of 0.15 deg moves them while its leverage
   // grows.
-  Sky sky{68};
+  NoisyAxes axes{68};
   Dispersion dispersion{100};
   for (int revolution = 0; revolution < 1000; ++revolution) {
     const double leverage = 3.0 + 3e-3 * revolution;
     const auto moved = [&](const Eigen::Vector3d& axis, double share) {
       const Eigen::Matrix<double, 3, 2> basis = tangent_basis(axis);
       AxisCandidate candidate =
-          sky.seen((axis + basis.col(0) * (0.15 * kRadPerDeg * leverage * share)).normalized());
+          axes.seen((axis + basis.col(0) * (0.15 * kRadPerDeg * leverage * share)).normalized());
       candidate.model_shift_icrf.col(0) = basis.col(0) * leverage * share;
       return candidate;
     };
