@@ -210,7 +210,7 @@ TEST_F(GeomagTables, StudyShowsThatTheTableIsALittleOfTheError) {
 TEST_F(GeomagTables, RefuseWhatCannotBe) {
   refused(table("uniform", "3"), {"must be 4 to 100000"});
   refused(table("uniform", "100001"), {"must be 4 to 100000"});
-  refused(table("chebyshev", "151"), {"must be 4 to 150"});
+  refused(table("chebyshev", "100001"), {"must be 4 to 100000"});
   refused(table("cubic", "80"), {"--kind cubic: must be uniform, curvature or chebyshev"});
   Words over = table("uniform", "80");
   over.back() = path("uniform.bin");

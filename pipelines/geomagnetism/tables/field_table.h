@@ -5,8 +5,8 @@
 ///                periodic, since the Earth has turned (Liu 2019, par. 1.3)
 ///     curvature  the field at knots that are closer where it bends (curvature_knots.h), and the
 ///                knots, which the paper does not count
-///     chebyshev  coefficients c_k of sum c_k T_k(x), x = (anomaly - first)/pi - 1, by least
-///     squares
+///     chebyshev  coefficients c_k of sum c_k T_k(x), x = (anomaly - first)/pi - 1
+///                (chebyshev_fit.h)
 ///
 /// Numbers are stored as float32; lookup computes in double.
 
@@ -30,8 +30,6 @@ std::string_view name_of(TableKind kind);
 
 inline constexpr int kFewestTablePoints = 4;
 inline constexpr int kMostTablePoints = 100'000;
-/// Number of coefficients beyond which equal steps of anomaly do not determine them.
-inline constexpr int kMostCoefficients = 150;
 
 struct FieldTable {
   TableKind kind = TableKind::Uniform;

@@ -124,6 +124,27 @@ TEST_P(OfARevolution, TablesHold) {
   EXPECT_LT(errors(TableKind::Chebyshev, 79).mean_nt.maxCoeff(), 0.01);
 }
 
+TEST_P(OfARevolution, ChebyshevHoldsWithAnyNumberOfCoefficients) {
+  for (const int coefficients : {150, 151, 5'000, 20'000}) {
+    const FieldTable table = table_of(field_, TableKind::Chebyshev, coefficients);
+    EXPECT_EQ(std::ssize(table.rows), coefficients);
+    for (Eigen::Index i = 0; i < truth_nt_.cols(); i += 97) {
+      const double behind_rad = kTurn_rad * static_cast<double>(i) / (kRevolutionSamples - 1);
+      EXPECT_LT((lookup(table, behind_rad) - truth_nt_.col(i)).norm(), 0.01) << coefficients;
+    }
+  }
+}
+
+TEST(FieldTable, OfManyChebyshevCoefficientsHoldsAKink) {
+  const FieldAlong kink = [](double rad) -> Expected<Vector3d> {
+    return Vector3d{1000.0 * std::abs(rad - 2.0), 0.0, 0.0};
+  };
+  const FieldTable table = table_of(kink, TableKind::Chebyshev, 100'000);
+  for (const double rad : {0.0, 1.0, 1.999, 2.0, 2.5, kTurn_rad}) {
+    EXPECT_LT((lookup(table, rad) - *kink(rad)).norm(), 0.1) << rad;
+  }
+}
+
 TEST(FieldTables, ChebyshevOf368BytesBeatsTablesOf968OnLowOrbits) {
   const MainField main_field = igrf().value().at(2026.2).value();
   for (int node = 0; node < 12; ++node) {
@@ -167,8 +188,8 @@ TEST(FieldTable, HasFewestAndMostPoints) {
     EXPECT_THAT(make_table(none, TableKind::Uniform, 0.0, points),
                 IsRefused(ErrorCode::InvalidInput, HasSubstr("must be 4 to 100000")));
   }
-  EXPECT_THAT(make_table(none, TableKind::Chebyshev, 0.0, 151),
-              IsRefused(ErrorCode::InvalidInput, HasSubstr("must be 4 to 150")));
+  EXPECT_THAT(make_table(none, TableKind::Chebyshev, 0.0, 100'001),
+              IsRefused(ErrorCode::InvalidInput, HasSubstr("must be 4 to 100000")));
   EXPECT_EQ(table_of(none, TableKind::Uniform, 4).rows.size(), 4U);
 }
 
