@@ -112,6 +112,12 @@ std::string_view name_of(TableKind kind) {
   return kNames.at(static_cast<std::size_t>(kind));
 }
 
+std::optional<TableKind> table_kind(std::string_view name) {
+  const auto* const kind = std::find_if(kTableKinds.begin(), kTableKinds.end(),
+                                        [&](TableKind is) { return name_of(is) == name; });
+  return kind == kTableKinds.end() ? std::nullopt : std::optional{*kind};
+}
+
 Expected<FieldTable> make_table(const FieldAlong& field, TableKind kind, double first_anomaly_rad,
                                 int points) {
   if (points < kFewestTablePoints || points > kMostTablePoints) {

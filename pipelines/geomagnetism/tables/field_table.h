@@ -16,6 +16,7 @@
 #include <array>
 #include <cstddef>
 #include <functional>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -27,6 +28,8 @@ enum class TableKind { Uniform, Curvature, Chebyshev };
 inline constexpr std::array kTableKinds{TableKind::Uniform, TableKind::Curvature,
                                         TableKind::Chebyshev};
 std::string_view name_of(TableKind kind);
+/// Returns empty for another name.
+std::optional<TableKind> table_kind(std::string_view name);
 
 inline constexpr int kFewestTablePoints = 4;
 inline constexpr int kMostTablePoints = 100'000;
