@@ -99,12 +99,12 @@ Expected<FieldTable> table_in(const GeomagLookupOptions& options) {
   if (!kind) {
     return Unexpected{kind.error()};
   }
-  return read_text_file(options.table)
-      .and_then([&](const std::string& bytes) { return table_of(bytes, *kind); })
-      .map_error([&](const Error& error) {
-        return Error{ErrorCode::InvalidConfiguration,
-                     fmt::format("{}: {}", shown(options.table.string()), error.message)};
-      });
+  return read_text_file(options.table).and_then([&](const std::string& bytes) {
+    return table_of(bytes, *kind).map_error([&](const Error& error) {
+      return Error{ErrorCode::InvalidConfiguration,
+                   fmt::format("{}: {}", shown(options.table.string()), error.message)};
+    });
+  });
 }
 
 }  // namespace
