@@ -44,6 +44,15 @@ double mean_anomaly_of_rad(double true_rad, double eccentricity) {
   return eccentric_rad - eccentricity * std::sin(eccentric_rad);
 }
 
+/// Returns the inverse of `mean_anomaly_of_rad`.
+double true_anomaly_of_rad(double mean_rad, double eccentricity) {
+  const double beta = eccentricity / (1.0 + std::sqrt((1.0 - eccentricity) * (1.0 + eccentricity)));
+  const double eccentric_rad = eccentric_anomaly_rad(mean_rad, eccentricity);
+  const double turns_rad = mean_rad - std::remainder(mean_rad, kTurn_rad);
+  return turns_rad + eccentric_rad +
+         2.0 * std::atan2(beta * std::sin(eccentric_rad), 1.0 - beta * std::cos(eccentric_rad));
+}
+
 }  // namespace
 
 Expected<KeplerOrbit> KeplerOrbit::make(const KeplerElements& elements) {
@@ -120,10 +129,8 @@ Expected<KeplerOrbit> KeplerOrbit::through(TaiTime t, const OrbitState& state) {
 }
 
 double KeplerOrbit::true_anomaly_at_epoch_rad() const {
-  const double eccentric_rad = eccentric_anomaly_rad(mean_anomaly_rad_, eccentricity_);
   const double true_rad =
-      std::atan2(std::sqrt((1.0 - eccentricity_) * (1.0 + eccentricity_)) * std::sin(eccentric_rad),
-                 std::cos(eccentric_rad) - eccentricity_);
+      std::fmod(true_anomaly_of_rad(mean_anomaly_rad_, eccentricity_), kTurn_rad);
   return true_rad < 0.0 ? true_rad + kTurn_rad : true_rad;
 }
 
@@ -137,6 +144,12 @@ TaiTime KeplerOrbit::when_behind_epoch(double true_anomaly_rad) const {
   const double mean_rad = mean_anomaly_of_rad(first_rad + true_anomaly_rad, eccentricity_) -
                           mean_anomaly_of_rad(first_rad, eccentricity_);
   return shifted(epoch_, mean_rad / mean_motion_rad_s_);
+}
+
+double KeplerOrbit::true_anomaly_behind_epoch_rad(TaiTime t) const {
+  const double mean_rad = mean_anomaly_rad_ + mean_motion_rad_s_ * seconds_between(epoch_, t);
+  return true_anomaly_of_rad(mean_rad, eccentricity_) -
+         true_anomaly_of_rad(mean_anomaly_rad_, eccentricity_);
 }
 
 Expected<OrbitState> KeplerOrbit::at(TaiTime t) const {

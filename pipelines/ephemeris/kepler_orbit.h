@@ -41,6 +41,8 @@ class KeplerOrbit {
 
   /// Returns the true anomaly at the epoch of the elements, [0, 2 pi).
   double true_anomaly_at_epoch_rad() const;
+  /// Returns by how much the true anomaly has grown since the epoch of the elements.
+  double true_anomaly_behind_epoch_rad(TaiTime t) const;
   /// Returns when the true anomaly has grown by so much since the epoch of the elements.
   TaiTime when_behind_epoch(double true_anomaly_rad) const;
 

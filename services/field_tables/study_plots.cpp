@@ -65,7 +65,9 @@ std::vector<Series> by_points(const FieldStudy& study,
                               const std::function<double(const StudiedTable&)>& value) {
   std::vector<Series> series;
   for (const TableKind kind : kTableKinds) {
-    Series one{.points = {}, .colour = kOfKind.at(static_cast<std::size_t>(kind))};
+    Series one{.points = {},
+               .colour = kOfKind.at(static_cast<std::size_t>(kind)),
+               .dashes = kind == TableKind::Curvature ? "10 6" : ""};
     for (const StudiedTable& table : study.tables) {
       if (table.kind == kind) {
         one.points.push_back({static_cast<double>(table.points), value(table)});

@@ -23,9 +23,16 @@ nlohmann::json by_axis(const Vector3d& values, const std::array<const char*, 3>&
   return json;
 }
 
+std::array<double, 3> elements_of(const Vector3d& vector) {
+  return {vector.x(), vector.y(), vector.z()};
+}
+
+std::string errors_text(const Vector3d& errors_nt) {
+  return fmt::format("{:>9.4f}", fmt::join(elements_of(errors_nt), " "));
+}
+
 std::string degrees_text(const Vector3d& angles_rad) {
-  const Vector3d deg = kDegPerRad * angles_rad;
-  return fmt::format("{:.3f}, {:.3f}, {:.3f} deg", deg.x(), deg.y(), deg.z());
+  return fmt::format("{:.3f} deg", fmt::join(elements_of(kDegPerRad * angles_rad), ", "));
 }
 
 double best_weight(const FieldStudy& study) {
@@ -39,16 +46,14 @@ double best_weight(const FieldStudy& study) {
 
 std::string to_text(const FieldStudy& study) {
   std::string text =
-      "kind       points  bytes   mean error x, y, z, nT            largest, nT   ARMSE of the "
-      "attitude phi, theta, psi, deg\n";
+      "kind       points  bytes     mean error x, y, z, nT       largest error x, y, z, nT     "
+      "ARMSE "
+      "of the attitude phi, theta, psi, deg\n";
   for (const StudiedTable& is : study.tables) {
-    const Vector3d& mean = is.errors.mean_nt;
-    const Vector3d armse_deg = kDegPerRad * is.armse_rad;
-    fmt::format_to(std::back_inserter(text),
-                   "{:<10} {:>6} {:>6}   {:>9.4f} {:>9.4f} {:>9.4f} {:>13.4f}      {:.5f} {:.5f} "
-                   "{:.5f}\n",
-                   name_of(is.kind), is.points, is.bytes, mean.x(), mean.y(), mean.z(),
-                   is.errors.most_nt.maxCoeff(), armse_deg.x(), armse_deg.y(), armse_deg.z());
+    fmt::format_to(std::back_inserter(text), "{:<10} {:>6} {:>6}  {}  {}   {:.5f}\n",
+                   name_of(is.kind), is.points, is.bytes, errors_text(is.errors.mean_nt),
+                   errors_text(is.errors.most_nt),
+                   fmt::join(elements_of(kDegPerRad * is.armse_rad), " "));
   }
   const MostOff& most = study.most;
   fmt::format_to(

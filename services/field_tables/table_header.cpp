@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <boost/algorithm/string/case_conv.hpp>
+#include <boost/algorithm/string/replace.hpp>
 #include <iterator>
 
 #include "pipelines/ephemeris/earth_orientation.h"
@@ -79,28 +81,49 @@ std::string constants_text(const FieldTable& table, const KeplerOrbit& orbit) {
       orbit.mean_anomaly_at_epoch_rad(), orbit.mean_motion_rad_s());
 }
 
+bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
+
+/// Returns a name that names in C may begin with.
+std::string c_name(std::string_view name) {
+  std::string plain{name};
+  std::replace_if(
+      plain.begin(), plain.end(), [](char c) { return !is_letter(c) && !(c >= '0' && c <= '9'); },
+      '_');
+  return !plain.empty() && is_letter(plain.front()) ? plain : "field_" + plain;
+}
+
+/// Names all in the header by its own name.
+std::string named(std::string code, std::string_view name) {
+  const std::string prefix = c_name(name);
+  boost::replace_all(code, "field_table", prefix);
+  boost::replace_all(code, "FIELD_TABLE", boost::to_upper_copy(prefix));
+  return code;
+}
+
 }  // namespace
 
 Expected<std::string> header_of(const FieldTable& table, const KeplerOrbit& orbit,
-                                std::string_view made_of, double later_nt) {
+                                const HeaderTexts& texts, double later_nt) {
   const TaiTime epoch = orbit.epoch();
-  return orbit.at(epoch).and_then([&](const OrbitState& spacecraft) {
-    return orbit_frame(spacecraft).map([&](const Eigen::Quaterniond& q_icrf_orbit) {
-      const Eigen::Quaterniond q_itrf_orbit = earth_orientation(epoch).conjugate() * q_icrf_orbit;
-      return fmt::format(
-          "/* {}.\n   Seconds count from the epoch, {} ns of TAI since 1970. The table is of the "
-          "revolution from there on: one\n   revolution later, when the Earth has turned, the "
-          "field "
-          "at the same anomaly is {:.0f} nT off on average.\n   Made by spindrift geomag table. "
-          "*/\n"
-          "#ifndef FIELD_TABLE_H\n#define FIELD_TABLE_H\n\n#include <math.h>\n\n{}\n"
-          "/* Directions to the first position, and ahead of it in the plane of the orbit, in the "
-          "axes of the Earth at the epoch. */\n{}{}\n{}{}{}\n#endif\n",
-          in_comment(made_of), tai_ns(epoch), later_nt, constants_text(table, orbit),
-          vector_text("first", q_itrf_orbit * -Eigen::Vector3d::UnitZ()),
-          vector_text("ahead", q_itrf_orbit * Eigen::Vector3d::UnitX()), rows_text(table),
-          embedded::on_board_anomaly, lookup_of(table.kind));
-    });
+  return orbit.at(epoch).and_then(orbit_frame).map([&](const Eigen::Quaterniond& q_icrf_orbit) {
+    const Eigen::Quaterniond q_itrf_orbit = earth_orientation(epoch).conjugate() * q_icrf_orbit;
+    return named(
+        fmt::format("/* {}.\n"
+                    "   Seconds count from the epoch, {} ns of TAI since 1970. The table is of the "
+                    "revolution from there on: one\n"
+                    "   revolution later, when the Earth has turned, the field at the same anomaly "
+                    "is {:.0f} nT off on average.\n"
+                    "   Made by spindrift geomag table. */\n"
+                    "#ifndef FIELD_TABLE_H\n#define FIELD_TABLE_H\n\n#include <math.h>\n\n{}\n"
+                    "/* Directions to the first position, and ahead of it in the plane of the "
+                    "orbit, in the axes of the Earth at the epoch. */\n"
+                    "{}{}\n{}{}{}\n#endif\n",
+                    in_comment(texts.made_of), tai_ns(epoch), later_nt,
+                    constants_text(table, orbit),
+                    vector_text("first", q_itrf_orbit * -Eigen::Vector3d::UnitZ()),
+                    vector_text("ahead", q_itrf_orbit * Eigen::Vector3d::UnitX()), rows_text(table),
+                    embedded::on_board_anomaly, lookup_of(table.kind)),
+        texts.name);
   });
 }
 

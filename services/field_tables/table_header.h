@@ -5,17 +5,22 @@
 #pragma once
 
 #include <string>
-#include <string_view>
 
 #include "pipelines/ephemeris/kepler_orbit.h"
 #include "pipelines/geomagnetism/tables/field_table.h"
 
 namespace spindrift {
 
-/// @param made_of What the table is of, for a reader: spacecraft, model, date. One line of text.
+struct HeaderTexts {
+  std::string made_of;  ///< What the table is of, for a reader: spacecraft, model, date; one line.
+  /// Name of the header's file without its ending: all names in it begin with it, so that a program
+  /// may hold several tables. What is no letter, digit or underscore becomes an underscore.
+  std::string name;
+};
+
 /// @param later_nt How far the field at the same anomaly is off a revolution later, on average.
 /// @return Unobservable for an orbit without a plane.
 Expected<std::string> header_of(const FieldTable& table, const KeplerOrbit& orbit,
-                                std::string_view made_of, double later_nt);
+                                const HeaderTexts& texts, double later_nt);
 
 }  // namespace spindrift

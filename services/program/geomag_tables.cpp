@@ -75,13 +75,11 @@ Expected<void> are_apart(std::vector<std::filesystem::path> paths) {
 }
 
 Expected<TableKind> kind_of(std::string_view name) {
-  const auto* const kind = std::find_if(kTableKinds.begin(), kTableKinds.end(),
-                                        [&](TableKind is) { return name_of(is) == name; });
-  if (kind == kTableKinds.end()) {
-    return refused(fmt::format("--kind {}: must be uniform, curvature or chebyshev",
-                               shown(std::string{name})));
+  if (const auto kind = table_kind(name)) {
+    return *kind;
   }
-  return *kind;
+  return refused(
+      fmt::format("--kind {}: must be uniform, curvature or chebyshev", shown(std::string{name})));
 }
 
 /// @return InvalidConfiguration naming the value and what is allowed.
@@ -101,12 +99,12 @@ Expected<FieldTable> table_in(const GeomagLookupOptions& options) {
   if (!kind) {
     return Unexpected{kind.error()};
   }
-  return read_text_file(options.table)
-      .and_then([&](const std::string& bytes) { return table_of(bytes, *kind); })
-      .map_error([&](const Error& error) {
-        return Error{ErrorCode::InvalidConfiguration,
-                     fmt::format("{}: {}", shown(options.table.string()), error.message)};
-      });
+  return read_text_file(options.table).and_then([&](const std::string& bytes) {
+    return table_of(bytes, *kind).map_error([&](const Error& error) {
+      return Error{ErrorCode::InvalidConfiguration,
+                   fmt::format("{}: {}", shown(options.table.string()), error.message)};
+    });
+  });
 }
 
 }  // namespace
@@ -136,11 +134,13 @@ Expected<void> geomag_table(const GeomagTableOptions& options) {
   auto written = write_file(options.out, bytes_of(*table));
   if (written && !options.header.empty()) {
     written =
-        header_of(*table, of->orbit,
-                  fmt::format("{}: field along one revolution, {} of {} to degree {}, kind {}",
-                              of->spacecraft_id, kFieldModelName, options.year, options.degree,
-                              name_of(*kind)),
-                  *later_nt)
+        header_of(
+            *table, of->orbit,
+            {.made_of = fmt::format(
+                 "{}: field along one revolution, {} of {} to degree {}, kind {}",
+                 of->spacecraft_id, kFieldModelName, options.year, options.degree, name_of(*kind)),
+             .name = options.header.stem().string()},
+            *later_nt)
             .and_then([&](const std::string& text) { return write_file(options.header, text); });
   }
   return written.map([&] {

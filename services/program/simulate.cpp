@@ -64,6 +64,9 @@ void report(const Scenario& scenario, const SimulatedPass& pass, Output output, 
     output.json.update(counts_json(pass.made));
     output.json.update(
         {{"spacecraft", scenario.spacecraft_id}, {"faults", counts_json(pass.faults)}});
+    if (pass.on_board) {
+      output.json["on_board"] = pass.truth["on_board"];
+    }
     fmt::print("{}", json_line(with_warnings(output.json)));
     return;
   }
@@ -77,6 +80,9 @@ void report(const Scenario& scenario, const SimulatedPass& pass, Output output, 
   }
   if (!pass.control.empty()) {
     fmt::print("{}", control_text(pass.truth));
+  }
+  if (pass.on_board) {
+    fmt::print("{}", on_board_text(*scenario.carried_table, pass.truth["on_board"]));
   }
   fmt::print("{}", output.text);
 }

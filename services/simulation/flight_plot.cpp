@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <string_view>
 #include <utility>
 #include <variant>
@@ -118,6 +119,28 @@ void add_wheels(TimePage& page, const std::vector<ControlRecord>& record,
   }
 }
 
+/// Shows no error where none was computed within ten seconds, as in the shadow of the Earth.
+void add_on_board(TimePage& page, const std::vector<OnBoardError>& errors,
+                  const std::vector<double>& times) {
+  constexpr double kGap_s = 10.0;
+  const auto curve = [&](std::string name, std::string_view colour,
+                         double OnBoardError::*error_rad) {
+    return curve_of(std::move(name), colour, times, [&](double t_s) -> std::optional<double> {
+      const auto next = std::lower_bound(
+          errors.begin(), errors.end(), t_s,
+          [](const OnBoardError& each, double instant_s) { return each.t_s < instant_s; });
+      if (next == errors.end() || next->t_s > t_s + kGap_s) {
+        return std::nullopt;
+      }
+      return kDegPerRad * (*next).*error_rad;
+    });
+  };
+  add_panel(page, "Error of the attitude computed on board, deg",
+            {curve("whole", plot::kBlue, &OnBoardError::with_table_rad),
+             curve("the table's share", plot::kInk, &OnBoardError::by_table_rad)},
+            0.1);
+}
+
 std::vector<plot::Mark> marks_of(const Scenario& scenario, const SimulatedPass& pass) {
   std::vector<plot::Mark> marks;
   const auto add = [&](double t_s, const char* name) {
@@ -157,6 +180,9 @@ std::string flight_plot(const Scenario& scenario, const SimulatedPass& pass) {
   add_rates(page, *pass.motion, seconds);
   if (!pass.control.empty()) {
     add_wheels(page, pass.control, seconds);
+  }
+  if (pass.on_board) {
+    add_on_board(page, pass.on_board->errors, seconds);
   }
   return page.document({});
 }

@@ -13,7 +13,8 @@
 namespace spindrift {
 
 /// Returns an SVG: attitude relative to the start, rates and, where wheels turn the body, their
-/// momenta and speeds with those commanded: figures 7 to 12 of Zhang 2019.
+/// momenta and speeds with those commanded: figures 7 to 12 of Zhang 2019; where the body carries a
+/// table of the field, the error of the attitude that it computes itself.
 /// @param pass Pass of a three-axis spacecraft.
 std::string flight_plot(const Scenario& scenario, const SimulatedPass& pass);
 

@@ -127,6 +127,32 @@ void check_flight(TomlDocument& document) {
   }
 }
 
+/// Adds a problem for what a table on board needs and the spacecraft has not.
+void check_carried_table(TomlDocument& document) {
+  if (!document.values.contains("field_table.kind")) {
+    return;
+  }
+  for (const char* const needed :
+       {"orbit.elements", "three_axis.sun_sensor", "three_axis.magnetometer"}) {
+    if (!document.table.at_path(needed)) {
+      add_problem(document, "field_table",
+                  fmt::format("[field_table]: needs [{}]: the table is of one revolution of the "
+                              "elements, and its attitude of Sun and field",
+                              needed));
+    }
+  }
+}
+
+std::optional<CarriedTable> carried_table(const TomlValues& values) {
+  const auto name = value_if<std::string>(values, "field_table.kind");
+  if (!name) {
+    return std::nullopt;
+  }
+  return CarriedTable{
+      .kind = *table_kind(*name),
+      .points = static_cast<int>(value_of<std::int64_t>(values, "field_table.points"))};
+}
+
 decltype(Scenario::flight) flight_of(const TomlDocument& document, TaiTime start) {
   switch (kind_of(document.table)) {
     case ScenarioKind::Separation:
@@ -220,6 +246,7 @@ Expected<Scenario> scenario_of(TomlDocument document, std::optional<TaiTime> oth
     check_coverage(document, *orbit->orbit, start);
   }
   check_flight(document);
+  check_carried_table(document);
   check_dispersions(document);
   if (auto sound = soundness(document); !sound) {
     return Unexpected{std::move(sound.error())};
@@ -230,7 +257,8 @@ Expected<Scenario> scenario_of(TomlDocument document, std::optional<TaiTime> oth
                   .start = *start,
                   .duration_s = number(document.values, "pass.duration_s"),
                   .flight = flight_of(document, *start),
-                  .mission_toml = mission_text(document.table)};
+                  .mission_toml = mission_text(document.table),
+                  .carried_table = carried_table(document.values)};
 }
 
 Expected<Scenario> load_scenario(const std::filesystem::path& path,

@@ -10,12 +10,19 @@
 
 #include "pipelines/core/expected.h"
 #include "pipelines/ephemeris/orbit.h"
+#include "pipelines/geomagnetism/tables/field_table.h"
 #include "pipelines/ground_model/flights/three_axis_flights.h"
 #include "pipelines/time/tai_time.h"
 #include "services/mission/document.h"
 #include "services/simulation/spin_scenario.h"
 
 namespace spindrift {
+
+/// Table of the field on board (field_table.h), of the first revolution of the orbit's elements.
+struct CarriedTable {
+  TableKind kind;
+  int points;
+};
 
 struct Scenario {
   std::string spacecraft_id;
@@ -27,6 +34,7 @@ struct Scenario {
   std::variant<SpinScenario, SeparationScenario, TumblingScenario, OrientationScenario> flight;
   /// Text of its mission file, without the reports of a separation; its orbit is orbit.oem.
   std::string mission_toml;
+  std::optional<CarriedTable> carried_table;  ///< What a three-axis spacecraft carries.
 };
 
 /// Reads a scenario file and lists violations of its schema (scenario_schema.h) in `problems`.

@@ -7,6 +7,20 @@
 #include "services/simulation/three_axis_pass.h"
 
 namespace spindrift {
+namespace {
+
+Expected<SimulatedPass> with_on_board(const Scenario& scenario, SimulatedPass&& pass) {
+  if (!scenario.carried_table) {
+    return std::move(pass);
+  }
+  return on_board_pass(scenario, pass.telemetry, *pass.motion).map([&](OnBoardPass&& on_board) {
+    pass.truth["on_board"] = to_json(on_board);
+    pass.on_board = std::move(on_board);
+    return std::move(pass);
+  });
+}
+
+}  // namespace
 
 Expected<SimulatedPass> simulated_pass(const Scenario& scenario, Progress progress) {
   const auto played = [&]<class Flight>(const Flight& flight) {
@@ -16,9 +30,11 @@ Expected<SimulatedPass> simulated_pass(const Scenario& scenario, Progress progre
       return played_pass(scenario, flight);
     }
   };
-  return std::visit(played, scenario.flight).map_error([](Error&& error) {
-    return Error{ErrorCode::InvalidConfiguration, std::move(error.message)};
-  });
+  return std::visit(played, scenario.flight)
+      .and_then([&](SimulatedPass&& pass) { return with_on_board(scenario, std::move(pass)); })
+      .map_error([](Error&& error) {
+        return Error{ErrorCode::InvalidConfiguration, std::move(error.message)};
+      });
 }
 
 }  // namespace spindrift

@@ -13,6 +13,7 @@
 #include "pipelines/core/expected.h"
 #include "pipelines/ground_model/dynamics/body_motion.h"
 #include "pipelines/ground_model/flights/orientation_motion.h"
+#include "services/simulation/on_board_pass.h"
 #include "services/simulation/scenario.h"
 #include "services/telemetry/by_kind.h"
 
@@ -33,8 +34,9 @@ struct SimulatedPass {
   nlohmann::ordered_json truth;
   std::vector<Counted> made;
   std::vector<Counted> faults;
-  std::optional<BodyMotion> motion = {};    ///< Motion of a three-axis spacecraft.
-  std::vector<ControlRecord> control = {};  ///< Records of its wheels, where they turn it.
+  std::optional<BodyMotion> motion = {};     ///< Motion of a three-axis spacecraft.
+  std::vector<ControlRecord> control = {};   ///< Records of its wheels, where they turn it.
+  std::optional<OnBoardPass> on_board = {};  ///< What it computes itself, if it carries a table.
 };
 
 /// @return InvalidConfiguration where the scenario's orbit does not allow it.

@@ -63,8 +63,7 @@ void BM_MainFieldOfAnotherDateEach(benchmark::State& state) {
 }
 BENCHMARK(BM_MainFieldOfAnotherDateEach);
 
-/// A table of the field of 80 points along the orbit of a femtosatellite, its knots chosen if need
-/// be.
+/// A table of the field along the orbit of a femtosatellite, its knots chosen if need be.
 void BM_FieldTable(benchmark::State& state) {
   const auto kind = static_cast<TableKind>(state.range(0));
   const KeplerOrbit orbit = KeplerOrbit::make({.epoch = instant_of_year(kYear),
@@ -79,10 +78,14 @@ void BM_FieldTable(benchmark::State& state) {
   for ([[maybe_unused]] const auto iteration : state) {
     RevolutionField revolution{orbit, field};
     benchmark::DoNotOptimize(
-        make_table([&](double behind_rad) { return revolution.at(behind_rad); }, kind, 0.0, 80));
+        make_table([&](double behind_rad) { return revolution.at(behind_rad); }, kind, 0.0,
+                   static_cast<int>(state.range(1))));
   }
 }
-BENCHMARK(BM_FieldTable)->DenseRange(0, 2)->Unit(benchmark::kMillisecond);
+BENCHMARK(BM_FieldTable)
+    ->ArgsProduct({{0, 1, 2}, {80, kMostTablePoints}})
+    ->ArgNames({"kind", "points"})
+    ->Unit(benchmark::kMillisecond);
 
 }  // namespace
 }  // namespace spindrift

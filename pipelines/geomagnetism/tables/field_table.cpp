@@ -2,13 +2,13 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <iterator>
 #include <numbers>
 
 #include "pipelines/frames/angle.h"
+#include "pipelines/geomagnetism/tables/chebyshev_fit.h"
 #include "pipelines/geomagnetism/tables/curvature_knots.h"
 
 namespace spindrift {
@@ -20,31 +20,9 @@ double anomaly_of(Eigen::Index sample, Eigen::Index samples) {
   return kTurn_rad * static_cast<double>(sample) / static_cast<double>(samples - 1);
 }
 
-/// Fits the coefficients of Chebyshev polynomials, a row each.
-Eigen::MatrixX3d coefficients_of(const SampledField& field_nt, int count) {
-  Eigen::MatrixXd values{field_nt.cols(), count};
-  for (Eigen::Index i = 0; i < field_nt.cols(); ++i) {
-    const double x = anomaly_of(i, field_nt.cols()) / std::numbers::pi - 1.0;
-    values(i, 0) = 1.0;
-    values(i, 1) = x;
-    for (Eigen::Index k = 2; k < count; ++k) {
-      values(i, k) = 2.0 * x * values(i, k - 1) - values(i, k - 2);
-    }
-  }
-  return values.householderQr().solve(field_nt.transpose());
-}
-
 Expected<FieldTable> chebyshev_table(const FieldAlong& field, double first_anomaly_rad,
                                      int points) {
-  if (points > kMostCoefficients) {
-    return Unexpected{
-        {ErrorCode::InvalidInput,
-         fmt::format("{} Chebyshev coefficients: must be {} to {}; the error of 80 is "
-                     "below 0.01 nT already",
-                     points, kFewestTablePoints, kMostCoefficients)}};
-  }
-  return sampled(field).map([&](const SampledField& field_nt) {
-    const Eigen::MatrixX3d coefficients = coefficients_of(field_nt, points);
+  return chebyshev_coefficients(field, points).map([&](const Eigen::MatrixX3d& coefficients) {
     FieldTable table{.kind = TableKind::Chebyshev,
                      .first_anomaly_rad = static_cast<float>(first_anomaly_rad)};
     for (const auto& row : coefficients.rowwise()) {
@@ -132,6 +110,12 @@ std::string_view name_of(TableKind kind) {
   constexpr std::array<std::string_view, kTableKinds.size()> kNames{"uniform", "curvature",
                                                                     "chebyshev"};
   return kNames.at(static_cast<std::size_t>(kind));
+}
+
+std::optional<TableKind> table_kind(std::string_view name) {
+  const auto* const kind = std::find_if(kTableKinds.begin(), kTableKinds.end(),
+                                        [&](TableKind is) { return name_of(is) == name; });
+  return kind == kTableKinds.end() ? std::nullopt : std::optional{*kind};
 }
 
 Expected<FieldTable> make_table(const FieldAlong& field, TableKind kind, double first_anomaly_rad,

@@ -5,8 +5,8 @@
 ///                periodic, since the Earth has turned (Liu 2019, par. 1.3)
 ///     curvature  the field at knots that are closer where it bends (curvature_knots.h), and the
 ///                knots, which the paper does not count
-///     chebyshev  coefficients c_k of sum c_k T_k(x), x = (anomaly - first)/pi - 1, by least
-///     squares
+///     chebyshev  coefficients c_k of sum c_k T_k(x), x = (anomaly - first)/pi - 1
+///                (chebyshev_fit.h)
 ///
 /// Numbers are stored as float32; lookup computes in double.
 
@@ -16,6 +16,7 @@
 #include <array>
 #include <cstddef>
 #include <functional>
+#include <optional>
 #include <string_view>
 #include <vector>
 
@@ -27,11 +28,11 @@ enum class TableKind { Uniform, Curvature, Chebyshev };
 inline constexpr std::array kTableKinds{TableKind::Uniform, TableKind::Curvature,
                                         TableKind::Chebyshev};
 std::string_view name_of(TableKind kind);
+/// Returns empty for another name.
+std::optional<TableKind> table_kind(std::string_view name);
 
 inline constexpr int kFewestTablePoints = 4;
 inline constexpr int kMostTablePoints = 100'000;
-/// Number of coefficients beyond which equal steps of anomaly do not determine them.
-inline constexpr int kMostCoefficients = 150;
 
 struct FieldTable {
   TableKind kind = TableKind::Uniform;

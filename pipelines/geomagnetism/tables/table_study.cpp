@@ -9,7 +9,7 @@
 #include "pipelines/frames/angle.h"
 #include "pipelines/frames/euler312.h"
 #include "pipelines/geomagnetism/tables/curvature_knots.h"
-#include "pipelines/three_axis/attitude_from_vectors.h"
+#include "pipelines/geomagnetism/tables/on_board_attitude.h"
 
 namespace spindrift {
 namespace {
@@ -18,8 +18,6 @@ using Eigen::Vector3d;
 
 constexpr int kRuns = 50;
 constexpr int kPlaces = 589;  // Ten seconds apart in a low orbit.
-constexpr double kFieldNoise_nt = 10.0;
-constexpr double kSunNoise = 0.01;
 constexpr std::uint64_t kSeed = 2;
 
 Vector3d angles_of(const Eigen::Quaterniond& q) {
@@ -51,22 +49,6 @@ Expected<std::vector<StudyPlace>> places_of(const KeplerOrbit& orbit, const Fiel
   return places;
 }
 
-/// Sun and field as the body measures them.
-struct Measured {
-  Vector3d sun_body;
-  Vector3d field_body_nt;
-};
-
-/// Returns the attitude by TRIAD. The Sun comes first, as in the paper.
-Expected<Eigen::Quaterniond> attitude_of(const StudyPlace& place, const Measured& measured,
-                                         const Vector3d& field_ref_nt) {
-  return triad({.body = measured.sun_body, .ref = place.sun_orbit, .sigma_rad = kSunNoise},
-               {.body = measured.field_body_nt,
-                .ref = field_ref_nt,
-                .sigma_rad = kFieldNoise_nt / field_ref_nt.norm()})
-      .map([](const UncertainAttitude& attitude) { return attitude.q_ref_body; });
-}
-
 /// Adds up the squares of what tables move the attitude by, and notes the first run.
 class AttitudeStudy {
  public:
@@ -93,19 +75,22 @@ class AttitudeStudy {
   int in_line() const { return in_line_; }
 
  private:
-  Measured measure(const StudyPlace& place) {
+  SunAndField measure(const StudyPlace& place) {
     const auto noise = [this] { return Vector3d{normal_(rng_), normal_(rng_), normal_(rng_)}; };
-    return {.sun_body = place.sun_orbit + kSunNoise * noise(),
-            .field_body_nt = place.field_orbit_nt + kFieldNoise_nt * noise()};
+    return {.sun = place.sun_orbit + kStudySunNoise * noise(),
+            .field_nt = place.field_orbit_nt + kStudyFieldNoise_nt * noise()};
   }
 
   /// @return False where Sun and field are in line.
   bool add_run(const StudyPlace& place, int run, std::vector<Vector3d>& squares) {
-    const Measured measured = measure(place);
-    const auto with_field = attitude_of(place, measured, place.field_orbit_nt);
-    const auto with_table = [&](const FieldTable& table) {
-      return attitude_of(place, measured, lookup(table, place.behind_first_rad));
+    const SunAndField measured = measure(place);
+    const auto with = [&](const Vector3d& field_orbit_nt) {
+      return two_vector_attitude(measured, {.sun = place.sun_orbit, .field_nt = field_orbit_nt});
     };
+    const auto with_table = [&](const FieldTable& table) {
+      return with(lookup(table, place.behind_first_rad));
+    };
+    const auto with_field = with(place.field_orbit_nt);
     const auto with_chosen = with_table(chosen_);
     if (!with_field || !with_chosen) {
       return false;
@@ -156,55 +141,67 @@ std::vector<StudiedWeight> weights_of(const SampledField& field_nt) {
   return weights;
 }
 
+/// Makes a table of each kind and size.
+Expected<std::vector<FieldTable>> tables_of(const FieldAlong& field, double first_anomaly_rad) {
+  std::vector<FieldTable> tables;
+  for (const TableKind kind : kTableKinds) {
+    for (const int points : kStudiedPoints) {
+      auto table = make_table(field, kind, first_anomaly_rad, points);
+      if (!table) {
+        return Unexpected{table.error()};
+      }
+      tables.push_back(std::move(*table));
+    }
+  }
+  return tables;
+}
+
+/// Returns the table of a kind that has the paper's number of points.
+const FieldTable& chosen_of(const std::vector<FieldTable>& tables, TableKind kind) {
+  return *std::find_if(tables.begin(), tables.end(), [&](const FieldTable& is) {
+    return is.kind == kind && is.rows.size() == kChosenPoints;
+  });
+}
+
+FieldStudy study_of(const SampledField& field_nt, std::vector<StudyPlace> places,
+                    const std::vector<FieldTable>& tables) {
+  const FieldTable& chosen = chosen_of(tables, TableKind::Curvature);
+  AttitudeStudy attitudes{tables, chosen};
+  for (const StudyPlace& place : places) {
+    attitudes.add(place);
+  }
+  FieldStudy study{
+      .places = std::move(places),
+      .tables = {},
+      .weights = weights_of(field_nt),
+      .uniform_error_nt = errors_of(chosen_of(tables, TableKind::Uniform), field_nt).mean_nt.sum(),
+      .knots_rad = {chosen.knots_rad.begin(), chosen.knots_rad.end()},
+      .attitudes = attitudes.attitudes(),
+      .most = attitudes.most(),
+      .places_in_line = attitudes.in_line()};
+  for (std::size_t i = 0; i < tables.size(); ++i) {
+    study.tables.push_back({.kind = tables[i].kind,
+                            .points = static_cast<int>(tables[i].rows.size()),
+                            .bytes = tables[i].bytes(),
+                            .errors = errors_of(tables[i], field_nt),
+                            .armse_rad = attitudes.armse_rad(i)});
+  }
+  return study;
+}
+
 }  // namespace
 
 Expected<FieldStudy> study_tables(const KeplerOrbit& orbit, const MainField& field) {
   RevolutionField revolution{orbit, field};
   const FieldAlong along = [&](double behind_rad) { return revolution.at(behind_rad); };
-  const auto truth_nt = sampled(along);
-  auto places = places_of(orbit, along);
-  if (!truth_nt || !places) {
-    return Unexpected{truth_nt ? places.error() : truth_nt.error()};
-  }
-  std::vector<FieldTable> tables;
-  FieldStudy study;
-  for (const TableKind kind : kTableKinds) {
-    for (const int points : kStudiedPoints) {
-      auto table = make_table(along, kind, orbit.true_anomaly_at_epoch_rad(), points);
-      if (!table) {
-        return Unexpected{table.error()};
-      }
-      study.tables.push_back({.kind = kind,
-                              .points = points,
-                              .bytes = table->bytes(),
-                              .errors = errors_of(*table, *truth_nt),
-                              .armse_rad = Vector3d::Zero()});
-      tables.push_back(std::move(*table));
-    }
-  }
-  const auto is_chosen = [](TableKind kind) {
-    return [kind](const StudiedTable& is) { return is.kind == kind && is.points == kChosenPoints; };
-  };
-  const auto chosen = static_cast<std::size_t>(
-      std::find_if(study.tables.begin(), study.tables.end(), is_chosen(TableKind::Curvature)) -
-      study.tables.begin());
-  AttitudeStudy attitudes{tables, tables[chosen]};
-  for (const StudyPlace& place : *places) {
-    attitudes.add(place);
-  }
-  for (std::size_t i = 0; i < tables.size(); ++i) {
-    study.tables[i].armse_rad = attitudes.armse_rad(i);
-  }
-  study.attitudes = attitudes.attitudes();
-  study.most = attitudes.most();
-  study.places_in_line = attitudes.in_line();
-  study.knots_rad.assign(tables[chosen].knots_rad.begin(), tables[chosen].knots_rad.end());
-  study.weights = weights_of(*truth_nt);
-  study.uniform_error_nt =
-      std::find_if(study.tables.begin(), study.tables.end(), is_chosen(TableKind::Uniform))
-          ->errors.mean_nt.sum();
-  study.places = std::move(*places);
-  return study;
+  return sampled(along).and_then([&](const SampledField& field_nt) {
+    return places_of(orbit, along).and_then([&](std::vector<StudyPlace>&& places) {
+      return tables_of(along, orbit.true_anomaly_at_epoch_rad())
+          .map([&](const std::vector<FieldTable>& tables) {
+            return study_of(field_nt, std::move(places), tables);
+          });
+    });
+  });
 }
 
 }  // namespace spindrift

@@ -117,4 +117,18 @@ TEST(TumblingScenario, RefusesOneThatSendsNothing) {
   EXPECT_THAT(error_of(text), HasSubstr("[three_axis]: must have gyro, sun_sensor"));
 }
 
+TEST(CarriedTable, NeedsElementsAndBothSensors) {
+  const std::string text = text_of(scenarios() / "femto.toml");
+  EXPECT_EQ(loaded(text).carried_table->points, 80);
+  expect_problems(replaced(replaced(text, "[three_axis.magnetometer]\nnoise_nt = 100.0", ""),
+                           "[truth.magnetometer]\nnoise_nt = 10.0", ""),
+                  {"[field_table]: needs [three_axis.magnetometer]"});
+  expect_problems(kWhole.substr(0, kWhole.find("[orbit.elements]")) + "[orbit]\noem = \"a.oem\"\n" +
+                      kWhole.substr(kWhole.find("[pass]")) +
+                      "[field_table]\nkind = \"uniform\"\npoints = 80\n",
+                  {"[field_table]: needs [orbit.elements]"});
+  expect_problems(replaced(text, "points = 80", "points = 3"), {"field_table.points = 3"});
+  expect_problems(replaced(text, "\"curvature\"", "\"cubic\""), {"field_table.kind"});
+}
+
 }  // namespace spindrift::testing::tumbling_scenario_test
