@@ -289,6 +289,9 @@ void AttitudeEstimator::coast(TaiTime t, Products& out) {
   if (t_ == t) {
     return;
   }
+  if (!t_) {
+    begun_ = t;
+  }
   if (!rate_rad_s_) {
     filter_.reset();
     rival_.reset();
@@ -400,6 +403,7 @@ void AttitudeEstimator::take_in_direction(const SeenDirection& seen, Products& o
     lose_where_rejected(out);
     return;
   }
+  tell_contradiction(seen.t, out);
   if (const double strength = square_of(seen.stronger); strength > innovation_gate(1)) {
     leave_out({.t = seen.t,
                .kind = seen.kind,
@@ -418,6 +422,14 @@ void AttitudeEstimator::take_in_direction(const SeenDirection& seen, Products& o
   if (const auto attitude = carried_.attitude()) {
     has_fixes_ = false;
     begin(*attitude, out);
+  }
+}
+
+/// Tells of a contradiction, and of its end, where no estimate does.
+void AttitudeEstimator::tell_contradiction(TaiTime t, Products& out) {
+  has_contradicted_ = has_contradicted_ || contradictions_.found();
+  if (has_contradicted_) {
+    out.emplace_back(SensorsCompared{.t = t, .contradiction = contradictions_.found()});
   }
 }
 
@@ -592,7 +604,8 @@ void AttitudeEstimator::lose(Products& out) {
                                     .rate_body_rad_s = std::nullopt,
                                     .covariance_rad2 = any_attitude_rad2(),
                                     .noise_sigma_rad = std::sqrt(any_attitude_rad2().trace()),
-                                    .assessment = std::move(assessment)});
+                                    .assessment = std::move(assessment),
+                                    .contradiction = contradictions_.found()});
   if (!rival_ || !rival_->was_in_force) {
     rival_.reset();
     if (is_confirmed()) {
@@ -704,11 +717,18 @@ bool AttitudeEstimator::is_out(SampleKind kind) const {
           rival_->is_refuted());
 }
 
+/// Returns whether nothing can check an attitude, since there has been no rate from the start.
+bool AttitudeEstimator::never_had_gyro() const {
+  return !gyro_.last() && !gyro_is_out() && elapsed_s(begun_, *t_) > kGyroWait_s;
+}
+
 Reason AttitudeEstimator::why_no_gyro() const {
   const auto why = gyro_.out_because();
+  const std::string_view silent = config_.gyro ? "silent" : "undeclared";
+  const TaiTime since = why ? gyro_.out_since() : begun_;
   return {ReasonCode::NoGyro,
-          {{"why", std::string{why ? name_of(*why) : "silent"}},
-           {"since_tai_ns", tai_ns(gyro_.last() ? gyro_.last()->t : gyro_.out_since())}}};
+          {{"why", std::string{why ? name_of(*why) : silent}},
+           {"since_tai_ns", tai_ns(gyro_.last() ? gyro_.last()->t : since)}}};
 }
 
 Assessment AttitudeEstimator::assess(double sigma_rad) const {
@@ -724,6 +744,9 @@ Assessment AttitudeEstimator::assess(double sigma_rad) const {
   if (unchecked_gaps_ > 0) {
     reasons.push_back(
         {ReasonCode::GyroGaps, {{"count", unchecked_gaps_}, {"longest_s", longest_gap_s_}}});
+  }
+  if (never_had_gyro()) {
+    known.push_back(why_no_gyro());
   }
   bool is_checked = checks_ >= kEnoughToCheck && !lost_by_rad_;
   for (std::size_t i = 0; i < kSampleKinds; ++i) {
@@ -742,7 +765,7 @@ Assessment AttitudeEstimator::assess(double sigma_rad) const {
           {ReasonCode::SensorNoise, {{"sensor", sensor}, {"factor", std::sqrt(excess)}}});
     }
   }
-  if (rival_ && rival_->stands() && !rival_->is_refuted()) {
+  if (rival_ && rival_->stands() && !rival_->is_refuted() && (has_fixes_ || rival_->has_fixes)) {
     reasons.push_back({ReasonCode::StarFixesContradict, {}});
   }
   if (const auto beyond = filter_->evidence().beyond()) {
