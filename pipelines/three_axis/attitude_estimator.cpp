@@ -10,6 +10,7 @@
 #include "pipelines/frames/angle.h"
 #include "pipelines/frames/uncertain_attitude.h"
 #include "pipelines/observation/innovation_gate.h"
+#include "pipelines/three_axis/error_culprit.h"
 #include "pipelines/time/time_span.h"
 
 namespace spindrift {
@@ -425,6 +426,22 @@ void AttitudeEstimator::take_in_direction(const SeenDirection& seen, Products& o
   }
 }
 
+/// Looks whether the innovations contradict what the mission file states. They do not forget, so
+/// that where two sensors have contradicted each other these alone say whether they still do. They
+/// know nothing of what was rejected, so that they name none where two attitudes stand.
+void AttitudeEstimator::look_for_culprit(TaiTime t) {
+  has_contradicted_ = has_contradicted_ || contradictions_.found();
+  const bool is_unsettled = has_contradicted_ || began_anew_ || (rival_ && rival_->stands());
+  by_errors_ = is_unsettled || !filter_->evidence().beyond()
+                   ? std::nullopt
+                   : contradiction_by_errors(filter_->evidence(), rate_body_rad_s(),
+                                             by_errors_ ? by_errors_->since : t);
+}
+
+const std::optional<SensorContradiction>& AttitudeEstimator::contradiction() const {
+  return contradictions_.found() ? contradictions_.found() : by_errors_;
+}
+
 /// Tells of a contradiction, and of its end, where no estimate does.
 void AttitudeEstimator::tell_contradiction(TaiTime t, Products& out) {
   has_contradicted_ = has_contradicted_ || contradictions_.found();
@@ -465,6 +482,7 @@ bool AttitudeEstimator::work_in(TaiTime t, SampleKind kind, const Observed& obse
   // What errors of the mission file have explained before is no noise. A sample that no more than
   // could be explained by them may be spurious, so that its size is arbitrary.
   said.nis = std::min(filter_->update(observed), said.limit);
+  look_for_culprit(t);
   ledger_.add({&said, 1});
   since_given_.squared += said.nis;
   since_given_.freedom += said.residual.freedom;
@@ -605,7 +623,7 @@ void AttitudeEstimator::lose(Products& out) {
                                     .covariance_rad2 = any_attitude_rad2(),
                                     .noise_sigma_rad = std::sqrt(any_attitude_rad2().trace()),
                                     .assessment = std::move(assessment),
-                                    .contradiction = contradictions_.found()});
+                                    .contradiction = contradiction()});
   if (!rival_ || !rival_->was_in_force) {
     rival_.reset();
     if (is_confirmed()) {
@@ -642,7 +660,7 @@ void AttitudeEstimator::give(Products& out) {
       .noise_sigma_rad = std::sqrt(excess_noise() * filter_->attitude_noise_rad2().trace()),
       .assessment = assess(std::sqrt(own_rad2.trace())),
       .innovations = std::exchange(since_given_, {}),
-      .contradiction = contradictions_.found()};
+      .contradiction = contradiction()};
   if (rate_rad_s_ && !gyro_is_out()) {
     estimate.rate_body_rad_s = *rate_rad_s_ - filter_->bias_rad_s();
   }
@@ -773,7 +791,7 @@ Assessment AttitudeEstimator::assess(double sigma_rad) const {
                        {{"key", "three_axis.alignment." + std::string{beyond->key}},
                         {"sigmas", beyond->sigmas}}});
   }
-  if (const auto& found = contradictions_.found();
+  if (const auto& found = contradiction();
       found && !(found->culprit && is_out(kind_of(*found->culprit)))) {
     reasons.push_back(reason_of(*found));
   }

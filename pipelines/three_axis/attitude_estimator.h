@@ -146,6 +146,8 @@ class AttitudeEstimator {
   void take_in_star(const StarFix& fix, Products& out);
   void take_in_direction(const SeenDirection& seen, Products& out);
   void tell_contradiction(TaiTime t, Products& out);
+  void look_for_culprit(TaiTime t);
+  const std::optional<SensorContradiction>& contradiction() const;
   template <class Observed>
   bool work_in(TaiTime t, SampleKind kind, const Observed& observed, Products& out);
   void ask_rival(const ObservedAttitude& fix, bool fits, bool fits_in_force);
@@ -202,7 +204,9 @@ class AttitudeEstimator {
   std::optional<Mekf> filter_;
   bool has_fixes_ = false;  ///< True once star fixes support the filter's attitude.
   SensorContradictions contradictions_;
-  bool has_contradicted_ = false;      ///< True once sensors have contradicted each other.
+  bool has_contradicted_ = false;  ///< True once sensors have contradicted each other.
+  /// A contradiction that only all innovations together show.
+  std::optional<SensorContradiction> by_errors_;
   std::optional<GyroSample> refused_;  ///< Last gyro sample in a wrong unit.
   bool gyro_was_wrong_ = false;        ///< True once the other sensors have contradicted the gyro.
   CarriedDirections carried_;          ///< Directions collected while there is no filter.

@@ -125,6 +125,8 @@ inline std::vector<Fault> early_three_axis_faults() {
                      10.0),
       from_the_start("star tracker late by 0.2 s", {"attitude.doubtful", "sensor.contradicts:star"},
                      lostsat, moved(is_of<StarFix>, 0.2), 60.0),
+      from_the_start("gyro x 10 % too large, no star tracker", contradicts("gyro"), starless,
+                     of_gyro(times({1.1, 1.0, 1.0})), 120.0),
       {"star tracker turned by 40 deg, with a gyro alone", either("star"), of_stars,
        of_star([](Eigen::Quaterniond& q) {
          q = q * turn(40.0, {1.0, 2.0, -1.0});
@@ -239,7 +241,13 @@ inline std::vector<Fault> three_axis_faults() {
        gyro_off_by(0.005),
        120.0,
        {},
-       false},
+       false,
+       {},
+       {},
+       {},
+       false,
+       {},
+       "sensor.contradicts:gyro"},
       {"tumbling beyond the gyro's range",
        {"attitude.lost"},
        replaced(leosat, "noise_deg_s = 0.002", "noise_deg_s = 0.002\nrange_deg_s = 10.0"),
