@@ -24,6 +24,12 @@ struct SensorContradiction {
   TaiTime since;
 };
 
+/// Says whether the sensors contradict each other, judged by the samples up to `t`.
+struct SensorsCompared {
+  TaiTime t;
+  std::optional<SensorContradiction> contradiction;  ///< Empty: they do not.
+};
+
 /// Returns the name of a sensor in the key of an alert; an orbit state stands for the orbit.
 std::string sensor_name_of(SampleSource source);
 /// Stands for the culprit where nothing tells which of the sensors it is.

@@ -43,7 +43,7 @@ AttitudeConditions::AttitudeConditions(const AlertLimits& limits, std::optional<
       diverged_percent_{limits.diverged_percent},
       diverged_s_{limits.diverged_s},
       views_{config, orbit, limits.silent_s},
-      kinds_{views_.others(), std::move(orbit), limits.silent_s},
+      kinds_{views_.others(), config, std::move(orbit), limits.silent_s},
       sensors_{limits},
       stuck_{limits.stuck_s},
       // Noise leaves the 99.9 % band in one window of a thousand, but not in two consecutive ones.
@@ -56,10 +56,10 @@ AttitudeConditions::AttitudeConditions(const AlertLimits& limits, std::optional<
       presence_{AlertCode::AttitudeNoAnswer, limits.attitude_no_answer_s},
       launcher_{AlertCode::ReconstructionLauncher, "% of chi-square"} {}
 
-ConditionChanges AttitudeConditions::await_answer(std::vector<TaiTime> samples) {
+ConditionChanges AttitudeConditions::await_answer(std::vector<AwaitedSample> samples) {
   ConditionChanges changes;
-  for (const TaiTime t : std::exchange(awaited_, std::move(samples))) {
-    add(presence_.see_sample(t), changes);
+  for (const AwaitedSample& sample : std::exchange(awaited_, std::move(samples))) {
+    add(presence_.see_sample(sample.t, sample.is_usable), changes);
   }
   return changes;
 }

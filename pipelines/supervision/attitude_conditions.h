@@ -21,6 +21,12 @@
 
 namespace spindrift {
 
+/// A sample that should lead to an attitude.
+struct AwaitedSample {
+  TaiTime t;
+  bool is_usable;  ///< Whether an attitude can be made of such samples.
+};
+
 class AttitudeConditions {
  public:
   /// @param orbit Orbit for the prediction of eclipses; empty if unknown.
@@ -38,9 +44,11 @@ class AttitudeConditions {
   ConditionChanges evaluate(SampleKind kind, TaiTime t) { return kinds_.evaluate(kind, t); }
   /// Awaits an answer of samples: of those given before, if their answers have come by now. To be
   /// called with the samples as they come.
-  /// @param samples Times of star fixes and magnetometer samples, of which an attitude can be made.
-  ConditionChanges await_answer(std::vector<TaiTime> samples);
+  ConditionChanges await_answer(std::vector<AwaitedSample> samples);
   ConditionChanges evaluate(const AttitudeEstimate& estimate);
+  ConditionChanges evaluate(const SensorsCompared& sensors) {
+    return sensors_.evaluate(sensors.t, sensors.contradiction);
+  }
   ConditionChanges evaluate(const RejectedSample& sample);
   ConditionChanges evaluate(const SampleObservation& observation);
   ConditionChanges evaluate(const ReconstructedSeparation& separation);
@@ -74,8 +82,8 @@ class AttitudeConditions {
   LostWatch lost_;
   ConditionWatch doubtful_;
   AnswerPresence presence_;
-  std::vector<TaiTime> awaited_;  ///< Samples whose answers may not have come yet.
-  std::optional<TaiTime> last_;   ///< Time of the answer in force, or of a fault behind it.
+  std::vector<AwaitedSample> awaited_;  ///< Samples whose answers may not have come yet.
+  std::optional<TaiTime> last_;         ///< Time of the answer in force, or of a fault behind it.
   Quality quality_ = Quality::Converging;  ///< Quality of that answer.
   bool has_failed_ = false;                ///< Whether the computation failed.
   ConditionWatch launcher_;

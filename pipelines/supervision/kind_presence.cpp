@@ -14,13 +14,15 @@ constexpr std::size_t kAnyKind = 0;
 
 }  // namespace
 
-KindPresence::KindPresence(const std::vector<SampleKind>& kinds, std::optional<Orbit> orbit,
-                           double silent_s)
+KindPresence::KindPresence(const std::vector<SampleKind>& kinds, const ThreeAxisConfig& config,
+                           std::optional<Orbit> orbit, double silent_s)
     : orbit_{std::move(orbit)}, silent_s_{silent_s} {
   for (const SampleKind kind : kinds) {
     channels_.push_back(
         {.kind = kind,
-         .watch = ConditionWatch{AlertCode::ChannelSilent, "s", {}, std::string{name_of(kind)}}});
+         .watch = ConditionWatch{AlertCode::ChannelSilent, "s", {}, std::string{name_of(kind)}},
+         .is_expected = (kind == SampleKind::Gyro && config.gyro) ||
+                        (kind == SampleKind::Magnetometer && config.magnetometer)});
   }
 }
 
@@ -42,6 +44,8 @@ ConditionChanges KindPresence::evaluate(SampleKind kind, TaiTime t) {
   for (Channel& channel : channels_) {
     if (channel.last) {
       channel.last = std::min(*channel.last, newest_);
+    } else if (channel.is_expected && newest_ > TaiTime::min()) {
+      channel.last = newest_;
     }
     if (channel.kind == kind) {
       channel.last = std::max(channel.last.value_or(t), t);

@@ -9,18 +9,21 @@
 #include "pipelines/ephemeris/orbit.h"
 #include "pipelines/ephemeris/sun.h"
 #include "pipelines/supervision/condition_watch.h"
+#include "pipelines/three_axis/config.h"
 #include "pipelines/three_axis/products.h"
 #include "pipelines/time/time_jump.h"
 
 namespace spindrift {
 
-/// Watches each sample kind. A kind that has come before is silent if no sample comes for a span of
-/// telemetry time while other kinds come. Orbit states are irregular and not watched, nor is an
-/// eclipsed Sun.
+/// Watches each sample kind. A kind that has come before, or that nothing can blind, is silent if
+/// no sample comes for a span of telemetry time while other kinds come. Orbit states are irregular
+/// and not watched, nor is an eclipsed Sun.
 class KindPresence {
  public:
   /// @param kinds Kinds to watch; all others only tell how late it is.
-  KindPresence(const std::vector<SampleKind>& kinds, std::optional<Orbit> orbit, double silent_s);
+  /// @param config Sensors, of which gyro and magnetometer should come from the start.
+  KindPresence(const std::vector<SampleKind>& kinds, const ThreeAxisConfig& config,
+               std::optional<Orbit> orbit, double silent_s);
 
   void set_silent_s(double silent_s) { silent_s_ = silent_s; }
 
@@ -30,7 +33,8 @@ class KindPresence {
   struct Channel {
     SampleKind kind;
     ConditionWatch watch;
-    std::optional<TaiTime> last = {};  ///< Time of its newest sample.
+    bool is_expected;                  ///< Whether it should come from the start.
+    std::optional<TaiTime> last = {};  ///< Time of its newest sample, or from which it is expected.
   };
 
   bool is_hidden(SampleKind kind, TaiTime t);

@@ -7,7 +7,7 @@ namespace spindrift {
 namespace {
 
 // It may take some seconds until the other sensors, too, show which of two is wrong.
-constexpr Holding kUnknown{.raise_s = 10.0, .clear_s = 30.0};
+constexpr Holding kUnknown{.raise_s = 5.0, .clear_s = 30.0};
 // A wrong gyro shows in slews only.
 constexpr Holding kNamed{.raise_s = 0.0, .clear_s = 30.0};
 

@@ -47,11 +47,11 @@ void ViewPresence::see_sample(SampleKind kind, TaiTime t) {
 ConditionChanges ViewPresence::see_answer(const AttitudeEstimate& estimate) {
   ConditionChanges changes;
   for (Sensor& sensor : sensors_) {
-    if (!sensor.last || estimate.assessment.quality == Quality::Lost) {
+    if (estimate.assessment.quality == Quality::Lost) {
       continue;
     }
-    if (is_blind(sensor, estimate)) {
-      sensor.last = std::max(*sensor.last, estimate.t);
+    if (!sensor.last || is_blind(sensor, estimate)) {
+      sensor.last = std::max(sensor.last.value_or(estimate.t), estimate.t);
     }
     const double silent_s = std::max(elapsed_s(*sensor.last, estimate.t), 0.0);
     spindrift::add(sensor.watch.update(estimate.t, {.value = silent_s, .limit = silent_s_}),

@@ -14,8 +14,8 @@
 namespace spindrift {
 
 /// Watches Sun sensor and star tracker, as far as their field of view is stated, whenever there is
-/// an attitude. The Sun sensor sees a Sun within its field that the Earth does not hide; the star
-/// tracker sees where neither Sun nor Earth stands in its field.
+/// an attitude, be it before their first sample. The Sun sensor sees a Sun within its field that
+/// the Earth does not hide; the star tracker sees where neither Sun nor Earth stands in its field.
 class ViewPresence {
  public:
   ViewPresence(const ThreeAxisConfig& config, std::optional<Orbit> orbit, double silent_s);

@@ -10,6 +10,7 @@
 #include "pipelines/frames/angle.h"
 #include "pipelines/frames/uncertain_attitude.h"
 #include "pipelines/observation/innovation_gate.h"
+#include "pipelines/three_axis/error_culprit.h"
 #include "pipelines/time/time_span.h"
 
 namespace spindrift {
@@ -289,6 +290,9 @@ void AttitudeEstimator::coast(TaiTime t, Products& out) {
   if (t_ == t) {
     return;
   }
+  if (!t_) {
+    begun_ = t;
+  }
   if (!rate_rad_s_) {
     filter_.reset();
     rival_.reset();
@@ -400,6 +404,7 @@ void AttitudeEstimator::take_in_direction(const SeenDirection& seen, Products& o
     lose_where_rejected(out);
     return;
   }
+  tell_contradiction(seen.t, out);
   if (const double strength = square_of(seen.stronger); strength > innovation_gate(1)) {
     leave_out({.t = seen.t,
                .kind = seen.kind,
@@ -418,6 +423,30 @@ void AttitudeEstimator::take_in_direction(const SeenDirection& seen, Products& o
   if (const auto attitude = carried_.attitude()) {
     has_fixes_ = false;
     begin(*attitude, out);
+  }
+}
+
+/// Looks whether the innovations contradict what the mission file states. They do not forget, so
+/// that where two sensors have contradicted each other these alone say whether they still do. They
+/// know nothing of what was rejected, so that they name none where two attitudes stand.
+void AttitudeEstimator::look_for_culprit(TaiTime t) {
+  has_contradicted_ = has_contradicted_ || contradictions_.found();
+  const bool is_unsettled = has_contradicted_ || began_anew_ || (rival_ && rival_->stands());
+  by_errors_ = is_unsettled || !filter_->evidence().beyond()
+                   ? std::nullopt
+                   : contradiction_by_errors(filter_->evidence(), rate_body_rad_s(),
+                                             by_errors_ ? by_errors_->since : t);
+}
+
+const std::optional<SensorContradiction>& AttitudeEstimator::contradiction() const {
+  return contradictions_.found() ? contradictions_.found() : by_errors_;
+}
+
+/// Tells of a contradiction, and of its end, where no estimate does.
+void AttitudeEstimator::tell_contradiction(TaiTime t, Products& out) {
+  has_contradicted_ = has_contradicted_ || contradictions_.found();
+  if (has_contradicted_) {
+    out.emplace_back(SensorsCompared{.t = t, .contradiction = contradictions_.found()});
   }
 }
 
@@ -453,6 +482,7 @@ bool AttitudeEstimator::work_in(TaiTime t, SampleKind kind, const Observed& obse
   // What errors of the mission file have explained before is no noise. A sample that no more than
   // could be explained by them may be spurious, so that its size is arbitrary.
   said.nis = std::min(filter_->update(observed), said.limit);
+  look_for_culprit(t);
   ledger_.add({&said, 1});
   since_given_.squared += said.nis;
   since_given_.freedom += said.residual.freedom;
@@ -592,7 +622,8 @@ void AttitudeEstimator::lose(Products& out) {
                                     .rate_body_rad_s = std::nullopt,
                                     .covariance_rad2 = any_attitude_rad2(),
                                     .noise_sigma_rad = std::sqrt(any_attitude_rad2().trace()),
-                                    .assessment = std::move(assessment)});
+                                    .assessment = std::move(assessment),
+                                    .contradiction = contradiction()});
   if (!rival_ || !rival_->was_in_force) {
     rival_.reset();
     if (is_confirmed()) {
@@ -629,7 +660,7 @@ void AttitudeEstimator::give(Products& out) {
       .noise_sigma_rad = std::sqrt(excess_noise() * filter_->attitude_noise_rad2().trace()),
       .assessment = assess(std::sqrt(own_rad2.trace())),
       .innovations = std::exchange(since_given_, {}),
-      .contradiction = contradictions_.found()};
+      .contradiction = contradiction()};
   if (rate_rad_s_ && !gyro_is_out()) {
     estimate.rate_body_rad_s = *rate_rad_s_ - filter_->bias_rad_s();
   }
@@ -704,11 +735,18 @@ bool AttitudeEstimator::is_out(SampleKind kind) const {
           rival_->is_refuted());
 }
 
+/// Returns whether nothing can check an attitude, since there has been no rate from the start.
+bool AttitudeEstimator::never_had_gyro() const {
+  return !gyro_.last() && !gyro_is_out() && elapsed_s(begun_, *t_) > kGyroWait_s;
+}
+
 Reason AttitudeEstimator::why_no_gyro() const {
   const auto why = gyro_.out_because();
+  const std::string_view silent = config_.gyro ? "silent" : "undeclared";
+  const TaiTime since = why ? gyro_.out_since() : begun_;
   return {ReasonCode::NoGyro,
-          {{"why", std::string{why ? name_of(*why) : "silent"}},
-           {"since_tai_ns", tai_ns(gyro_.last() ? gyro_.last()->t : gyro_.out_since())}}};
+          {{"why", std::string{why ? name_of(*why) : silent}},
+           {"since_tai_ns", tai_ns(gyro_.last() ? gyro_.last()->t : since)}}};
 }
 
 Assessment AttitudeEstimator::assess(double sigma_rad) const {
@@ -724,6 +762,9 @@ Assessment AttitudeEstimator::assess(double sigma_rad) const {
   if (unchecked_gaps_ > 0) {
     reasons.push_back(
         {ReasonCode::GyroGaps, {{"count", unchecked_gaps_}, {"longest_s", longest_gap_s_}}});
+  }
+  if (never_had_gyro()) {
+    known.push_back(why_no_gyro());
   }
   bool is_checked = checks_ >= kEnoughToCheck && !lost_by_rad_;
   for (std::size_t i = 0; i < kSampleKinds; ++i) {
@@ -742,7 +783,7 @@ Assessment AttitudeEstimator::assess(double sigma_rad) const {
           {ReasonCode::SensorNoise, {{"sensor", sensor}, {"factor", std::sqrt(excess)}}});
     }
   }
-  if (rival_ && rival_->stands() && !rival_->is_refuted()) {
+  if (rival_ && rival_->stands() && !rival_->is_refuted() && (has_fixes_ || rival_->has_fixes)) {
     reasons.push_back({ReasonCode::StarFixesContradict, {}});
   }
   if (const auto beyond = filter_->evidence().beyond()) {
@@ -750,7 +791,7 @@ Assessment AttitudeEstimator::assess(double sigma_rad) const {
                        {{"key", "three_axis.alignment." + std::string{beyond->key}},
                         {"sigmas", beyond->sigmas}}});
   }
-  if (const auto& found = contradictions_.found();
+  if (const auto& found = contradiction();
       found && !(found->culprit && is_out(kind_of(*found->culprit)))) {
     reasons.push_back(reason_of(*found));
   }

@@ -4,12 +4,13 @@
 /// reinitialises after a loss of attitude.
 ///
 /// The filter begins at a star fix, or at two directions that agree (carried_directions.h); no
-/// estimate exists before that. A star fix or direction between two gyro samples waits for the
-/// second of them, because the rate is interpolated linearly in between. If no gyro sample follows,
-/// the last rate is held and the covariance grows by the observed variability of the rate. Without
-/// any gyro, two directions within one second give the attitude of that instant, as a star fix
-/// does. An attitude is LOST when all sensors reject it, or when its standard deviation exceeds 1
-/// rad for lack of measurements. The filter then begins again at the next fix.
+/// estimate exists before that, but contradictions of the sensors are told. A star fix or direction
+/// between two gyro samples waits for the second of them, because the rate is interpolated linearly
+/// in between. If no gyro sample follows, the last rate is held and the covariance grows by the
+/// observed variability of the rate. Without any gyro, two directions within one second give the
+/// attitude of that instant, as a star fix does. An attitude is LOST when all sensors reject it, or
+/// when its standard deviation exceeds 1 rad for lack of measurements. The filter then begins again
+/// at the next fix.
 ///
 /// Samples that repeat bit for bit are left out (frozen_samples.h). Star fixes that the attitude
 /// rejects but that agree with each other form a rival attitude. Sun and
@@ -144,6 +145,9 @@ class AttitudeEstimator {
   ObservedAttitude observed_by(const StarFix& fix) const;
   void take_in_star(const StarFix& fix, Products& out);
   void take_in_direction(const SeenDirection& seen, Products& out);
+  void tell_contradiction(TaiTime t, Products& out);
+  void look_for_culprit(TaiTime t);
+  const std::optional<SensorContradiction>& contradiction() const;
   template <class Observed>
   bool work_in(TaiTime t, SampleKind kind, const Observed& observed, Products& out);
   void ask_rival(const ObservedAttitude& fix, bool fits, bool fits_in_force);
@@ -182,6 +186,7 @@ class AttitudeEstimator {
   bool is_held() const;
   bool is_in_question(SampleKind kind) const;
   bool is_out(SampleKind kind) const;
+  bool never_had_gyro() const;
   Reason why_no_gyro() const;
   Assessment assess(double sigma_rad) const;
 
@@ -192,12 +197,16 @@ class AttitudeEstimator {
   std::optional<GyroSample> suspect_;  ///< Outlier candidate; the next gyro sample decides.
   std::deque<Sample> waiting_;         ///< Fixes and directions later than the last gyro sample.
 
+  TaiTime begun_ = {};                         ///< Epoch of the first sample.
   std::optional<TaiTime> t_;                   ///< Epoch to which the attitude is propagated.
   std::optional<Eigen::Vector3d> rate_rad_s_;  ///< Measured rate at `t_`; empty before the first.
   bool coasting_ = false;  ///< True while `rate_rad_s_` is an older rate that is held.
   std::optional<Mekf> filter_;
   bool has_fixes_ = false;  ///< True once star fixes support the filter's attitude.
   SensorContradictions contradictions_;
+  bool has_contradicted_ = false;  ///< True once sensors have contradicted each other.
+  /// A contradiction that only all innovations together show.
+  std::optional<SensorContradiction> by_errors_;
   std::optional<GyroSample> refused_;  ///< Last gyro sample in a wrong unit.
   bool gyro_was_wrong_ = false;        ///< True once the other sensors have contradicted the gyro.
   CarriedDirections carried_;          ///< Directions collected while there is no filter.

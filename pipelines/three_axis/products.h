@@ -100,6 +100,6 @@ struct SampleObservation {
 };
 
 using ThreeAxisProduct = std::variant<RejectedSample, AttitudeEstimate, SampleObservation,
-                                      SampleContradiction, NormalEquations>;
+                                      SampleContradiction, NormalEquations, SensorsCompared>;
 
 }  // namespace spindrift

@@ -35,12 +35,11 @@ double square_of(const Vector3d& score, const Matrix3d& covariance) {
   return score.dot(regular(covariance).llt().solve(score));
 }
 
-/// Returns a normalised square as a number of sigma of one component.
+}  // namespace
+
 double sigmas_from(double square, int freedom) {
   return std::sqrt(std::max(square - kSquarePerFreedom * (freedom - 1), 0.0));
 }
-
-}  // namespace
 
 void SensorPair::add(TaiTime t, const PairComparison& compared, const PairPrior& prior) {
   forget(t);

@@ -30,6 +30,9 @@ inline constexpr int kPairErrors = kFilterErrors + 6;
 using TurnPerPairError = Eigen::Matrix<double, 3, kPairErrors>;
 using PairPrior = Eigen::Matrix<double, kPairErrors, kPairErrors>;
 
+/// Returns a normalised square with these degrees of freedom as a number of sigma of one component.
+double sigmas_from(double square, int freedom);
+
 /// One comparison of two sensors.
 struct PairComparison {
   Eigen::Vector3d turn_rad;     ///< Difference, body axes. Of a gyro it is the turn in a second.

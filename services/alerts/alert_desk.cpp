@@ -96,18 +96,20 @@ Occurrence occurrence_of(const ConditionChange& change, const std::string& run_i
           .hold_off_s = limits.hold_off_s.at(static_cast<std::size_t>(change.code))};
 }
 
-/// Returns the times of the samples of which an attitude can be made, without those left out.
-std::vector<TaiTime> times_of_fixes(const ArrivedSamples& samples) {
-  std::vector<TaiTime> times;
+/// Returns the samples of sensors, without those left out. Gyro and sun vectors alone make no
+/// attitude, and for minutes behind a separation nothing else comes.
+std::vector<AwaitedSample> awaited(const ArrivedSamples& samples) {
+  std::vector<AwaitedSample> all;
   in_order_of_arrival(samples, [&](const auto& sample) {
-    using Value = std::remove_cvref_t<decltype(sample.value)>;
-    if constexpr (std::is_same_v<Value, StarFix> || std::is_same_v<Value, MagneticField>) {
-      if (!is_left_out(sample)) {
-        times.push_back(sample.value.t);
+    if constexpr (requires { kind_of(sample.value); }) {
+      const SampleKind kind = kind_of(sample.value);
+      if (kind != SampleKind::OrbitState && !is_left_out(sample)) {
+        all.push_back({.t = sample.value.t,
+                       .is_usable = kind == SampleKind::Star || kind == SampleKind::Magnetometer});
       }
     }
   });
-  return times;
+  return all;
 }
 
 void append(ConditionChanges changes, ConditionChanges& all) {
@@ -388,7 +390,7 @@ std::vector<Alert> AlertDesk::changed_by(ArchiveBatch& batch, Desk& desk) {
   ConditionChanges all = changes_by(batch.samples, supervised);
   if (auto* const attitude = std::get_if<AttitudeConditions>(&supervised.conditions);
       attitude != nullptr && count_of(batch.samples) > 0) {
-    append(attitude->await_answer(times_of_fixes(batch.samples)), all);
+    append(attitude->await_answer(awaited(batch.samples)), all);
   }
   for (const Product& product : batch.products) {
     if (const auto t = time_of(product)) {

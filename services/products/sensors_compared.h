@@ -1,12 +1,12 @@
 /// @file
-/// Whether the sensors of a spinner contradict each other, as a kind of product.
+/// Whether the sensors contradict each other, as a kind of product.
 
 #pragma once
 
 #include <optional>
 #include <tuple>
 
-#include "pipelines/spin/types/products.h"
+#include "pipelines/observation/sensor_contradiction.h"
 #include "services/products/not_finite.h"
 #include "services/products/product_kind.h"
 

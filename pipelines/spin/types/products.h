@@ -171,12 +171,6 @@ double noise_sigma_rad(const Axis& axis) {
   return std::sqrt(std::max((axis.covariance_rad2 - axis.alignment_rad2).trace(), 0.0));
 }
 
-/// Says whether the sensors contradict each other, judged by the edges up to `t`.
-struct SensorsCompared {
-  TaiTime t;
-  std::optional<SensorContradiction> contradiction;  ///< Empty: they do not.
-};
-
 using SpinProduct = std::variant<PulseUse, RevolutionProduct, SpinMeasurement, SpinFix,
                                  SpinEstimate, SampleContradiction, AxisChoice, SensorsCompared>;
 

@@ -80,6 +80,8 @@ void expect_found(const std::vector<Fault>& faults) {
 
 TEST(FoundFaults, OfAThreeAxisSpacecraft) { expect_found(three_axis_faults()); }
 
+TEST(FoundFaults, OfAThreeAxisSpacecraftFromTheStart) { expect_found(early_three_axis_faults()); }
+
 TEST(FoundFaults, OfASpinner) { expect_found(spin_faults()); }
 
 TEST(FoundFaults, OfASpinnersSensorThatLies) { expect_found(lies_of_a_spinner()); }

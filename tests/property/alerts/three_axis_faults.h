@@ -78,6 +78,63 @@ inline void tumble(std::vector<Sent>& sent, const Window& window) {
   })(sent, window);
 }
 
+/// Returns the scenario of a spacecraft without these sensors.
+inline std::string without(const std::vector<std::string>& sensors, std::string text) {
+  for (const std::string& sensor : sensors) {
+    const auto from = text.find("[three_axis." + sensor + "]");
+    text.erase(from, text.find("\n[", from) + 1 - from);
+  }
+  return text;
+}
+
+/// Returns faults that are there from the first sample on, or of a spacecraft with few sensors.
+inline std::vector<Fault> early_three_axis_faults() {
+  const std::string lostsat = tumbling_text();
+  const std::string starless = without({"star_tracker"}, lostsat);
+  const std::string of_stars = without({"sun_sensor", "magnetometer"}, lostsat);
+  const std::string fieldless = without({"magnetometer"}, lostsat);
+  const auto either = [](const std::string& culprit) {
+    return std::set<std::string>{"sensor.contradicts:" + culprit, "sensor.contradicts:unknown"};
+  };
+  const auto from_the_start = [](std::string name, std::set<std::string> keys, std::string scenario,
+                                 Spoil sensors, double within_s) {
+    return Fault{.name = std::move(name) + " from the start",
+                 .keys = std::move(keys),
+                 .scenario = std::move(scenario),
+                 .sensors = std::move(sensors),
+                 .within_s = within_s,
+                 .window = kWholePass,
+                 .ends = false};
+  };
+  return {
+      from_the_start("gyro dead", silent("gyro"), lostsat, dead(is_of<GyroSample>), 6.0),
+      from_the_start("magnetometer dead", silent("magnetometer"), lostsat,
+                     dead(is_of<MagneticField>), 6.0),
+      from_the_start("star tracker dead, no magnetometer", {"attitude.no_answer"}, fieldless,
+                     dead(is_of<StarFix>), 305.0),
+      from_the_start("Sun sensor turned by 90 deg, no star tracker", either("sun"), starless,
+                     of_sun(turned(90.0)), 15.0),
+      from_the_start("Sun sensor turned by 20 deg, no star tracker", either("sun"), starless,
+                     of_sun(turned(20.0)), 15.0),
+      from_the_start("field twice as strong, no star tracker", either("magnetometer"), starless,
+                     of_field(times({2.0, 2.0, 2.0})), 15.0),
+      from_the_start("star tracker turned by 5 deg, no magnetometer", contradicts("star"),
+                     fieldless, of_star([](Eigen::Quaterniond& q) {
+                       q = q * turn(5.0, {1.0, 2.0, -1.0});
+                     }),
+                     10.0),
+      from_the_start("star tracker late by 0.2 s", {"attitude.doubtful", "sensor.contradicts:star"},
+                     lostsat, moved(is_of<StarFix>, 0.2), 60.0),
+      from_the_start("gyro x 10 % too large, no star tracker", contradicts("gyro"), starless,
+                     of_gyro(times({1.1, 1.0, 1.0})), 120.0),
+      {"star tracker turned by 40 deg, with a gyro alone", either("star"), of_stars,
+       of_star([](Eigen::Quaterniond& q) {
+         q = q * turn(40.0, {1.0, 2.0, -1.0});
+       }),
+       15.0},
+  };
+}
+
 inline std::vector<Fault> three_axis_faults() {
   const auto stuck_alert = [](const std::string& sensor) {
     return std::set<std::string>{"sensor.stuck:" + sensor};
@@ -184,7 +241,13 @@ inline std::vector<Fault> three_axis_faults() {
        gyro_off_by(0.005),
        120.0,
        {},
-       false},
+       false,
+       {},
+       {},
+       {},
+       false,
+       {},
+       "sensor.contradicts:gyro"},
       {"tumbling beyond the gyro's range",
        {"attitude.lost"},
        replaced(leosat, "noise_deg_s = 0.002", "noise_deg_s = 0.002\nrange_deg_s = 10.0"),

@@ -109,22 +109,49 @@ TEST_F(AttitudeConditionsTest, SettleAContradictionOfSensors) {
   EXPECT_EQ(cleared_in(conditions_.settle()).count("sensor.contradicts:star"), 1U);
 }
 
+TEST_F(AttitudeConditionsTest, RaiseAContradictionOfSensorsThatGiveNoAttitude) {
+  const SensorContradiction between{.culprit = {},
+                                    .with = {SampleSource::Sun, SampleSource::Magnetometer},
+                                    .off = {"angle_deg", 20.0},
+                                    .sigmas = 20.0,
+                                    .since = at(0.0)};
+  std::set<std::string> raised;
+  for (double t_s = 0.0; t_s <= 5.0; t_s += 1.0) {
+    raised = raised_in(conditions_.evaluate(SensorsCompared{at(t_s), between}));
+  }
+  EXPECT_EQ(raised, std::set<std::string>{"sensor.contradicts:unknown"});
+}
+
 TEST_F(AttitudeConditionsTest, RaiseThatNoAnswerComesOfFixes) {
   std::set<std::string> raised;
   for (int t_s = 0; t_s <= 61; ++t_s) {
-    raised = raised_in(conditions_.await_answer({at(t_s)}));
+    raised = raised_in(conditions_.await_answer({{at(t_s), true}}));
     EXPECT_EQ(raised.contains("attitude.no_answer"), t_s == 61) << t_s;
   }
   AttitudeConditions answered{AlertLimits{}, std::nullopt};
-  std::vector<TaiTime> all;
+  std::vector<AwaitedSample> all;
   for (int t_s = 0; t_s <= 600; ++t_s) {
-    all.push_back(at(t_s));
+    all.push_back({at(t_s), true});
   }
   answered.await_answer(all);
   for (int t_s = 0; t_s <= 600; t_s += 10) {
     answered.evaluate(estimate(t_s, Quality::Ok));
   }
   EXPECT_THAT(raised_in(answered.settle()), IsEmpty());
+}
+
+TEST_F(AttitudeConditionsTest, WaitFiveTimesAsLongForAnAnswerOfSensorsThatAloneGiveNone) {
+  std::set<std::string> raised;
+  for (int t_s = 0; t_s <= 301; ++t_s) {
+    raised = raised_in(conditions_.await_answer({{at(t_s), false}}));
+    EXPECT_EQ(raised.contains("attitude.no_answer"), t_s == 301) << t_s;
+  }
+  // Fields that come late, in time behind that of the gyro, are waited with as fields.
+  AttitudeConditions late{AlertLimits{}, std::nullopt};
+  for (int t_s = 0; t_s <= 61; ++t_s) {
+    raised = raised_in(late.await_answer({{at(t_s), false}, {at(t_s - 1.0), true}}));
+    EXPECT_EQ(raised.contains("attitude.no_answer"), t_s == 61) << t_s;
+  }
 }
 
 RejectedSample left_out(double t_s, Rejection why) {
@@ -223,6 +250,19 @@ TEST_F(AttitudeConditionsTest, RaiseASensorThatGivesNothingWhileOthersDo) {
   EXPECT_EQ(raised_by(conditions_, {Gyro}, 10, 14), Keys{});
   EXPECT_EQ(raised_by(conditions_, {Gyro}, 14, 20), Keys{"channel.silent:star"});
   EXPECT_THAT(conditions_.evaluate(Star, at(20.5)), only(Change::Cleared));
+}
+
+TEST_F(AttitudeConditionsTest, RaiseASensorThatNothingBlindsAndThatNeverComes) {
+  ThreeAxisConfig config;
+  config.gyro = GyroSensor{.noise_rad_s = 1e-5, .bias_sigma_rad_s = 1e-4, .range_rad_s = {}};
+  config.star_tracker =
+      StarTracker{.q_body_sensor = Eigen::Quaterniond::Identity(), .noise_rad = 1e-4};
+  config.magnetometer = spindrift::Magnetometer{.noise_nt = 100.0};
+  AttitudeConditions conditions{AlertLimits{}, std::nullopt, config};
+  EXPECT_EQ(raised_by(conditions, {Sun}, 0, 5), Keys{});
+  EXPECT_EQ(raised_by(conditions, {Sun}, 5, 10),
+            (Keys{"channel.silent:gyro", "channel.silent:magnetometer"}));
+  EXPECT_THAT(conditions.evaluate(Gyro, at(10)), only(Change::Cleared));
 }
 
 TEST_F(AttitudeConditionsTest, BelieveNoSampleAloneThatTimeHasGoneOn) {

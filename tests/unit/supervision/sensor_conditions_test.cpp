@@ -37,8 +37,8 @@ TEST(SensorConditions, NameTheCulpritAtOnceWithWhatContradictsIt) {
 TEST(SensorConditions, WaitForTheNameBeforeTheySayThatItIsUnknown) {
   SensorConditions conditions{AlertLimits{}};
   EXPECT_THAT(conditions.evaluate(at_s(0), kEither), IsEmpty());
-  EXPECT_THAT(conditions.evaluate(at_s(9), kEither), IsEmpty());
-  const ConditionChanges raised = conditions.evaluate(at_s(10), kEither);
+  EXPECT_THAT(conditions.evaluate(at_s(4), kEither), IsEmpty());
+  const ConditionChanges raised = conditions.evaluate(at_s(5), kEither);
   ASSERT_THAT(raised, SizeIs(1));
   EXPECT_EQ(raised[0].about, "unknown");
   EXPECT_EQ(raised[0].who, "star, gyro");

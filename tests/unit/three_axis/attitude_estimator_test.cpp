@@ -40,6 +40,19 @@ TEST_F(AttitudeEstimatorTest, BeforeTheFirstFixThereIsNothing) {
   EXPECT_EQ(health(Sun).accepted, 10);
 }
 
+TEST_F(AttitudeEstimatorTest, BeforeTheFirstAttitudeItTellsThatSensorsContradictEachOther) {
+  gyro(0.0);
+  run(0.0, 10.0, [&](double t_s) {
+    direction(t_s, Sun, quaternion_by({0.0, 0.0, 0.5}));
+    field(t_s);
+  });
+  EXPECT_TRUE(estimates().empty());
+  const auto told = of_kind<SensorsCompared>(products_);
+  ASSERT_FALSE(told.empty());
+  EXPECT_LE(seconds_between(at_s(0.0), told.front().t), 6.0);
+  EXPECT_TRUE(told.front().contradiction);
+}
+
 TEST_F(AttitudeEstimatorTest, TheFirstStarFixIsGivenAtOnce) {
   star(0.05);
   ASSERT_EQ(estimates().size(), 1U);
@@ -339,6 +352,19 @@ TEST_F(AttitudeEstimatorTest, WhereAllIsRejectedItIsLostAndBeginsAtTheNextFix) {
   EXPECT_EQ(quality(), Quality::Converging);
   EXPECT_TRUE(says(ReasonCode::Since));
   EXPECT_LT(error_deg(), 0.03);
+}
+
+TEST_F(AttitudeEstimatorTest, WithoutStarFixesNoneContradictEachOther) {
+  gyro(0.0);
+  run(0.0, 30.0, {Sun, Magnetometer});
+  run(30.0, 60.0, [&](double t_s) {
+    direction(t_s, Sun, quaternion_by({0.4, 0.4, 0.0}));
+    direction(t_s, Magnetometer, quaternion_by({0.4, 0.4, 0.0}));
+  });
+  EXPECT_THAT(qualities(), Contains(Quality::Lost));
+  for (const AttitudeEstimate& row : estimates()) {
+    EXPECT_FALSE(has(row.assessment, ReasonCode::StarFixesContradict));
+  }
 }
 
 /// Loses the attitude to ten fixes that agree with nothing.

@@ -44,6 +44,24 @@ TEST_F(AttitudeGyroTest, WithoutAGyroSunAndFieldOfWithinASecondGiveAnAttitude) {
   EXPECT_EQ(estimates_of_two(1.005), 0U);
 }
 
+TEST_F(AttitudeGyroTest, ThatNeverCameIsWhyNothingChecksAnAttitude) {
+  const auto reasons_by = [&] {
+    estimator_ = AttitudeEstimator{config_};
+    products_.clear();
+    for (int second = 0; second < 30; ++second) {
+      star(second);
+    }
+    EXPECT_EQ(quality(), Quality::Converging);
+    return last().assessment.reasons;
+  };
+  const auto reason = [](const char* why) {
+    return Reason{ReasonCode::NoGyro, {{"why", why}, {"since_tai_ns", tai_ns(at_s(0.0))}}};
+  };
+  EXPECT_THAT(reasons_by(), ElementsAre(reason("silent")));
+  config_.gyro.reset();
+  EXPECT_THAT(reasons_by(), ElementsAre(reason("undeclared")));
+}
+
 TEST_F(AttitudeGyroTest, WithoutAGyroEachPairOfDirectionsIsAnAttitudeAndAStarFixABetterOne) {
   for (int second = 0; second < 60; ++second) {
     sun(second);
