@@ -114,10 +114,13 @@ Expected<std::string> header_of(const FieldTable& table, const KeplerOrbit& orbi
                     "   revolution later, when the Earth has turned, the field at the same anomaly "
                     "is {:.0f} nT off on average.\n"
                     "   Made by spindrift geomag table. */\n"
-                    "#ifndef FIELD_TABLE_H\n#define FIELD_TABLE_H\n\n#include <math.h>\n\n{}\n"
+                    "#ifndef FIELD_TABLE_H\n#define FIELD_TABLE_H\n\n#include <math.h>\n\n"
+                    "#ifdef __clang__\n#pragma clang diagnostic push\n"
+                    "#pragma clang diagnostic ignored \"-Wunused-function\"\n#endif\n\n{}\n"
                     "/* Directions to the first position, and ahead of it in the plane of the "
                     "orbit, in the axes of the Earth at the epoch. */\n"
-                    "{}{}\n{}{}{}\n#endif\n",
+                    "{}{}\n{}{}{}\n"
+                    "#ifdef __clang__\n#pragma clang diagnostic pop\n#endif\n\n#endif\n",
                     in_comment(texts.made_of), tai_ns(epoch), later_nt,
                     constants_text(table, orbit),
                     vector_text("first", q_itrf_orbit * -Eigen::Vector3d::UnitZ()),

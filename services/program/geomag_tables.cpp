@@ -30,6 +30,8 @@ namespace spindrift {
 namespace {
 
 constexpr std::string_view kAnomaly = "anomaly_deg";
+// At the surface the field has up to 67,000 nT.
+constexpr double kStrongest_nt = 100'000.0;
 
 /// The orbit of a mission and the field of a date.
 struct OrbitAndField {
@@ -92,6 +94,14 @@ Expected<double> anomaly_deg_of(const FileLine& line) {
     return refused(fmt::format("{} = {}: must lie in [0, 360], behind the first", kAnomaly, deg));
   }
   return deg;
+}
+
+Unexpected no_field(const GeomagLookupOptions& options, double deg, double strength_nt) {
+  return Unexpected{
+      {ErrorCode::InvalidConfiguration,
+       fmt::format("{}: gives {:.0f} nT at {} deg, more than the Earth's field has "
+                   "anywhere, {:.0f} nT: of another kind than {}, or damaged",
+                   shown(options.table.string()), strength_nt, deg, kStrongest_nt, options.kind)}};
 }
 
 Expected<FieldTable> table_in(const GeomagLookupOptions& options) {
@@ -167,14 +177,18 @@ Expected<void> geomag_lookup(const GeomagLookupOptions& options) {
   nlohmann::json points = nlohmann::json::array();
   return for_each_row(options.points, kAnomaly,
                       [&](const FileLine& line) {
-                        return anomaly_deg_of(line).map([&](double deg) {
+                        return anomaly_deg_of(line).and_then([&](double deg) -> Expected<void> {
                           const Eigen::Vector3d field_nt = lookup(*table, deg * kRadPerDeg);
+                          if (field_nt.norm() > kStrongest_nt) {
+                            return no_field(options, deg, field_nt.norm());
+                          }
                           fmt::format_to(std::back_inserter(text), "{},{:.4f},{:.4f},{:.4f}\n", deg,
                                          field_nt.x(), field_nt.y(), field_nt.z());
                           points.push_back({{"anomaly_deg", deg},
                                             {"x_nt", field_nt.x()},
                                             {"y_nt", field_nt.y()},
                                             {"z_nt", field_nt.z()}});
+                          return {};
                         });
                       })
       .map([&] {

@@ -18,6 +18,13 @@ Unexpected OutputFile::failed() const {
 }
 
 Expected<OutputFile> OutputFile::create(const std::filesystem::path& path) {
+  std::error_code unknown;
+  if (std::filesystem::exists(path, unknown) && !std::filesystem::is_regular_file(path, unknown)) {
+    return Unexpected{{ErrorCode::InvalidConfiguration,
+                       fmt::format("{}: is there and is no file, which would be replaced: name "
+                                   "another",
+                                   shown(path.string()))}};
+  }
   std::filesystem::path beside = path;
   beside += ".partial";
   OutputFile file{path, beside, std::fopen(beside.c_str(), "wb")};

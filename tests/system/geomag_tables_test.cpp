@@ -1,5 +1,7 @@
 /// Tables of the field made, read and compiled as their users do.
 
+#include <sys/stat.h>
+
 #include <array>
 #include <bit>
 #include <cmath>
@@ -192,6 +194,11 @@ TEST_F(GeomagTables, HeaderCompilesWhateverTheNameAndReadsNothingOutside) {
                                     "_lookup(INFINITY, b);\n"
                                     "printf(\"%d\", b[0] != b[0]);\nreturn 0;\n}\n");
     EXPECT_EQ(compiled("gcc", folder_.path().string(), source), "11") << kind;
+    for (const std::string compiler : {"gcc", "clang"}) {
+      const std::string alone =
+          compiler + " -std=c99 -pedantic -Wall -Wextra -Werror -fsyntax-only " + path(kind + ".h");
+      EXPECT_EQ(std::system(alone.c_str()), 0) << alone;
+    }
   }
 }
 
@@ -246,6 +253,11 @@ TEST_F(GeomagTables, RefuseWhatCannotBe) {
   const std::string bare = kMission.substr(0, orbit) + kMission.substr(kMission.find("[three"));
   folder_.write("mission.toml", bare);
   refused(table("uniform", "80"), {"[orbit.elements]"});
+  folder_.write("mission.toml", kMission);
+  ASSERT_EQ(mkfifo(path("pipe").c_str(), 0600), 0);
+  Words into_pipe = table("uniform", "80");
+  into_pipe.back() = path("pipe");
+  refused(into_pipe, {"pipe: is there and is no file"});
 }
 
 TEST_F(GeomagTables, LookupRefusesOtherFilesAndAnomalies) {
@@ -262,6 +274,13 @@ TEST_F(GeomagTables, LookupRefusesOtherFilesAndAnomalies) {
   refused(lookup("chebyshev.bin", "chebyshev", "anomaly_deg\nnan\n"), {"anomalies.csv:2"});
   refused(lookup("chebyshev.bin", "chebyshev", "anomaly_deg\n361\n"), {"[0, 360]"});
   refused(lookup("chebyshev.bin", "chebyshev", "deg\n1\n"), {"must begin with the header"});
+  // Near the apogee of such an orbit the field fades as coefficients do.
+  std::string far = kMission;
+  far.replace(far.find("8000.0\ne = 0.1"), 14, "24400.0\ne = 0.73");
+  far.replace(far.find("anomaly_deg = 30.0"), 18, "anomaly_deg = 180.0");
+  folder_.write("mission.toml", far);
+  succeeded(table("uniform", "80"));
+  refused(lookup("uniform.bin", "chebyshev", kAnomalies), {"more than the Earth's field has"});
 }
 
 TEST(Femtosatellite, ComputesItsAttitudeItselfByItsTable) {

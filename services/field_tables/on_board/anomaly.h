@@ -20,10 +20,12 @@ static inline double field_table_anomaly_of_time(double since_epoch_s) {
   const double left = mean - 2.0 * pi * turns;
   const double half = fabs(left);
   double eccentric = fmin(half + e, pi);
+  double change = 1.0;
   double behind;
   int step;
-  for (step = 0; step < 50; ++step) {
-    eccentric -= (eccentric - e * sin(eccentric) - half) / (1.0 - e * cos(eccentric));
+  for (step = 0; step < 50 && fabs(change) > 1e-12; ++step) {
+    change = (eccentric - e * sin(eccentric) - half) / (1.0 - e * cos(eccentric));
+    eccentric -= change;
   }
   behind = 2.0 * atan2(sqrt(1.0 + e) * sin(0.5 * eccentric), sqrt(1.0 - e) * cos(0.5 * eccentric));
   return (left < 0.0 ? -behind : behind) + 2.0 * pi * turns - FIELD_TABLE_FIRST_ANOMALY_RAD;
