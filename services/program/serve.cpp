@@ -287,9 +287,10 @@ void show(const Health& health, ServiceTerminal& terminal, ConsoleFeed* feed) {
   }
 }
 
-/// Makes all threads share two heaps. What one thread takes another frees, so that with a heap for
-/// each thread, as by default, most of the memory would be free and of no use to the others.
-void share_heaps() { mallopt(M_ARENA_MAX, 2); }
+/// Makes all threads share four heaps. What one thread takes another frees, so that with a heap for
+/// each thread, as by default, most of the memory would be free and of no use to the others; with
+/// fewer the threads wait for each other.
+void share_heaps() { mallopt(M_ARENA_MAX, 4); }
 
 /// Continues the stored runs and alerts and submits the routed samples to the archive again.
 Expected<GoneOn> go_on(const ServiceParts& parts, ConsoleFeed* feed, Announcer& announcer) {
