@@ -1,5 +1,5 @@
 /// @file
-/// What a simulated satellite computes itself: its attitude from Sun and field, by the table of the
+/// A simulated satellite computes its attitude itself, from Sun and field, by the table of the
 /// field that it carries.
 
 #pragma once

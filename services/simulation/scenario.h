@@ -34,7 +34,7 @@ struct Scenario {
   std::variant<SpinScenario, SeparationScenario, TumblingScenario, OrientationScenario> flight;
   /// Text of its mission file, without the reports of a separation; its orbit is orbit.oem.
   std::string mission_toml;
-  std::optional<CarriedTable> carried_table;  ///< What a three-axis spacecraft carries.
+  std::optional<CarriedTable> carried_table;  ///< The table that a three-axis spacecraft carries.
 };
 
 /// Reads a scenario file and lists violations of its schema (scenario_schema.h) in `problems`.

@@ -36,7 +36,7 @@ struct SimulatedPass {
   std::vector<Counted> faults;
   std::optional<BodyMotion> motion = {};     ///< Motion of a three-axis spacecraft.
   std::vector<ControlRecord> control = {};   ///< Records of its wheels, where they turn it.
-  std::optional<OnBoardPass> on_board = {};  ///< What it computes itself, if it carries a table.
+  std::optional<OnBoardPass> on_board = {};  ///< Present if the satellite carries a table.
 };
 
 /// @return InvalidConfiguration where the scenario's orbit does not allow it.
