@@ -44,13 +44,23 @@ struct Inertia {
   double sigma_fraction;  ///< Relative standard deviation of each principal moment.
 };
 
-// An empty member means that the spacecraft lacks the sensor, or that the inertia is unknown.
+/// The commanded attitude, which stands still in one of two frames.
+struct NominalAttitude {
+  enum class Frame { Icrf, Orbit };
+
+  Frame frame;
+  Eigen::Quaterniond q_frame_body;  ///< Unit quaternion.
+};
+
+// An empty member means that the spacecraft lacks the sensor, or that the inertia or the
+// commanded attitude is unknown.
 struct ThreeAxisConfig {
   std::optional<GyroSensor> gyro;
   std::optional<DigitalSunSensor> sun_sensor;
   std::optional<StarTracker> star_tracker;
   std::optional<Magnetometer> magnetometer;
   std::optional<Inertia> inertia;
+  std::optional<NominalAttitude> nominal = {};
   AttitudeAlignment alignment = AttitudeAlignment::Zero();
 };
 

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "services/mission/mission_alignment.h"
@@ -39,14 +40,20 @@ std::optional<DigitalSunSensor> sun_sensor(const TomlValues& values) {
              : std::nullopt;
 }
 
+/// Returns a quaternion of the form "unit_quaternion", of exactly unit length.
+std::optional<Eigen::Quaterniond> quaternion_if(const TomlValues& values, const std::string& key) {
+  const auto q = value_if<std::vector<double>>(values, key);
+  return q ? std::optional{Eigen::Quaterniond{q->at(3), q->at(0), q->at(1), q->at(2)}.normalized()}
+           : std::nullopt;
+}
+
 std::optional<StarTracker> star_tracker(const TomlValues& values) {
-  const auto q = value_if<std::vector<double>>(values, "three_axis.star_tracker.q_body_sensor");
-  if (!q) {
+  const auto q_body_sensor = quaternion_if(values, "three_axis.star_tracker.q_body_sensor");
+  if (!q_body_sensor) {
     return std::nullopt;
   }
-  const Eigen::Quaterniond q_body_sensor{q->at(3), q->at(0), q->at(1), q->at(2)};
   return StarTracker{
-      .q_body_sensor = q_body_sensor.normalized(),
+      .q_body_sensor = *q_body_sensor,
       .noise_rad = radians(values, "three_axis.star_tracker.noise_arcsec") / kArcsecPerDeg,
       .view = field_of_view(values, "three_axis.star_tracker")};
 }
@@ -64,6 +71,17 @@ std::optional<Inertia> inertia(const TomlValues& values, const AttitudeAlignment
   // The matrix is symmetric, so row or column order is the same.
   return Inertia{.kg_m2 = Eigen::Map<const Eigen::Matrix3d>{kg_m2->data()},
                  .sigma_fraction = std::sqrt(alignment.diagonal().segment<3>(InertiaError).mean())};
+}
+
+std::optional<NominalAttitude> nominal_attitude(const TomlValues& values) {
+  using Frame = NominalAttitude::Frame;
+  for (const auto& [key, frame] : {std::pair{"three_axis.nominal.q_orbit_body", Frame::Orbit},
+                                   {"three_axis.nominal.q_icrf_body", Frame::Icrf}}) {
+    if (const auto q_frame_body = quaternion_if(values, key)) {
+      return NominalAttitude{.frame = frame, .q_frame_body = *q_frame_body};
+    }
+  }
+  return std::nullopt;
 }
 
 }  // namespace
@@ -92,6 +110,7 @@ ThreeAxisConfig three_axis_config(const TomlValues& values) {
           .star_tracker = star_tracker(values),
           .magnetometer = magnetometer(values),
           .inertia = inertia(values, alignment),
+          .nominal = nominal_attitude(values),
           .alignment = alignment};
 }
 

@@ -83,6 +83,23 @@ noise_arcsec = 20
                           "must have a direction"));
 }
 
+TEST(MissionRefusals, TakeOneCommandedAttitudeOfUnitLength) {
+  const auto problems = [](const std::string& keys) {
+    return problems_of(std::string{kElements} + "[three_axis.nominal]\n" + keys);
+  };
+  EXPECT_THAT(problems("q_orbit_body = [0, 0, 0, 1]"), IsEmpty());
+  EXPECT_THAT(problems(""), ElementsAre("mission.toml:12: three_axis.nominal: must have exactly "
+                                        "one of q_orbit_body, q_icrf_body, has 0"));
+  EXPECT_THAT(problems("q_orbit_body = [0, 0, 0, 1]\nq_icrf_body = [0, 0, 0, 1]"),
+              ElementsAre("mission.toml:12: three_axis.nominal: must have exactly one of "
+                          "q_orbit_body, q_icrf_body, has 2"));
+  EXPECT_THAT(
+      problems("q_icrf_body = [0, 0, 0.5, 0.5]"),
+      ElementsAre(StartsWith("mission.toml:13: three_axis.nominal.q_icrf_body = [ 0, 0, 0.5, "
+                             "0.5 ]: must be an array of 4 numbers in [-1, 1], a "
+                             "quaternion of unit length")));
+}
+
 struct Range {
   const char* path;
   std::vector<const char*> good;

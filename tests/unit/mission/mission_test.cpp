@@ -256,4 +256,20 @@ TEST(Mission, HasLimitsOfItsOwnBeforeAndAfterTheContactUntilAnOperatorSetsOne) {
   EXPECT_EQ(limits.at(los).sigma_after_s, 0.0);
 }
 
+TEST(Mission, GivesTheCommandedAttitudeInItsFrame) {
+  const auto nominal = [](const std::string& keys) {
+    return value_or_throw(load(std::string{kElements} + keys)).three_axis()->nominal;
+  };
+  EXPECT_FALSE(nominal(""));
+  const auto in_orbit = nominal("[three_axis.nominal]\nq_orbit_body = [0.6, 0, 0, 0.8]\n");
+  ASSERT_TRUE(in_orbit);
+  EXPECT_EQ(in_orbit->frame, NominalAttitude::Frame::Orbit);
+  EXPECT_NEAR(in_orbit->q_frame_body.x(), 0.6, 1e-12);
+  EXPECT_NEAR(in_orbit->q_frame_body.w(), 0.8, 1e-12);
+  const auto in_icrf = nominal("[three_axis.nominal]\nq_icrf_body = [0, 0, 0.7071, 0.7071]\n");
+  ASSERT_TRUE(in_icrf);
+  EXPECT_EQ(in_icrf->frame, NominalAttitude::Frame::Icrf);
+  EXPECT_NEAR(in_icrf->q_frame_body.norm(), 1.0, 1e-12) << "it is made of unit length";
+}
+
 }  // namespace spindrift::mission_test
