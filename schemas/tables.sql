@@ -719,6 +719,19 @@ CREATE TABLE gyro_bias (
   PRIMARY KEY (run_id, t_tai_ns, estimator)
 ) STRICT, WITHOUT ROWID;
 
+-- What the gates of a three-axis spacecraft say from then on; before its first row a gate is closed. evidence, of the
+-- window of samples that decided: value of its last one, threshold, unit, hits, window (samples), share (of hits that
+-- opens the gate), since_tai_ns (its first one); of lost certain (1: the Sun says the same) and sun_deg, of reached
+-- sigma_deg, of safe mean_nis, sigma_deg, lead_nats.
+CREATE TABLE gate_transition (
+  run_id   TEXT NOT NULL REFERENCES run,
+  t_tai_ns INTEGER NOT NULL,
+  gate     TEXT NOT NULL CHECK (gate IN ('lost', 'usable', 'safe', 'reached')),
+  open     INTEGER NOT NULL CHECK (open IN (0, 1)),
+  evidence TEXT NOT NULL,  -- JSON: an object
+  PRIMARY KEY (run_id, t_tai_ns, gate)
+) STRICT, WITHOUT ROWID;
+
 -- The attitude from separation to the star fixes, reconstructed: its events and its history stand in the two
 -- tables around. The last solution of a run; a service makes the first when the first star fix arrives, and one
 -- of all samples when the run ends. t_tai_ns: of the end of the history. samples: that had come by then. Bias of the gyro: NULL but for batch. launcher_...: how far the

@@ -9,11 +9,14 @@
 #include <variant>
 
 #include "pipelines/statistics/distributions.h"
+#include "pipelines/time/time_span.h"
 
 namespace spindrift {
 namespace {
 
 constexpr double kBetweenJudgements_s = 1.0;
+/// Time for which the lost gate is believed after the magnetometer has spoken.
+constexpr double kFieldHolds_s = 10.0;
 
 ConditionChanges changes_of(std::optional<ConditionChange> change) {
   return change ? ConditionChanges{std::move(*change)} : ConditionChanges{};
@@ -26,6 +29,21 @@ bool begins_anew(const AttitudeEstimate& estimate) {
     return reason.code == ReasonCode::Since &&
            std::get<std::int64_t>(reason.values.front().value) == tai_ns(estimate.t);
   });
+}
+
+/// Gives a lost attitude the numbers of the gate that says so.
+void describe(const GateTransition& gate, ConditionChange& change) {
+  const GateRule rule = rule_of(gate.gate);
+  Evidence& evidence = change.evidence;
+  evidence.value = gate.value;
+  evidence.limit = rule.threshold;
+  evidence.unit = rule.unit;
+  evidence.since = gate.since;
+  evidence.is_presence = false;
+  evidence.more = gate.more;
+  evidence.more.push_back({"gate", std::string{name_of(gate.gate)}});
+  evidence.more.push_back({"hits", std::int64_t{gate.hits}});
+  evidence.more.push_back({"window", std::int64_t{gate.window}});
 }
 
 /// Returns the percentage of chi-square values that lie closer to the median.
@@ -50,6 +68,7 @@ AttitudeConditions::AttitudeConditions(const AlertLimits& limits, std::optional<
       diverged_{AlertCode::AttitudeDiverged,
                 "% of chi-square",
                 {.raise_s = limits.diverged_s, .clear_s = limits.diverged_s}},
+      has_lost_gate_{config.nominal.has_value()},
       doubtful_{AlertCode::AttitudeDoubtful,
                 "s",
                 {.raise_s = limits.attitude_doubtful_s, .clear_s = limits.attitude_doubtful_s}},
@@ -92,7 +111,36 @@ ConditionChanges AttitudeConditions::evaluate(const RejectedSample& sample) {
 
 ConditionChanges AttitudeConditions::evaluate(const SampleObservation& observation) {
   views_.see_sample(kind_of(observation.said.source), observation.said.t);
+  if (observation.said.source == SampleSource::Magnetometer) {
+    field_ = observation.said.t;
+  }
   return {};
+}
+
+ConditionChanges AttitudeConditions::evaluate(const GateTransition& transition) {
+  if (transition.gate != Gate::Lost) {
+    return {};
+  }
+  lost_gate_ = transition;
+  field_ = transition.t;
+  last_ = std::max(last_.value_or(transition.t), transition.t);
+  return changes_of(see_lost(transition.t, transition.open));
+}
+
+/// Where the field is held against that of the commanded attitude, the gate alone decides: the
+/// answer may be lost for want of sensors while the body is where it should be.
+/// @param by_answer Whether the answer by itself is lost.
+bool AttitudeConditions::is_lost(TaiTime t, bool by_answer) const {
+  const bool gate_speaks = has_lost_gate_ && field_ && elapsed_s(*field_, t) <= kFieldHolds_s;
+  return gate_speaks ? lost_gate_ && lost_gate_->open : by_answer;
+}
+
+std::optional<ConditionChange> AttitudeConditions::see_lost(TaiTime t, bool is_lost) {
+  auto change = lost_.update(t, is_lost, quality_);
+  if (change && change->change == Change::Raised && lost_gate_ && lost_gate_->open) {
+    describe(*lost_gate_, *change);
+  }
+  return change;
 }
 
 ConditionChanges AttitudeConditions::evaluate(const AttitudeEstimate& estimate) {
@@ -100,13 +148,12 @@ ConditionChanges AttitudeConditions::evaluate(const AttitudeEstimate& estimate) 
   std::ranges::move(stuck_.see_answer(estimate.t), std::back_inserter(changes));
   std::ranges::move(views_.see_answer(estimate), std::back_inserter(changes));
   presence_.see_answer(estimate.t);
-  const Quality quality = at_best(estimate.assessment.quality);
-  add(doubtful_.update(estimate.t, quality == Quality::Doubtful), changes);
-  add(lost_.update(estimate.t, quality == Quality::Lost || begins_anew(estimate), quality),
-      changes);
+  quality_ = at_best(estimate.assessment.quality);
+  add(doubtful_.update(estimate.t, quality_ == Quality::Doubtful), changes);
+  const bool by_answer = quality_ == Quality::Lost || begins_anew(estimate);
+  add(see_lost(estimate.t, is_lost(estimate.t, by_answer)), changes);
   add(see_innovations(estimate), changes);
   last_ = estimate.t;
-  quality_ = quality;
   return changes;
 }
 
@@ -133,7 +180,7 @@ ConditionChanges AttitudeConditions::settle() {
     doubtful_.end();
     // Behind all that was judged, since a change at the time of another would be taken for known.
     const TaiTime t = *last_ + std::chrono::nanoseconds{1};
-    add(lost_.update(t, quality_ == Quality::Lost, quality_), changes);
+    add(see_lost(t, is_lost(*last_, quality_ == Quality::Lost)), changes);
     add(doubtful_.update(t, quality_ == Quality::Doubtful), changes);
     // One window outside the band may be noise, so that the last one alone raises nothing.
     if (percent_ && *percent_ < diverged_percent_) {

@@ -51,6 +51,7 @@ class AttitudeConditions {
   }
   ConditionChanges evaluate(const RejectedSample& sample);
   ConditionChanges evaluate(const SampleObservation& observation);
+  ConditionChanges evaluate(const GateTransition& transition);
   ConditionChanges evaluate(const ReconstructedSeparation& separation);
 
   /// Notes that the computation of the run failed at `t`: no answer is better than DOUBTFUL now.
@@ -62,6 +63,8 @@ class AttitudeConditions {
 
  private:
   Quality at_best(Quality quality) const;
+  bool is_lost(TaiTime t, bool by_answer) const;
+  std::optional<ConditionChange> see_lost(TaiTime t, bool is_lost);
   std::optional<ConditionChange> see_innovations(const AttitudeEstimate& estimate);
 
   double launcher_percent_;
@@ -80,6 +83,9 @@ class AttitudeConditions {
   std::optional<double> percent_;  ///< Result of that test.
   ConditionWatch diverged_;
   LostWatch lost_;
+  bool has_lost_gate_;
+  std::optional<GateTransition> lost_gate_;  ///< Its last transition.
+  std::optional<TaiTime> field_;             ///< When the magnetometer last spoke.
   ConditionWatch doubtful_;
   AnswerPresence presence_;
   std::vector<AwaitedSample> awaited_;  ///< Samples whose answers may not have come yet.

@@ -118,6 +118,9 @@ class AttitudeEstimator {
   void note_accepted(SampleKind kind, TaiTime t);
 
   const SensorHealths& sensors() const { return sensors_; }
+  /// Returns whether the last sample of a sensor other than the gyro repeated the one before it, so
+  /// that it is no measurement.
+  bool has_repeated(SampleKind kind) const { return frozen_.at(index_of(kind)).repeats() > 0; }
   /// Returns the filter; empty before the attitude has begun and after it was lost.
   const std::optional<Mekf>& filter() const { return filter_; }
   /// Returns the largest ratio of observed to stated variance among the sensors, at least 1.

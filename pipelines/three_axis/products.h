@@ -13,6 +13,7 @@
 #include <variant>
 
 #include "pipelines/core/assessment.h"
+#include "pipelines/observation/gate.h"
 #include "pipelines/observation/normal_equations.h"
 #include "pipelines/observation/observation.h"
 #include "pipelines/observation/sensor_contradiction.h"
@@ -99,7 +100,8 @@ struct SampleObservation {
   Observation said;
 };
 
-using ThreeAxisProduct = std::variant<RejectedSample, AttitudeEstimate, SampleObservation,
-                                      SampleContradiction, NormalEquations, SensorsCompared>;
+using ThreeAxisProduct =
+    std::variant<RejectedSample, AttitudeEstimate, SampleObservation, SampleContradiction,
+                 NormalEquations, SensorsCompared, GateTransition>;
 
 }  // namespace spindrift

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "pipelines/ephemeris/kepler_orbit.h"
 #include "pipelines/frames/angle.h"
@@ -20,7 +21,8 @@ ThreeAxisPass::ThreeAxisPass(const ThreeAxisConfig& config, std::optional<Orbit>
       orbit_is_of_mission_{orbit_.has_value()},
       orbit_steps_{orbit_ ? orbit_steps(*orbit_) : std::vector<OrbitStep>{}},
       field_{std::move(field)},
-      estimator_{config} {}
+      estimator_{config},
+      gates_{config.nominal} {}
 
 ThreeAxisOutput ThreeAxisPass::process(const OrderedSample& sample) {
   ThreeAxisOutput out;
@@ -46,6 +48,7 @@ ThreeAxisOutput ThreeAxisPass::process(const OrderedSample& sample) {
   }
   compute(window_.release(), out);
   doubt_where_orbit_steps(out);
+  judge_answers(out);
   say_what_is_left_out(out);
   return out;
 }
@@ -86,6 +89,7 @@ ThreeAxisOutput ThreeAxisPass::fall_silent() {
   estimator_.settle(out.products);
   tell_of_mission(out);
   doubt_where_orbit_steps(out);
+  judge_answers(out);
   say_what_is_left_out(out);
   return out;
 }
@@ -101,6 +105,7 @@ ThreeAxisOutput ThreeAxisPass::finish() {
   estimator_.settle(out.products);
   tell_of_mission(out);
   doubt_where_orbit_steps(out);
+  judge_answers(out);
   say_what_is_left_out(out);
   if (!estimator_.ever_began()) {
     const auto accepted = [this](SampleKind kind) {
@@ -166,6 +171,9 @@ void ThreeAxisPass::compute(const SunDirection& sun, ThreeAxisOutput& out) {
                                               .ref = sun_icrf,
                                               .sigma_rad = config_.sun_sensor->noise_rad}},
                   out.products);
+  if (!estimator_.has_repeated(SampleKind::Sun)) {
+    gates_.see_sun(sun.t, sun.sun_body, sun_icrf, spacecraft);
+  }
 }
 
 void ThreeAxisPass::compute(const MagneticField& field, ThreeAxisOutput& out) {
@@ -194,6 +202,9 @@ void ThreeAxisPass::compute(const MagneticField& field, ThreeAxisOutput& out) {
                                               .sigma_rad = noise_nt / strength_nt},
                                 .stronger = (field.field_body_nt.norm() - strength_nt) / noise_nt},
                   out.products);
+  if (!estimator_.has_repeated(SampleKind::Magnetometer)) {
+    gates_.see_field(field.t, field.field_body_nt, *known_icrf_nt, spacecraft, out.products);
+  }
 }
 
 void ThreeAxisPass::tell_of_mission(ThreeAxisOutput& out) const {
@@ -265,6 +276,20 @@ void ThreeAxisPass::doubt_where_orbit_steps(ThreeAxisOutput& out) {
       doubt(estimate->assessment, reason);
     }
   }
+}
+
+/// Shows the gates what the filter made of the samples.
+void ThreeAxisPass::judge_answers(ThreeAxisOutput& out) {
+  std::vector<ThreeAxisProduct> transitions;
+  for (const ThreeAxisProduct& product : out.products) {
+    if (const auto* const estimate = std::get_if<AttitudeEstimate>(&product)) {
+      gates_.see(*estimate, spacecraft_at(estimate->t), transitions);
+    } else if (const auto* const seen = std::get_if<SampleObservation>(&product);
+               seen != nullptr && seen->said.source == SampleSource::Magnetometer) {
+      gates_.see_innovation(seen->said, transitions);
+    }
+  }
+  std::ranges::move(transitions, std::back_inserter(out.products));
 }
 
 /// Gives a notice for each kind of which one test rejects nearly all samples.

@@ -34,6 +34,7 @@
 #include "pipelines/observation/normal_equations.h"
 #include "pipelines/three_axis/attitude_action.h"
 #include "pipelines/three_axis/attitude_estimator.h"
+#include "pipelines/three_axis/attitude_gates.h"
 #include "pipelines/three_axis/config.h"
 #include "pipelines/three_axis/products.h"
 #include "pipelines/three_axis/samples.h"
@@ -119,6 +120,7 @@ class ThreeAxisPass {
   void leave_out(const OrderedSample& sample, Rejection rejected_by, ThreeAxisOutput& out);
   bool has_sensor(SampleKind kind) const;
   void doubt_where_orbit_steps(ThreeAxisOutput& out);
+  void judge_answers(ThreeAxisOutput& out);
   void say_once(Notice notice, ThreeAxisOutput& out);
   void say_what_is_left_out(ThreeAxisOutput& out);
   Notice most_left_out(const RejectedSample& last, double percent) const;
@@ -135,6 +137,7 @@ class ThreeAxisPass {
   BasicReorderWindow<OrderedSample> window_;
   Contested<OrderedSample> contested_;
   AttitudeEstimator estimator_;
+  AttitudeGates gates_;
   Exclusions<SampleKind> excluded_;
   std::set<NoticeCode> said_;
   std::map<std::pair<SampleKind, Rejection>, std::int64_t> left_out_;

@@ -13,7 +13,7 @@ namespace spindrift {
 inline constexpr std::int32_t kArchiveApplicationId = 0x73706472;
 
 /// PRAGMA user_version of the archives, to be raised with every change of a table or view.
-inline constexpr int kArchiveSchemaVersion = 36;
+inline constexpr int kArchiveSchemaVersion = 37;
 
 /// Creates tables and views in `database` in one transaction, unless it is an archive already.
 /// @throws SQLite::Exception

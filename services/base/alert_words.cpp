@@ -99,6 +99,19 @@ constexpr Words kNoCulprit{
     "which is wrong",
     "check mounting, signs, units and time tags of both in the mission file"};
 
+/// Words for an attitude that the lost gate declares lost.
+constexpr Words kLostGate{
+    AttitudeLost,
+    "the lost gate is open: the measured field is away from that of the commanded attitude",
+    "stop control until the attitude is found again"};
+
+/// Returns the value of what else is known by a name; null if there is none.
+const NamedValue::Value* known(const Evidence& evidence, std::string_view name) {
+  const auto found = std::find_if(evidence.more.begin(), evidence.more.end(),
+                                  [&](const NamedValue& one) { return one.name == name; });
+  return found != evidence.more.end() ? &found->value : nullptr;
+}
+
 const Words& words_for(AlertCode code, std::string_view about) {
   return code == SensorContradicts && about == kUnknownCulprit
              ? kNoCulprit
@@ -140,6 +153,16 @@ std::string what_of(AlertCode code, std::string_view about) {
                                                    : fmt::format("{} ({})", what, thing);
 }
 
+/// Returns how many samples of a gate's window were hits; empty of any other condition.
+std::string window_text(const Evidence& evidence) {
+  const auto* const hits = known(evidence, "hits");
+  const auto* const window = known(evidence, "window");
+  return hits != nullptr && window != nullptr
+             ? fmt::format(" in {} of {} samples", std::get<std::int64_t>(*hits),
+                           std::get<std::int64_t>(*window))
+             : std::string{};
+}
+
 std::string value_text(const ConditionChange& change) {
   const Evidence& evidence = change.evidence;
   if (const Ending* const ending = ending_of(change.code, change.about)) {
@@ -156,15 +179,27 @@ std::string value_text(const ConditionChange& change) {
                                 ? ", worst " + digits_of(*evidence.worst, evidence.unit)
                                 : std::string{};
   const bool has_unit = evidence.unit != "s" || evidence.value < kLong_s;
-  return fmt::format("{}{}{}{}{}, limit {}", change.code == ChannelSilent ? " for " : ": ",
+  return fmt::format("{}{}{}{}{}, limit {}{}", change.code == ChannelSilent ? " for " : ": ",
                      digits_of(evidence.value, evidence.unit),
                      has_unit ? fmt::format(" {}", evidence.unit) : "", sigma, worst,
-                     digits_of(evidence.limit, evidence.unit));
+                     digits_of(evidence.limit, evidence.unit), window_text(evidence));
+}
+
+bool is_by_gate(const ConditionChange& change) {
+  return change.code == AttitudeLost && known(change.evidence, "gate") != nullptr;
+}
+
+std::string what_of(const ConditionChange& change) {
+  const bool names_it = ending_of(change.code, change.about) == nullptr;
+  return is_by_gate(change) ? std::string{kLostGate.what}
+                            : what_of(change.code, names_it ? change.about : "");
 }
 
 std::string_view what_to_do(const ConditionChange& change) {
   const Ending* const ending = ending_of(change.code, change.about);
-  return ending != nullptr ? ending->to_do : words_for(change.code, change.about).to_do;
+  return ending != nullptr    ? ending->to_do
+         : is_by_gate(change) ? kLostGate.to_do
+                              : words_for(change.code, change.about).to_do;
 }
 
 }  // namespace
@@ -180,9 +215,8 @@ std::string sentence_of(const ConditionChange& change, std::int64_t count) {
                                 ? fmt::format(", since {}", format_utc(change.evidence.since))
                                 : std::string{};
   const std::string often = count > 1 ? fmt::format(", {} times so far", count) : std::string{};
-  const bool names_it = ending_of(change.code, change.about) == nullptr;
-  return fmt::format("{}{}{} at {}{}{}: {}", what_of(change.code, names_it ? change.about : ""),
-                     who, value_text(change), format_utc(t), since, often, what_to_do(change));
+  return fmt::format("{}{}{} at {}{}{}: {}", what_of(change), who, value_text(change),
+                     format_utc(t), since, often, what_to_do(change));
 }
 
 std::string words_of(const std::string& key) {

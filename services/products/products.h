@@ -13,6 +13,7 @@
 #include "services/products/alert.h"
 #include "services/products/attitude.h"
 #include "services/products/batch_solution.h"
+#include "services/products/gate_transition.h"
 #include "services/products/model_comparison.h"
 #include "services/products/normal_equations.h"
 #include "services/products/product_kind.h"
@@ -36,7 +37,7 @@ using Product =
     std::variant<PulseUse, RevolutionProduct, SpinMeasurement, SpinFix, SpinEstimate, BatchProduct,
                  RunFault, RejectedSample, AttitudeEstimate, SampleObservation,
                  ReconstructionProduct, ChannelComparison, SampleContradiction, Alert, RunNotice,
-                 AxisChoice, NormalEquations, SpinAnswer, SensorsCompared>;
+                 AxisChoice, NormalEquations, SpinAnswer, SensorsCompared, GateTransition>;
 
 /// Index of a kind in Product.
 template <class Kind>

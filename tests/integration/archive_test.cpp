@@ -79,7 +79,8 @@ TEST_F(ArchiveTest, ANewFileHasTheTablesAndColumnsOfTheContract) {
       {"separation_verdict",
        "run_id method quality t1_tai_ns qx qy qz qw sigma_deg noise_sigma_deg launcher_angle_deg "
        "why"},
-      {"normal_equations", "run_id names b0 n g"}};
+      {"normal_equations", "run_id names b0 n g"},
+      {"gate_transition", "run_id t_tai_ns gate open evidence"}};
   const auto archive = open();
 
   for (const auto& [table, columns] : contract) {

@@ -28,8 +28,12 @@ namespace spindrift::three_axis_restart_test {
 using ::testing::ElementsAre;
 
 /// The pass is more than twice as long as what a restart recomputes.
-constexpr testing::ThreeAxisScene kLongPass{
-    .duration_s = 1300.0, .gyro_s = 1.0, .star_s = 10.0, .sun_s = 5.0, .separation = true};
+constexpr testing::ThreeAxisScene kLongPass{.duration_s = 1300.0,
+                                            .gyro_s = 1.0,
+                                            .star_s = 10.0,
+                                            .sun_s = 5.0,
+                                            .separation = true,
+                                            .commanded_deg = 0.0};
 constexpr std::size_t kSamplesABatch = 13;
 constexpr std::size_t kSilence = 90;  ///< Index of the batch before which the stream falls silent.
 
@@ -229,6 +233,10 @@ TEST_F(ThreeAxisRestart, KilledAtAnyPointGivesWhatNoRestartWouldHave) {
   const auto whole_db = directory() / "whole.db";
   receive_unstopped(whole_db);
   ASSERT_GT(count_rows(whole_db, "attitude WHERE source = 'mekf'"), 1000);
+  for (const char* const gate : {"lost", "usable", "reached"}) {
+    ASSERT_GT(count_rows(whole_db, fmt::format("gate_transition WHERE gate = '{}'", gate)), 0)
+        << gate;
+  }
   ASSERT_THAT(
       rows_of(whole_db, "SELECT method, event FROM reconstruction_event WHERE event = 'T1'"),
       ElementsAre("batch|T1|", "sequential|T1|"));

@@ -62,6 +62,13 @@ void write_three_axis_pass(const std::filesystem::path& folder, const ThreeAxisS
       << mission_toml(config)
       << (scene.separation ? fmt::format("[reconstruction]\nt1_tai_ns = {}\n", tai_ns(at_s(-60.0)))
                            : "");
+  if (scene.commanded_deg) {
+    const Eigen::Quaterniond q =
+        body.q_icrf_body(0.0) *
+        Eigen::AngleAxisd{*scene.commanded_deg * kRadPerDeg, Eigen::Vector3d::UnitX()};
+    std::ofstream{folder / "mission.toml", std::ios::app} << fmt::format(
+        "[three_axis.nominal]\nq_icrf_body = [{}, {}, {}, {}]\n", q.x(), q.y(), q.z(), q.w());
+  }
 
   const double end_s = scene.duration_s;
   write_rows(folder / "gyro.csv", "wx_rad_s,wy_rad_s,wz_rad_s", 0.0, end_s, scene.gyro_s,

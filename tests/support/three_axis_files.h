@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 
 namespace spindrift::testing {
 
@@ -16,6 +17,8 @@ struct ThreeAxisScene {
   double sun_s = 0.5;  ///< Interval of sun sensor and magnetometer.
   /// Whether the mission states a separation 60 s before the first sample.
   bool separation = false;
+  /// Angle of the commanded attitude to that of the first sample, about x; none is stated without.
+  std::optional<double> commanded_deg = {};
 };
 
 /// Writes mission.toml of a spacecraft "SAT" without an orbit and a CSV file of each kind. The body

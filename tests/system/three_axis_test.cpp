@@ -94,14 +94,15 @@ TEST(ThreeAxis, SunAndMagnetometerGiveTheAttitudeBeforeTheFirstStarFix) {
 /// Returns what an archive holds of a pass, without its runs.
 std::vector<std::string> pass_rows(const std::filesystem::path& db) {
   return rows_of(
-      db, std::vector<std::string>{
-              "SELECT t_tai_ns, source, qx, qy, qz, qw, rate_x_rad_s, rate_y_rad_s, rate_z_rad_s, "
-              "sigma_deg, quality, reasons, status FROM attitude ORDER BY 1",
-              "SELECT t_tai_ns, kind, rejected_by, squared_innovation FROM rejected_sample ORDER "
-              "BY 1, 2",
-              "SELECT spacecraft_id, finished, estimator, quality, qx, sigma_deg, why FROM "
-              "pass_verdict",
-              kAllSamples});
+      db,
+      std::vector<std::string>{
+          "SELECT t_tai_ns, source, qx, qy, qz, qw, rate_x_rad_s, rate_y_rad_s, rate_z_rad_s, "
+          "sigma_deg, quality, reasons, status FROM attitude ORDER BY 1",
+          "SELECT t_tai_ns, kind, rejected_by, squared_innovation FROM rejected_sample ORDER "
+          "BY 1, 2",
+          "SELECT spacecraft_id, finished, estimator, quality, qx, sigma_deg, why FROM "
+          "pass_verdict",
+          "SELECT t_tai_ns, gate, open, evidence FROM gate_transition ORDER BY 1, 2", kAllSamples});
 }
 
 /// Returns the time of the last attitude that a late subscriber receives.
@@ -113,9 +114,16 @@ std::int64_t last_on(const bus::BusConfig& bus) {
 
 TEST(ThreeAxis, ServeGivesWhatProcessGivesAlsoWhenItIsKilledInThePass) {
   const TemporaryFolder pass;
-  testing::write_three_axis_pass(pass.path());
+  testing::write_three_axis_pass(pass.path(), {.commanded_deg = 40.0});
   const Processed outcome{pass.path()};
   const std::vector<std::string> expected = pass_rows(outcome.db);
+  EXPECT_THAT(rows_of(outcome.db,
+                      "SELECT open, evidence ->> 'threshold', evidence ->> 'window', evidence ->> "
+                      "'hits' > 6 AND evidence ->> 'value' > 5, evidence ->> 'certain' FROM "
+                      "gate_transition WHERE gate = 'lost' LIMIT 1"),
+              ElementsAre("1|0x1.4p+2|10|1|1|"));
+  EXPECT_THAT(rows_of(outcome.db, "SELECT message FROM alert WHERE key = 'attitude.lost'"),
+              ElementsAre(HasSubstr("the lost gate is open")));
   const std::int64_t last = number_of(outcome.db, "SELECT max(t_tai_ns) FROM attitude");
   ASSERT_EQ(count_rows(outcome.db, "rejected_sample"), 2);
   ASSERT_EQ(outcome.run["attitude"]["quality"], "OK");

@@ -109,6 +109,16 @@ TEST(AlertWords, SayNothingOfTheValueOfAMerePresence) {
   EXPECT_THAT(sentence_of(lost), StartsWith("the answer in force is LOST at "));
 }
 
+TEST(AlertWords, NameTheGateThatSaysThatTheAttitudeIsLost) {
+  auto lost = change(AlertCode::AttitudeLost, Change::Raised, 5.0);
+  lost.evidence.value = 10.25;
+  lost.evidence.more = {{"gate", "lost"}, {"hits", std::int64_t{9}}, {"window", std::int64_t{10}}};
+  EXPECT_EQ(sentence_of(lost),
+            "the lost gate is open: the measured field is away from that of the commanded "
+            "attitude: 10.2 deg, limit 5 in 9 of 10 samples at 2026-11-20T03:00:00.000Z: stop "
+            "control until the attitude is found again");
+}
+
 TEST(AlertWords, SayWhatEndsAndWhen) {
   auto outdated = change(AlertCode::DataOutdated, Change::Raised, 24.0);
   outdated.about = "orbit";

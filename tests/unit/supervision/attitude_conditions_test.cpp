@@ -1,5 +1,7 @@
 #include "pipelines/supervision/attitude_conditions.h"
 
+#include <algorithm>
+#include <cstdint>
 #include <optional>
 #include <set>
 #include <string>
@@ -60,6 +62,80 @@ TEST_F(AttitudeConditionsTest, RaiseThatStarFixesOverruleTheAttitude) {
   EXPECT_THAT(lost_by(conditions_, anew), IsEmpty());
   EXPECT_THAT(lost_by(conditions_, estimate(3.0, Quality::Ok)), IsEmpty());
   EXPECT_THAT(lost_by(conditions_, estimate(13.0, Quality::Ok)), only(Change::Cleared));
+}
+
+ThreeAxisConfig commanded() {
+  return {.gyro = {},
+          .sun_sensor = {},
+          .star_tracker = {},
+          .magnetometer = Magnetometer{.noise_nt = 100.0},
+          .inertia = {},
+          .nominal = NominalAttitude{.frame = NominalAttitude::Frame::Icrf,
+                                     .q_frame_body = Eigen::Quaterniond::Identity()}};
+}
+
+SampleObservation field(double t_s) {
+  return {.estimator = AttitudeSource::Mekf,
+          .said = {.t = at(t_s), .source = SampleSource::Magnetometer}};
+}
+
+GateTransition lost_gate(double t_s, bool open) {
+  return {.t = at(t_s),
+          .gate = Gate::Lost,
+          .open = open,
+          .value = open ? 12.5 : 1.0,
+          .since = at(t_s - 9.0),
+          .hits = open ? 9 : 1,
+          .window = 10,
+          .more = {{"certain", std::int64_t{1}}}};
+}
+
+TEST(LostGate, RaisesALostAttitudeUntilItIsClosedAndTheAnswerIsOk) {
+  AttitudeConditions conditions{AlertLimits{}, std::nullopt, commanded()};
+  const ConditionChanges raised = conditions.evaluate(lost_gate(9.0, true));
+  ASSERT_THAT(raised, only(Change::Raised));
+  EXPECT_EQ(raised[0].code, AlertCode::AttitudeLost);
+  const Evidence& evidence = raised[0].evidence;
+  EXPECT_EQ(evidence.value, 12.5);
+  EXPECT_EQ(evidence.limit, 5.0);
+  EXPECT_EQ(evidence.unit, "deg");
+  EXPECT_EQ(evidence.since, at(0.0));
+  EXPECT_THAT(
+      evidence.more,
+      ElementsAre(NamedValue{"certain", std::int64_t{1}}, NamedValue{"gate", std::string{"lost"}},
+                  NamedValue{"hits", std::int64_t{9}}, NamedValue{"window", std::int64_t{10}}));
+  for (double t_s = 10.0; t_s < 40.0; t_s += 1.0) {
+    conditions.evaluate(field(t_s));
+    EXPECT_THAT(lost_by(conditions, estimate(t_s, Quality::Ok)), IsEmpty()) << t_s;
+  }
+  EXPECT_THAT(conditions.evaluate(lost_gate(40.0, false)), IsEmpty());
+  EXPECT_THAT(lost_by(conditions, estimate(49.0, Quality::Ok)), IsEmpty());
+  EXPECT_THAT(lost_by(conditions, estimate(50.0, Quality::Ok)), only(Change::Cleared));
+}
+
+TEST(LostGate, DecidesWhileTheMagnetometerSpeaks) {
+  AttitudeConditions conditions{AlertLimits{}, std::nullopt, commanded()};
+  conditions.evaluate(field(0.0));
+  EXPECT_THAT(lost_by(conditions, estimate(1.0, Quality::Lost)), IsEmpty());
+  EXPECT_THAT(lost_by(conditions, estimate(11.0, Quality::Lost)), only(Change::Raised))
+      << "the magnetometer is silent";
+}
+
+TEST(LostGate, ThatIsOpenAtTheEndSettlesTheAlert) {
+  for (const bool is_open : {true, false}) {
+    AttitudeConditions conditions{AlertLimits{}, std::nullopt, commanded()};
+    conditions.evaluate(lost_gate(9.0, true));
+    if (!is_open) {
+      conditions.evaluate(lost_gate(19.0, false));
+    }
+    const ConditionChanges settled = conditions.settle();
+    EXPECT_EQ(std::any_of(settled.begin(), settled.end(),
+                          [](const ConditionChange& one) {
+                            return one.code == AlertCode::AttitudeLost &&
+                                   one.change == Change::Cleared;
+                          }),
+              !is_open);
+  }
 }
 
 /// Returns the keys that change so.
