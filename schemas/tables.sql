@@ -732,6 +732,27 @@ CREATE TABLE gate_transition (
   PRIMARY KEY (run_id, t_tai_ns, gate)
 ) STRICT, WITHOUT ROWID;
 
+-- What is known of a body that is lost by the lost gate: when it is declared, when the advice changes, and once a minute.
+-- sensors: of those on board, by kind, speaks, left_out (all of its last ten samples were), silent (for a minute) or
+-- never. Attitude q_icrf_body with its rates in body axes, the last one of a minute: NULL while there is none.
+-- may_control: the safe gate is open.
+CREATE TABLE advisory (
+  run_id       TEXT NOT NULL REFERENCES run,
+  t_tai_ns     INTEGER NOT NULL,
+  sensors      TEXT NOT NULL,  -- JSON: an object
+  qx           REAL,
+  qy           REAL,
+  qz           REAL,
+  qw           REAL,
+  sigma_deg    REAL,
+  rate_x_rad_s REAL,
+  rate_y_rad_s REAL,
+  rate_z_rad_s REAL,
+  may_control  INTEGER NOT NULL CHECK (may_control IN (0, 1)),
+  says         TEXT NOT NULL,  -- a sentence
+  PRIMARY KEY (run_id, t_tai_ns)
+) STRICT, WITHOUT ROWID;
+
 -- The attitude from separation to the star fixes, reconstructed: its events and its history stand in the two
 -- tables around. The last solution of a run; a service makes the first when the first star fix arrives, and one
 -- of all samples when the run ends. t_tai_ns: of the end of the history. samples: that had come by then. Bias of the gyro: NULL but for batch. launcher_...: how far the

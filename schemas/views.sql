@@ -255,7 +255,7 @@ FROM run;
 -- separation the attitude at T1; and whether to act on it: one of a run that failed to compute (run_fault) is DOUBTFUL,
 -- unless it is LOST. t_tai_ns, utc: of the answer. NULL from
 -- estimator to sigma_deg: the run has no answer; quality is then that of the run that failed. A spin axis leaves qx
--- to qw NULL, an attitude ra_deg, dec_deg and the rates. `why` is first what speaks against the answer, then its own status;
+-- to qw NULL, an attitude ra_deg, dec_deg and the rates. `why` is first what speaks against the answer, of a body that is lost the last advisory, then its own status;
 -- `against` what speaks against it alone, with its own status unless that is OK: empty where nothing does.
 -- sigma_deg is of noise and of what the mission file may be off by, noise_sigma_deg of noise alone, NULL: the estimator
 -- does not say; `why` ends with the part that is alignment, if that is a hundredth or more. consider_sigma_deg: the same as sigma_deg. cov_*: of a spin axis east and north in the tangent plane, of an attitude about the axes of
@@ -293,7 +293,11 @@ FROM (
     (SELECT start_utc FROM run_utc WHERE run_utc.run_id = run.run_id) AS start_utc,
     (SELECT end_utc FROM run_utc WHERE run_utc.run_id = run.run_id) AS end_utc, run.contact_share,
     ifnull('computing failed' || ifnull(' at ' || fault.utc, '') || ': ' || fault.what || '; ', '')
-      || ifnull(nullif(answer.against, '') || '; ', '') AS others,
+      || ifnull(nullif(answer.against, '') || '; ', '')
+      || ifnull((SELECT says FROM advisory WHERE advisory.run_id = run.run_id AND ifnull((SELECT open
+        FROM gate_transition WHERE gate_transition.run_id = run.run_id AND gate = 'lost'
+        ORDER BY gate_transition.t_tai_ns DESC LIMIT 1), 0)
+        ORDER BY advisory.t_tai_ns DESC LIMIT 1) || '; ', '') AS others,
     coalesce(axis.status, attitude.status, separation.status, 'no estimate') AS status
   FROM run LEFT JOIN spin_answer AS answer USING (run_id)
   LEFT JOIN spin_estimate AS axis ON axis.run_id = run.run_id

@@ -56,7 +56,8 @@ void AttitudeGates::see_field(TaiTime t, const Eigen::Vector3d& field_body,
     return;
   }
   const bool has_sun = sun_ && elapsed_s(sun_->t, t) <= kSunHolds_s;
-  std::vector<NamedValue> more{{"certain", std::int64_t{has_sun && by_sun_.is_open() ? 1 : 0}}};
+  field_ = FieldSaid{.off_deg = *off_deg, .certain = has_sun && by_sun_.is_open()};
+  std::vector<NamedValue> more{{"certain", std::int64_t{field_->certain}}};
   if (has_sun) {
     more.push_back({"sun_deg", sun_->deg});
   }

@@ -76,6 +76,13 @@ class AttitudeGates {
   void see_innovation(const Observation& field, Products& out);
   void see(const WinnerReading& winner, Products& out);
 
+  /// What the last field said.
+  struct FieldSaid {
+    double off_deg;  ///< Angle to the field expected at the nominal attitude.
+    bool certain;    ///< The Sun is as far away from where it should be.
+  };
+  /// @return Empty before the first field, or without a nominal attitude.
+  const std::optional<FieldSaid>& field() const { return field_; }
   bool is_open(Gate gate) const { return gates_.at(static_cast<std::size_t>(gate)).is_open(); }
 
  private:
@@ -93,6 +100,7 @@ class AttitudeGates {
   };
   WindowGate by_sun_{rule_of(Gate::Lost)};
   std::optional<SunAngle> sun_;  ///< The last one.
+  std::optional<FieldSaid> field_;
   struct Nis {
     TaiTime t;
     double nis;

@@ -100,8 +100,34 @@ struct SampleObservation {
   Observation said;
 };
 
+/// What a sensor of a lost body still gives.
+enum class SensorVoice {
+  Speaks,
+  LeftOut,  ///< It speaks, and all of its last samples were left out.
+  Silent,
+  Never,  ///< It has not spoken in this pass.
+};
+inline constexpr int kSensorVoices = 4;
+constexpr std::string_view name_of(SensorVoice voice) {
+  constexpr std::array<std::string_view, kSensorVoices> kNames = {"speaks", "left_out", "silent",
+                                                                  "never"};
+  return kNames.at(static_cast<std::size_t>(voice));
+}
+/// Indexed by SampleKind; empty where there is no such sensor on board.
+using SensorVoices = std::array<std::optional<SensorVoice>, kSampleKinds>;
+
+/// What is known of a body that is lost.
+struct Advisory {
+  TaiTime t = {};
+  SensorVoices sensors = {};
+  std::optional<AttitudeEstimate> attitude = {};  ///< The last one, if it is not too old.
+  double off_deg = 0.0;      ///< Angle of the field to that expected at the nominal attitude.
+  bool certain = false;      ///< The Sun says the same.
+  bool may_control = false;  ///< The safe gate is open.
+};
+
 using ThreeAxisProduct =
     std::variant<RejectedSample, AttitudeEstimate, SampleObservation, SampleContradiction,
-                 NormalEquations, SensorsCompared, GateTransition>;
+                 NormalEquations, SensorsCompared, GateTransition, Advisory>;
 
 }  // namespace spindrift

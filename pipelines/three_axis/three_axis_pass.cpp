@@ -123,6 +123,7 @@ ThreeAxisOutput ThreeAxisPass::finish() {
 
 void ThreeAxisPass::compute(const std::vector<OrderedSample>& in_order, ThreeAxisOutput& out) {
   for (const OrderedSample& sample : in_order) {
+    reached_ = sample.t;
     const auto used = settled(sample, out);
     if (excluded_.hold(sample.t, sample.kind())) {
       leave_out(sample, Rejection::Operator, out);
@@ -278,18 +279,22 @@ void ThreeAxisPass::doubt_where_orbit_steps(ThreeAxisOutput& out) {
   }
 }
 
-/// Shows the gates what the filter made of the samples.
+/// Shows the gates what the filter made of the samples, and advises where the body is lost.
 void ThreeAxisPass::judge_answers(ThreeAxisOutput& out) {
   std::vector<ThreeAxisProduct> transitions;
   for (const ThreeAxisProduct& product : out.products) {
     if (const auto* const estimate = std::get_if<AttitudeEstimate>(&product)) {
       gates_.see(*estimate, spacecraft_at(estimate->t), transitions);
+      advice_.see(*estimate);
     } else if (const auto* const seen = std::get_if<SampleObservation>(&product);
                seen != nullptr && seen->said.source == SampleSource::Magnetometer) {
       gates_.see_innovation(seen->said, transitions);
     }
   }
   std::ranges::move(transitions, std::back_inserter(out.products));
+  if (auto advisory = advice_.advise(reached_, gates_, config_, sensors())) {
+    out.products.emplace_back(*std::move(advisory));
+  }
 }
 
 /// Gives a notice for each kind of which one test rejects nearly all samples.

@@ -37,6 +37,7 @@
 #include "pipelines/three_axis/attitude_gates.h"
 #include "pipelines/three_axis/config.h"
 #include "pipelines/three_axis/products.h"
+#include "pipelines/three_axis/rescue_advice.h"
 #include "pipelines/three_axis/samples.h"
 #include "pipelines/time/contested.h"
 #include "pipelines/time/reorder_window.h"
@@ -138,6 +139,8 @@ class ThreeAxisPass {
   Contested<OrderedSample> contested_;
   AttitudeEstimator estimator_;
   AttitudeGates gates_;
+  RescueAdvice advice_;
+  TaiTime reached_ = {};  ///< Time of the last sample that was computed.
   Exclusions<SampleKind> excluded_;
   std::set<NoticeCode> said_;
   std::map<std::pair<SampleKind, Rejection>, std::int64_t> left_out_;

@@ -70,6 +70,11 @@ void RunSummary::count(const ThreeAxisProduct& product) {
     attitude = *estimate;
   } else if (const auto* const sample = std::get_if<SampleObservation>(&product)) {
     ledger.add({&sample->said, 1});
+  } else if (const auto* const advised = std::get_if<Advisory>(&product)) {
+    advisory = *advised;
+  } else if (const auto* const gate = std::get_if<GateTransition>(&product);
+             gate != nullptr && gate->gate == Gate::Lost && !gate->open) {
+    advisory.reset();
   }
 }
 

@@ -47,6 +47,7 @@ struct RunSummary {
   /// Rejected samples by kind, then by name of the rejecting test.
   std::array<std::map<std::string_view, std::int64_t>, kSampleKinds> samples_rejected = {};
   std::optional<AttitudeEstimate> attitude;                 ///< The latest estimate.
+  std::optional<Advisory> advisory = {};                    ///< Present while the body is lost.
   std::vector<ReconstructionProduct> reconstructions = {};  ///< One reconstruction for each method.
   /// @}
   std::vector<Disagreement> disagreements = {};  ///< Read from the archive.

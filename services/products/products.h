@@ -10,6 +10,7 @@
 #include <utility>
 #include <variant>
 
+#include "services/products/advisory.h"
 #include "services/products/alert.h"
 #include "services/products/attitude.h"
 #include "services/products/batch_solution.h"
@@ -33,11 +34,11 @@
 
 namespace spindrift {
 
-using Product =
-    std::variant<PulseUse, RevolutionProduct, SpinMeasurement, SpinFix, SpinEstimate, BatchProduct,
-                 RunFault, RejectedSample, AttitudeEstimate, SampleObservation,
-                 ReconstructionProduct, ChannelComparison, SampleContradiction, Alert, RunNotice,
-                 AxisChoice, NormalEquations, SpinAnswer, SensorsCompared, GateTransition>;
+using Product = std::variant<PulseUse, RevolutionProduct, SpinMeasurement, SpinFix, SpinEstimate,
+                             BatchProduct, RunFault, RejectedSample, AttitudeEstimate,
+                             SampleObservation, ReconstructionProduct, ChannelComparison,
+                             SampleContradiction, Alert, RunNotice, AxisChoice, NormalEquations,
+                             SpinAnswer, SensorsCompared, GateTransition, Advisory>;
 
 /// Index of a kind in Product.
 template <class Kind>

@@ -307,6 +307,13 @@ nlohmann::json to_json(const AttitudeEstimate& attitude) {
   return object;
 }
 
+nlohmann::json to_json(const Advisory& advisory) {
+  nlohmann::json object = json_of(advisory);
+  object["sensors"] = json_of(advisory.sensors);
+  object["utc"] = format_utc(advisory.t);
+  return object;
+}
+
 template <class Value>
 Expected<void> put(Expected<Value>&& found, Value& place) {
   return std::move(found).map([&](Value&& value) { place = std::move(value); });
@@ -381,6 +388,7 @@ nlohmann::json to_json(const RunSummary& summary) {
                       {"sensors", sensors_json(summary)},
                       {"residuals", residuals_json(summary)},
                       {"attitude", nullptr},
+                      {"advisory", nullptr},
                       {"reconstruction", nullptr},
                       {"faults", nlohmann::json::array()},
                       {"contradictions", to_json(summary.contradictions)},
@@ -393,6 +401,9 @@ nlohmann::json to_json(const RunSummary& summary) {
   }
   if (summary.attitude) {
     json["attitude"] = to_json(*summary.attitude);
+  }
+  if (summary.advisory) {
+    json["advisory"] = to_json(*summary.advisory);
   }
   if (!summary.reconstructions.empty()) {
     const nlohmann::json report = to_json(SeparationReport{.spacecraft_id = summary.spacecraft_id,

@@ -80,7 +80,10 @@ TEST_F(ArchiveTest, ANewFileHasTheTablesAndColumnsOfTheContract) {
        "run_id method quality t1_tai_ns qx qy qz qw sigma_deg noise_sigma_deg launcher_angle_deg "
        "why"},
       {"normal_equations", "run_id names b0 n g"},
-      {"gate_transition", "run_id t_tai_ns gate open evidence"}};
+      {"gate_transition", "run_id t_tai_ns gate open evidence"},
+      {"advisory",
+       "run_id t_tai_ns sensors qx qy qz qw sigma_deg rate_x_rad_s rate_y_rad_s rate_z_rad_s "
+       "may_control says"}};
   const auto archive = open();
 
   for (const auto& [table, columns] : contract) {

@@ -102,7 +102,9 @@ std::vector<std::string> pass_rows(const std::filesystem::path& db) {
           "BY 1, 2",
           "SELECT spacecraft_id, finished, estimator, quality, qx, sigma_deg, why FROM "
           "pass_verdict",
-          "SELECT t_tai_ns, gate, open, evidence FROM gate_transition ORDER BY 1, 2", kAllSamples});
+          "SELECT t_tai_ns, gate, open, evidence FROM gate_transition ORDER BY 1, 2",
+          "SELECT t_tai_ns, sensors, qx, sigma_deg, rate_x_rad_s, says FROM advisory ORDER BY 1",
+          kAllSamples});
 }
 
 /// Returns the time of the last attitude that a late subscriber receives.
@@ -124,6 +126,12 @@ TEST(ThreeAxis, ServeGivesWhatProcessGivesAlsoWhenItIsKilledInThePass) {
               ElementsAre("1|0x1.4p+2|10|1|1|"));
   EXPECT_THAT(rows_of(outcome.db, "SELECT message FROM alert WHERE key = 'attitude.lost'"),
               ElementsAre(HasSubstr("the lost gate is open")));
+  const nlohmann::json& advisory = outcome.run["advisory"];
+  EXPECT_EQ(advisory["sensors"]["star"], "speaks");
+  EXPECT_EQ(advisory["may_control"], false);
+  EXPECT_LT(advisory["sigma_deg"], 1.0);
+  EXPECT_THAT(advisory["says"].get<std::string>(), StartsWith("body lost, by field and Sun: "));
+  EXPECT_THAT(outcome.run["verdict"]["why"].get<std::string>(), StartsWith("body lost, "));
   const std::int64_t last = number_of(outcome.db, "SELECT max(t_tai_ns) FROM attitude");
   ASSERT_EQ(count_rows(outcome.db, "rejected_sample"), 2);
   ASSERT_EQ(outcome.run["attitude"]["quality"], "OK");
@@ -152,6 +160,7 @@ TEST(ThreeAxis, ServeGivesWhatProcessGivesAlsoWhenItIsKilledInThePass) {
   EXPECT_EQ(pass_rows(service.db()), expected);
   const auto summary = service.summary()["runs"][0];
   EXPECT_EQ(summary["attitude"], outcome.run["attitude"]);
+  EXPECT_EQ(summary["advisory"], outcome.run["advisory"]);
   EXPECT_EQ(summary["sensors"], outcome.run["sensors"]);
 }
 
