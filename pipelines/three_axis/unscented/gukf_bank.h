@@ -1,0 +1,60 @@
+/// @file
+/// Filters without a gyro that start from several attitudes, since one that starts from a wrong
+/// attitude may stay wrong and claim a small sigma. The likelihood of what they measure tells which
+/// of them is right.
+
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "pipelines/three_axis/unscented/gukf.h"
+
+namespace spindrift {
+
+class GukfBank {
+ public:
+  /// Starts from nothing but two measured fields, at the time of the second: attitudes turned about
+  /// it by steps of 45 deg, with the rate at which the field turns in body axes.
+  /// @param dt_s Time between the two, in which the body turns by less than half a turn.
+  GukfBank(const GukfModel& model, const SeenField& first, const SeenField& second, double dt_s);
+  /// Starts one filter from a known attitude and rate.
+  GukfBank(const GukfModel& model, const UncertainMotion& start);
+
+  /// @param torques Known torques and momentum of the wheels at the start of the step.
+  void propagate(double dt_s, const BodyTorques& torques = {});
+
+  /// @name Innovations
+  /// Compares a measurement with the most likely filter.
+  /// @{
+  UnscentedInnovation innovation(const SeenField& field) const { return best().innovation(field); }
+  UnscentedInnovation innovation(const SeenSun& sun) const { return best().innovation(sun); }
+  UnscentedInnovation innovation(const SeenStars& stars) const { return best().innovation(stars); }
+  /// @}
+
+  void update(const SeenField& field) { update_all(field); }
+  void update(const SeenSun& sun) { update_all(sun); }
+  void update(const SeenStars& stars) { update_all(stars); }
+
+  /// Returns the most likely filter.
+  const Gukf& best() const { return hypotheses_.front().filter; }
+  /// Returns by how much it is more likely than every filter more than 15 deg away from it, nats;
+  /// infinity where there is none.
+  double lead_nats() const;
+  /// Returns the number of filters that differ.
+  std::size_t size() const { return hypotheses_.size(); }
+
+ private:
+  struct Hypothesis {
+    Gukf filter;
+    double log_likelihood;  ///< Of the last minutes, nats.
+  };
+
+  template <class Measurement>
+  void update_all(const Measurement& measurement);
+  void choose();
+
+  std::vector<Hypothesis> hypotheses_;  ///< The most likely first.
+};
+
+}  // namespace spindrift
