@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "pipelines/three_axis/unscented/gukf.h"
@@ -32,7 +33,7 @@ class GukfBank {
   UnscentedInnovation innovation(const SeenStars& stars) const { return best().innovation(stars); }
   /// @}
 
-  void update(const SeenField& field) { update_all(field); }
+  void update(const SeenField& field);
   void update(const SeenSun& sun) { update_all(sun); }
   void update(const SeenStars& stars) { update_all(stars); }
 
@@ -41,20 +42,36 @@ class GukfBank {
   /// Returns by how much it is more likely than every filter more than 15 deg away from it, nats;
   /// infinity where there is none.
   double lead_nats() const;
-  /// Returns the number of filters that differ.
+  /// Returns whether what was measured in the last minutes contradicts the most likely filter. The
+  /// next field then starts the bank again from nothing.
+  bool is_contradicted() const;
+  /// Returns whether the attitude has once been clear since the bank started.
+  bool is_settled() const { return is_settled_; }
+  /// Returns the number of filters left.
   std::size_t size() const { return hypotheses_.size(); }
 
  private:
+  /// A filter, and what it expected of the last minutes.
   struct Hypothesis {
     Gukf filter;
-    double log_likelihood;  ///< Of the last minutes, nats.
+    double log_likelihood = 0.0;  ///< Nats.
+    double squares = 0.0;         ///< Sum of normalised squares, spurious ones bounded.
+    double freedom = 0.0;         ///< Its expectation.
   };
 
+  void start_from(const SeenField& first, const SeenField& second, double dt_s);
   template <class Measurement>
   void update_all(const Measurement& measurement);
   void choose();
+  void settle();
+  bool is_apart(const Gukf& other) const;
 
+  GukfModel model_;
   std::vector<Hypothesis> hypotheses_;  ///< The most likely first.
+  std::optional<SeenField> last_field_;
+  double since_field_s_ = 0.0;
+  double since_start_s_ = 0.0;
+  bool is_settled_ = false;
 };
 
 }  // namespace spindrift
