@@ -62,14 +62,6 @@ Mekf::Seen<kSize> Mekf::seen_from(const Eigen::Quaterniond& q_icrf_body,
           star_per_error(rate_rad_s_), attitude.sigma_rad};
 }
 
-/// The cross product is the second term of the Magnus expansion and accounts for a moving axis.
-Vector3d turned_rad(const RateSpan& span, const Vector3d& bias_rad_s) {
-  const Vector3d from_rad_s = span.from_rad_s - bias_rad_s;
-  const Vector3d to_rad_s = span.to_rad_s - bias_rad_s;
-  return 0.5 * span.dt_s * (from_rad_s + to_rad_s) +
-         span.dt_s * span.dt_s / 12.0 * from_rad_s.cross(to_rad_s);
-}
-
 Mekf::Mekf(const SensitiveAttitude& attitude, double bias_sigma_rad_s,
            const FilterAlignment& alignment)
     : q_icrf_body_{attitude.q_ref_body}, evidence_{alignment} {

@@ -22,25 +22,10 @@
 #include "pipelines/frames/uncertain_attitude.h"
 #include "pipelines/observation/observation.h"
 #include "pipelines/three_axis/alignment_evidence.h"
+#include "pipelines/three_axis/rate_span.h"
 #include "pipelines/three_axis/sensor_errors.h"
 
 namespace spindrift {
-
-/// Holds the measured rates at both ends of a time step.
-struct RateSpan {
-  double dt_s;
-  Eigen::Vector3d from_rad_s;
-  Eigen::Vector3d to_rad_s;
-};
-
-/// Returns the rotation vector of a body whose rate changes linearly, to third order of its angle.
-Eigen::Vector3d turned_rad(const RateSpan& span, const Eigen::Vector3d& bias_rad_s);
-
-/// Holds the process noise of a time step, per axis.
-struct SpanErrors {
-  double turn_rad2;     ///< Variance of the turn.
-  double bias_rad2_s2;  ///< Growth of the variance of the bias.
-};
 
 /// Holds an attitude measured by a star tracker, with an isotropic error.
 struct ObservedAttitude {

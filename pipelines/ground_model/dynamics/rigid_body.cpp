@@ -36,9 +36,6 @@ BodyState changed(const BodyState& state, const Change& change, double step_s) {
 
 }  // namespace
 
-RigidBody::RigidBody(const Matrix3d& inertia_kg_m2)
-    : inertia_kg_m2_{inertia_kg_m2}, inverse_{inertia_kg_m2.ldlt().solve(Matrix3d::Identity())} {}
-
 Expected<RigidBody> RigidBody::make(const Matrix3d& inertia_kg_m2) {
   if (!is_inertia(inertia_kg_m2)) {
     const Vector3d moments = inertia_kg_m2.selfadjointView<Eigen::Lower>().eigenvalues();
@@ -48,7 +45,12 @@ Expected<RigidBody> RigidBody::make(const Matrix3d& inertia_kg_m2) {
                      "be symmetric, each moment positive and not above the sum of the others",
                      moments[0], moments[1], moments[2])}};
   }
-  return RigidBody{inertia_kg_m2};
+  return RigidBody{inertia_kg_m2, inertia_kg_m2.ldlt().solve(Matrix3d::Identity())};
+}
+
+RigidBody RigidBody::with_moments(const Matrix3d& axes, const Vector3d& moments_kg_m2) {
+  return {axes * moments_kg_m2.asDiagonal() * axes.transpose(),
+          axes * moments_kg_m2.cwiseInverse().asDiagonal() * axes.transpose()};
 }
 
 BodyState RigidBody::after(const BodyState& state, const BodyTorques& torques,

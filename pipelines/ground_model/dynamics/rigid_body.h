@@ -29,6 +29,10 @@ class RigidBody {
   ///         is not positive or above the sum of the other two.
   static Expected<RigidBody> make(const Eigen::Matrix3d& inertia_kg_m2);
 
+  /// @param axes Principal axes as columns, body axes; orthonormal.
+  /// @param moments_kg_m2 Moments about them, positive.
+  static RigidBody with_moments(const Eigen::Matrix3d& axes, const Eigen::Vector3d& moments_kg_m2);
+
   const Eigen::Matrix3d& inertia_kg_m2() const { return inertia_kg_m2_; }
 
   Eigen::Vector3d acceleration_rad_s2(const Eigen::Vector3d& rate_body_rad_s,
@@ -43,7 +47,8 @@ class RigidBody {
   BodyState after(const BodyState& state, const BodyTorques& torques, double step_s) const;
 
  private:
-  explicit RigidBody(const Eigen::Matrix3d& inertia_kg_m2);
+  RigidBody(const Eigen::Matrix3d& inertia_kg_m2, const Eigen::Matrix3d& inverse)
+      : inertia_kg_m2_{inertia_kg_m2}, inverse_{inverse} {}
 
   Eigen::Matrix3d inertia_kg_m2_;
   Eigen::Matrix3d inverse_;

@@ -1,0 +1,94 @@
+#include "pipelines/three_axis/unscented/gukf.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+
+#include "pipelines/frames/rotation_vector.h"
+
+namespace spindrift {
+namespace {
+
+using Eigen::Matrix3d;
+using Eigen::Quaterniond;
+using Eigen::Vector3d;
+
+/// Largest turn in a step of the integration: Runge-Kutta loses 2e-7 rad.
+constexpr double kMostTurnInStep_rad = 0.2;
+
+}  // namespace
+
+Gukf::Gukf(const GukfModel& model, const UncertainMotion& start)
+    : torque_noise2_{model.torque_noise_nm_rts * model.torque_noise_nm_rts} {
+  const Eigen::SelfAdjointEigenSolver<Matrix3d> principal{model.inertia_kg_m2};
+  principal_axes_ = principal.eigenvectors();
+  moments_kg_m2_ = principal.eigenvalues();
+  estimate_.q_icrf_body = start.motion.q_icrf_body;
+  estimate_.state.segment<3>(Rate) = start.motion.rate_body_rad_s;
+  estimate_.covariance.topLeftCorner<6, 6>() = start.covariance;
+  estimate_.covariance.block<3, 3>(Torque, Torque) =
+      model.torque_sigma_nm * model.torque_sigma_nm * Matrix3d::Identity();
+  estimate_.set_errors(model.alignment, {InertiaError, InertiaError + 1, InertiaError + 2});
+}
+
+BodyState Gukf::after(const Quaterniond& q_icrf_body, const Estimate::Moving& state,
+                      const BodyTorques& torques, double dt_s, int steps) const {
+  const Vector3d moments = moments_kg_m2_.array() * state.segment<3>(LogMoments).array().exp();
+  const RigidBody body = RigidBody::with_moments(principal_axes_, moments);
+  const double step_s = dt_s / steps;
+  BodyTorques now = torques;
+  now.external_nm += state.segment<3>(Torque);
+  BodyState motion{.q_icrf_body = q_icrf_body, .rate_body_rad_s = state.segment<3>(Rate)};
+  for (int step = 0; step < steps; ++step) {
+    motion = body.after(motion, now, step_s);
+    now.wheels_nms -= step_s * now.wheels_nm;
+  }
+  return motion;
+}
+
+void Gukf::propagate(double dt_s, const BodyTorques& torques) {
+  const Estimate::Moving mean = estimate_.state.head<kMoving>();
+  const double most_rad_s = mean.segment<3>(Rate).norm() +
+                            2.0 * std::sqrt(estimate_.covariance.block<3, 3>(Rate, Rate).trace());
+  const int steps = 1 + static_cast<int>(std::min(100.0, most_rad_s * dt_s / kMostTurnInStep_rad));
+  const Quaterniond q_before = estimate_.q_icrf_body;
+  const BodyState expected = after(q_before, mean, torques, dt_s, steps);
+  using Out = Eigen::Matrix<double, 6, 1>;
+  estimate_.propagate<6>(expected.q_icrf_body, [&](const Estimate::Moving& away) {
+    const BodyState moved = after(q_before * quaternion_of_rodrigues(away.head<3>()), mean + away,
+                                  torques, dt_s, steps);
+    Out off;
+    off << rodrigues_of(expected.q_icrf_body.conjugate() * moved.q_icrf_body),
+        moved.rate_body_rad_s - expected.rate_body_rad_s;
+    return off;
+  });
+  estimate_.state.segment<3>(Rate) += expected.rate_body_rad_s - mean.segment<3>(Rate);
+  add_noise(dt_s);
+}
+
+/// Adds a random torque: the rate walks, and the turn is the integral of its walk.
+void Gukf::add_noise(double dt_s) {
+  const Matrix3d per_torque =
+      principal_axes_ * moments_kg_m2_.cwiseInverse().asDiagonal() * principal_axes_.transpose();
+  const Matrix3d walk = torque_noise2_ * dt_s * per_torque * per_torque;
+  auto covariance = estimate_.covariance.topLeftCorner<6, 6>();
+  covariance.topLeftCorner<3, 3>() += dt_s * dt_s / 3.0 * walk;
+  covariance.topRightCorner<3, 3>() += 0.5 * dt_s * walk;
+  covariance.bottomLeftCorner<3, 3>() += 0.5 * dt_s * walk;
+  covariance.bottomRightCorner<3, 3>() += walk;
+}
+
+UnscentedInnovation Gukf::innovation(const SeenField& field) const {
+  return estimate_.innovation(field, rate_rad_s());
+}
+UnscentedInnovation Gukf::innovation(const SeenSun& sun) const {
+  return estimate_.innovation(sun, rate_rad_s());
+}
+UnscentedInnovation Gukf::innovation(const SeenStars& stars) const {
+  return estimate_.innovation(stars, rate_rad_s());
+}
+void Gukf::update(const SeenField& field) { estimate_.update(field, rate_rad_s()); }
+void Gukf::update(const SeenSun& sun) { estimate_.update(sun, rate_rad_s()); }
+void Gukf::update(const SeenStars& stars) { estimate_.update(stars, rate_rad_s()); }
+
+}  // namespace spindrift
