@@ -59,6 +59,12 @@ std::string control_text(const nlohmann::ordered_json& truth) {
       fmt::join(truth["phase_margin_deg"].get<std::vector<double>>(), ", "));
 }
 
+std::string rescue_text(const nlohmann::ordered_json& truth) {
+  return fmt::format("  lost {}, controlled {}, reached {}, {:.2g} deg off at the end\n",
+                     since_text(truth["lost_s"]), since_text(truth["control_s"]),
+                     since_text(truth["reached_s"]), truth["last_off_deg"].get<double>());
+}
+
 void report(const Scenario& scenario, const SimulatedPass& pass, Output output, bool json) {
   if (json) {
     output.json.update(counts_json(pass.made));
@@ -80,6 +86,9 @@ void report(const Scenario& scenario, const SimulatedPass& pass, Output output, 
   }
   if (!pass.control.empty()) {
     fmt::print("{}", control_text(pass.truth));
+  }
+  if (std::holds_alternative<RescueScenario>(scenario.flight)) {
+    fmt::print("{}", rescue_text(pass.truth));
   }
   if (pass.on_board) {
     fmt::print("{}", on_board_text(*scenario.carried_table, pass.truth["on_board"]));

@@ -154,6 +154,13 @@ std::vector<plot::Mark> marks_of(const Scenario& scenario, const SimulatedPass& 
         add(pass.truth[key], name);
       }
     }
+  } else if (std::holds_alternative<RescueScenario>(scenario.flight)) {
+    for (const auto& [key, name] : {std::pair{"lost_s", "lost"}, std::pair{"control_s", "control"},
+                                    std::pair{"reached_s", "reached"}}) {
+      if (pass.truth[key].is_number()) {
+        add(pass.truth[key], name);
+      }
+    }
   } else if (const auto* const separation = std::get_if<SeparationScenario>(&scenario.flight)) {
     add(separation->truth.control_on_s, "T2");
     add(separation->truth.acquisition_s, "T3");

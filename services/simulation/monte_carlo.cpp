@@ -5,6 +5,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <atomic>
+#include <initializer_list>
 #include <mutex>
 #include <optional>
 #include <system_error>
@@ -110,9 +111,9 @@ void add_attitude(const Scenario& scenario, const SimulatedPass& pass, const Run
   measures.add_error("attitude", error_rad, covariance_rad2);
 }
 
-void add_control(const SimulatedPass& pass, Measures& measures) {
-  for (const char* const name :
-       {"pointing_s", "settled_s", "last_off_deg", "wheel_nms_most", "wheel_rpm_most"}) {
+void add_control(const SimulatedPass& pass, std::initializer_list<const char*> names,
+                 Measures& measures) {
+  for (const char* const name : names) {
     const auto& value = pass.truth[name];
     measures.add(name, value.is_number() ? std::optional{value.get<double>()} : std::nullopt);
   }
@@ -121,7 +122,7 @@ void add_control(const SimulatedPass& pass, Measures& measures) {
 /// Returns the error of each estimator's axis at the end (spinner), of each method's attitude at T1
 /// (separation), and of the filter's last attitude (every three-axis spacecraft), each with its
 /// normalised square e' P^-1 e, whose mean is 2 for an axis and 3 for an attitude. For an
-/// orientation the results of the control are added, as in truth.json.
+/// orientation and for a rescue the results of the control are added, as in truth.json.
 /// @return The same names for every run of a scenario.
 std::vector<Measure> run_outcome(const Scenario& scenario, const SimulatedPass& pass,
                                  const RunSummary& summary) {
@@ -135,7 +136,13 @@ std::vector<Measure> run_outcome(const Scenario& scenario, const SimulatedPass& 
     add_reconstruction(pass, summary, ReconstructionMethod::Sequential, measures);
   }
   if (std::holds_alternative<OrientationScenario>(scenario.flight)) {
-    add_control(pass, measures);
+    add_control(pass,
+                {"pointing_s", "settled_s", "last_off_deg", "wheel_nms_most", "wheel_rpm_most"},
+                measures);
+  }
+  if (std::holds_alternative<RescueScenario>(scenario.flight)) {
+    add_control(pass, {"lost_s", "control_s", "reached_s", "filter_off_deg", "last_off_deg"},
+                measures);
   }
   add_attitude(scenario, pass, summary, measures);
   return std::move(measures).all();

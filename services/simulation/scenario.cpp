@@ -37,6 +37,9 @@ ScenarioKind kind_of(const toml::table& scenario) {
   if (model == "tumbling") {
     return ScenarioKind::Tumbling;
   }
+  if (model == "rescue") {
+    return ScenarioKind::Rescue;
+  }
   return model == "orientation" ? ScenarioKind::Orientation : ScenarioKind::Separation;
 }
 
@@ -124,6 +127,8 @@ void check_flight(TomlDocument& document) {
       return check_tumbling_scenario(document);
     case ScenarioKind::Orientation:
       return check_orientation_scenario(document);
+    case ScenarioKind::Rescue:
+      return check_rescue_scenario(document);
   }
 }
 
@@ -161,6 +166,8 @@ decltype(Scenario::flight) flight_of(const TomlDocument& document, TaiTime start
       return tumbling_scenario(document.values, start);
     case ScenarioKind::Orientation:
       return orientation_scenario(document.values, start);
+    case ScenarioKind::Rescue:
+      return rescue_scenario(document.values, start);
     case ScenarioKind::Spin:
       break;
   }

@@ -31,7 +31,9 @@ struct Scenario {
   TaiTime start;
   double duration_s;
   /// Flight of the scenario; the alternatives are in the order of ScenarioKind.
-  std::variant<SpinScenario, SeparationScenario, TumblingScenario, OrientationScenario> flight;
+  std::variant<SpinScenario, SeparationScenario, TumblingScenario, OrientationScenario,
+               RescueScenario>
+      flight;
   /// Text of its mission file, without the reports of a separation; its orbit is orbit.oem.
   std::string mission_toml;
   std::optional<CarriedTable> carried_table;  ///< The table that a three-axis spacecraft carries.

@@ -12,6 +12,7 @@ extern const char* const three_axis_schema_toml;
 extern const char* const separation_schema_toml;
 extern const char* const tumbling_schema_toml;
 extern const char* const orientation_schema_toml;
+extern const char* const rescue_schema_toml;
 }  // namespace embedded
 
 namespace {
@@ -24,13 +25,20 @@ void share(const TableRule& from, const char* table, TableRule& with) {
 const char* model_schema(ScenarioKind kind) {
   return kind == ScenarioKind::Tumbling      ? embedded::tumbling_schema_toml
          : kind == ScenarioKind::Orientation ? embedded::orientation_schema_toml
+         : kind == ScenarioKind::Rescue      ? embedded::rescue_schema_toml
                                              : embedded::separation_schema_toml;
 }
 
-/// Requires a body and, for a separation, each sensor that its events rely on.
+/// Requires a body, for a separation each sensor that its events rely on, and for a rescue the
+/// magnetometer and the attitude to return to.
 void require_sensors(ScenarioKind kind, TableRule& three_axis) {
   three_axis.required = "always";
   three_axis.tables.at("inertia").required = "always";
+  if (kind == ScenarioKind::Rescue) {
+    for (const char* const table : {"magnetometer", "nominal"}) {
+      three_axis.tables.at(table).required = "always";
+    }
+  }
   if (kind == ScenarioKind::Separation) {
     for (const char* const table : {"gyro", "sun_sensor", "star_tracker"}) {
       three_axis.tables.at(table).required = "always";

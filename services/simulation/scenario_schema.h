@@ -9,7 +9,7 @@
 namespace spindrift {
 
 /// Kind of a scenario, by spacecraft.kind and, for a three-axis spacecraft, attitude.model.
-enum class ScenarioKind { Spin, Separation, Tumbling, Orientation };
+enum class ScenarioKind { Spin, Separation, Tumbling, Orientation, Rescue };
 
 /// Returns schemas/scenario.schema.toml, or schemas/three-axis.schema.toml with that of its model,
 /// with the tables that a scenario shares with the mission file. All are built into the program.

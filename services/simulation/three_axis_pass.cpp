@@ -158,6 +158,16 @@ void add_outcome(const OrientationOutcome& outcome, ordered_json& truth) {
   truth["wheel_rpm_most"] = kRpmPerRad_s * outcome.most_rad_s;
 }
 
+void add_outcome(const RescueOutcome& outcome, ordered_json& truth) {
+  truth["lost_s"] = number_or_null(outcome.lost_s);
+  truth["control_s"] = number_or_null(outcome.controlled_s);
+  truth["reached_s"] = number_or_null(outcome.reached_s);
+  truth["filter_off_deg"] = outcome.error_at_safe_rad
+                                ? ordered_json(kDegPerRad * *outcome.error_at_safe_rad)
+                                : ordered_json(nullptr);
+  truth["last_off_deg"] = kDegPerRad * outcome.last_off_rad;
+}
+
 /// Adds the margins of the loops as flown, about X, Y and Z.
 Expected<void> add_margins(const OrientationTruth& flight, ordered_json& truth) {
   return channel_margins(flight).map([&](const std::array<ChannelMargins, 3>& channels) {
@@ -203,6 +213,16 @@ Expected<SimulatedPass> played_pass(const Scenario& scenario, const OrientationS
                                            *std::move(truth), scenario.mission_toml);
       pass.control = std::move(orientation.record);
       return pass;
+    });
+  });
+}
+
+Expected<SimulatedPass> played_pass(const Scenario& scenario, const RescueScenario& flight) {
+  return flown(flight, scenario.orbit).and_then([&](FlownRescue&& rescue) {
+    return start_and_end(scenario, rescue.body.motion).map([&](ordered_json&& truth) {
+      add_outcome(rescue.outcome, truth);
+      return three_axis_pass(flight.view.sensors, std::move(rescue.body), std::move(truth),
+                             scenario.mission_toml);
     });
   });
 }

@@ -28,6 +28,12 @@ Expected<SimulatedPass> played_pass(const Scenario& scenario, const TumblingScen
 /// wheel_nms_most and wheel_rpm_most; of its loops phase_margin_deg, gain_margin_db and
 /// crossover_rad_s. @return NoCoverage where the orbit or the field ends too early.
 Expected<SimulatedPass> played_pass(const Scenario& scenario, const OrientationScenario& flight);
+
+/// Simulates a satellite that is lost and rescued. Its truth is that of a tumbling satellite with
+/// lost_s, control_s and reached_s (since the start; null: never), filter_off_deg (of the attitude
+/// when control began; null: it did not) and last_off_deg.
+/// @return NoCoverage where the orbit or the field ends too early.
+Expected<SimulatedPass> played_pass(const Scenario& scenario, const RescueScenario& flight);
 /// @}
 
 }  // namespace spindrift

@@ -58,6 +58,10 @@ TumblingScenario tumbling_scenario(const TomlValues& values, TaiTime start);
 /// A satellite that turns to an attitude by its wheels.
 void check_orientation_scenario(TomlDocument& document);
 OrientationScenario orientation_scenario(const TomlValues& values, TaiTime start);
+
+/// A satellite that is lost, and returns to its commanded attitude by its magnetometer alone.
+void check_rescue_scenario(TomlDocument& document);
+RescueScenario rescue_scenario(const TomlValues& values, TaiTime start);
 /// @}
 
 }  // namespace spindrift

@@ -91,6 +91,31 @@ TEST(ThreeAxis, SunAndMagnetometerGiveTheAttitudeBeforeTheFirstStarFix) {
   EXPECT_EQ(outcome.run["sensors"]["magnetometer"]["rejected"], nlohmann::json::object());
 }
 
+/// The ground sees by its own telemetry when the simulated satellite is lost, and when it is back.
+TEST(ThreeAxis, TheGroundSeesWhenASatelliteIsLostAndRescued) {
+  const Simulated simulated{"rescue.toml"};
+  const auto truth = nlohmann::json::parse(text_of(simulated.pass / "truth.json"));
+  const auto start = truth["start"]["t_tai_ns"].get<std::int64_t>();
+  const double failed_s = 600.0;
+  EXPECT_GT(truth["lost_s"], failed_s);
+  EXPECT_GT(truth["control_s"].get<double>(), truth["lost_s"].get<double>() + 600.0);
+  EXPECT_GT(truth["reached_s"], truth["control_s"]);
+  EXPECT_LT(truth["filter_off_deg"], 5.0);
+  EXPECT_LT(truth["last_off_deg"], 6.0);
+  const Processed outcome{simulated.pass};
+  const auto first = [&](int open) {
+    return 1e-9 * static_cast<double>(
+                      number_of(outcome.db, fmt::format("SELECT min(t_tai_ns) - {} FROM "
+                                                        "gate_transition WHERE gate = 'lost' AND "
+                                                        "open = {}",
+                                                        start, open)));
+  };
+  EXPECT_NEAR(first(1), truth["lost_s"].get<double>(), 20.0);
+  EXPECT_GT(first(0), first(1));
+  EXPECT_TRUE(outcome.run["advisory"].is_null()) << "it is back";
+  EXPECT_GT(count_rows(outcome.db, "advisory"), 0);
+}
+
 /// Returns what an archive holds of a pass, without its runs.
 std::vector<std::string> pass_rows(const std::filesystem::path& db) {
   return rows_of(

@@ -35,6 +35,7 @@ Expected<void> check_noise(const ThreeAxisSensors& sensors) {
 const FlownBody& body_of(const FlownBody& body) { return body; }
 const FlownBody& body_of(const FlownSeparation& separation) { return separation.body; }
 const FlownBody& body_of(const FlownOrientation& orientation) { return orientation.body; }
+const FlownBody& body_of(const FlownRescue& rescue) { return rescue.body; }
 
 template <class Scenario>
 Expected<ThreeAxisModel> model_of(const Scenario& scenario, const Orbit& orbit) {
@@ -82,6 +83,10 @@ Expected<ThreeAxisModel> three_axis_model(const TumblingScenario& scenario, cons
 }
 
 Expected<ThreeAxisModel> three_axis_model(const OrientationScenario& scenario, const Orbit& orbit) {
+  return model_of(scenario, orbit);
+}
+
+Expected<ThreeAxisModel> three_axis_model(const RescueScenario& scenario, const Orbit& orbit) {
   return model_of(scenario, orbit);
 }
 

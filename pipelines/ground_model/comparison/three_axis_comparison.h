@@ -45,6 +45,7 @@ struct ThreeAxisModel {
 Expected<ThreeAxisModel> three_axis_model(const SeparationScenario& scenario, const Orbit& orbit);
 Expected<ThreeAxisModel> three_axis_model(const TumblingScenario& scenario, const Orbit& orbit);
 Expected<ThreeAxisModel> three_axis_model(const OrientationScenario& scenario, const Orbit& orbit);
+Expected<ThreeAxisModel> three_axis_model(const RescueScenario& scenario, const Orbit& orbit);
 
 /// Compares each sample with the model at the sample's own time, in any order. A sensor is missing
 /// that gives nothing for one and a half of its steps while others send, unless the model's sun

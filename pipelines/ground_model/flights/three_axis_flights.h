@@ -14,6 +14,7 @@
 #include "pipelines/ground_model/control/actuators.h"
 #include "pipelines/ground_model/flights/body_flight.h"
 #include "pipelines/ground_model/flights/orientation_motion.h"
+#include "pipelines/ground_model/flights/rescue_motion.h"
 #include "pipelines/ground_model/link/three_axis_telemetry.h"
 
 namespace spindrift {
@@ -83,6 +84,11 @@ struct OrientationScenario {
   OrientationTruth truth;
 };
 
+struct RescueScenario {
+  ThreeAxisView view;
+  RescueTruth truth;
+};
+
 struct FlownBody {
   BodyMotion motion;
   Eigen::Vector3d bias_rad_s;  ///< Bias of the gyro.
@@ -100,11 +106,17 @@ struct FlownOrientation {
   OrientationOutcome outcome;
 };
 
+struct FlownRescue {
+  FlownBody body;
+  RescueOutcome outcome;
+};
+
 /// @return NoCoverage where the orbit or the field ends too early; InvalidConfiguration for what
 ///         cannot be flown (see each motion); Unobservable for a launcher's report without an orbit
 ///         frame.
 Expected<FlownSeparation> flown(const SeparationScenario& scenario, const Orbit& orbit);
 Expected<FlownBody> flown(const TumblingScenario& scenario, const Orbit& orbit);
 Expected<FlownOrientation> flown(const OrientationScenario& scenario, const Orbit& orbit);
+Expected<FlownRescue> flown(const RescueScenario& scenario, const Orbit& orbit);
 
 }  // namespace spindrift

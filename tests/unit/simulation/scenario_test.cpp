@@ -76,7 +76,8 @@ std::string truth_text(const Scenario& scenario) {
 TEST(Scenario, SchemasOfTheProgramAreSound) {
   for (const auto& [kind, tables] :
        {std::pair{ScenarioKind::Spin, 9U}, std::pair{ScenarioKind::Separation, 13U},
-        std::pair{ScenarioKind::Tumbling, 12U}, std::pair{ScenarioKind::Orientation, 14U}}) {
+        std::pair{ScenarioKind::Tumbling, 12U}, std::pair{ScenarioKind::Orientation, 14U},
+        std::pair{ScenarioKind::Rescue, 14U}}) {
     const auto schema = value_or_throw(scenario_schema(kind));
     EXPECT_EQ(schema.tables.size(), tables);
   }
@@ -92,7 +93,7 @@ TEST(Scenario, LoadsThoseThatComeWithTheProgram) {
       ++count;
     }
   }
-  EXPECT_EQ(count, 8);
+  EXPECT_EQ(count, 9);
 }
 
 TEST(Scenario, TakesWhatIsLeftOutAsTheMissionFileHasIt) {
