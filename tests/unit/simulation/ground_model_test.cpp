@@ -45,7 +45,7 @@ TEST_P(OwnModel, IsNotLeftByAPassOfTheScenario) {
 INSTANTIATE_TEST_SUITE_P(Scenarios, OwnModel,
                          ::testing::Values("gto-nominal.toml", "gto-dirty.toml",
                                            "gto-nutating.toml", "separation.toml", "tumbling.toml",
-                                           "upper-stage.toml", "rescue.toml"),
+                                           "upper-stage.toml"),
                          [](const auto& scenario) {
                            std::string name = scenario.param;
                            name.resize(name.find('.'));
