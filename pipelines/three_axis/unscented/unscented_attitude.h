@@ -136,6 +136,11 @@ struct UnscentedAttitude {
     const Eigen::Matrix<double, 3, kStates> whitened = factor.matrixL().solve(shared);
     covariance.noalias() -= whitened.transpose() * whitened;
     state.noalias() += whitened.transpose() * factor.matrixL().solve(seen.off);
+    // Refers the covariance to the new body axes.
+    const Eigen::Matrix3d moved = right_jacobian(state.template head<3>());
+    covariance.template topRows<3>() = (moved * covariance.template topRows<3>()).eval();
+    covariance.template leftCols<3>() =
+        (covariance.template leftCols<3>() * moved.transpose()).eval();
     take_turn(q_icrf_body);
   }
 
