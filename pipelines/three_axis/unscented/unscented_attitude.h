@@ -130,12 +130,14 @@ struct UnscentedAttitude {
 
   /// Updates the state. The measurement is linearised over what is possible after it, from the
   /// state before it, so that a large correction does not claim knowledge of a turn that the
-  /// measurement does not show (Garcia-Fernandez and others 2015).
+  /// measurement does not show (Garcia-Fernandez and others 2015). A vector that points the other
+  /// way tells little of how far it is to turn, so that this takes many passes.
   template <class Measurement>
   void update(const Measurement& measurement, const Eigen::Vector3d& rate_rad_s) {
+    constexpr int kMostPasses = 20;
     const UnscentedAttitude before = *this;
     Eigen::Vector3d turn_rad = Eigen::Vector3d::Zero();
-    for (int pass = 0; pass < kMostLinearisations; ++pass) {
+    for (int pass = 0; pass < kMostPasses; ++pass) {
       Seen seen = seen_from(measurement, rate_rad_s);
       seen.off += seen.slope.template leftCols<3>() * turn_rad +
                   seen.slope.template rightCols<kStates - 3>() *
