@@ -5,7 +5,9 @@
 
 #include <Eigen/Dense>
 #include <cmath>
+#include <optional>
 #include <random>
+#include <string>
 
 #include "pipelines/ephemeris/earth_orientation.h"
 #include "pipelines/frames/angle.h"
@@ -39,13 +41,14 @@ TEST(Gukf, FindsAttitudeAndRateOfATumblingBodyThatIsOffTheMissionFile) {
 }
 
 /// Swarm's star trackers turned what it measured into north, east and down. A tumbling body sees
-/// that field, of which the model knows nothing of crust and currents.
+/// that field, which on this pass is 0.37 deg (rms) off the model.
 TEST(Gukf, FindsTheAttitudeInTheFieldThatSwarmMeasured) {
   const SwarmTable table = swarm_table("swarmA_20160101_192rows.csv");
   const MainFieldModel& model = igrf14();
   const RigidBody body = RigidBody::make(kTumblingMoments_kg_m2.asDiagonal()).value();
-  int found = 0;
-  for (std::uint64_t run = 0; run < 10; ++run) {
+  constexpr int kRuns = 10;
+  double squares_deg2 = 0.0;
+  for (std::uint64_t run = 0; run < kRuns; ++run) {
     std::mt19937_64 rng{4101 + run};
     BodyState truth{any_attitude(rng), normal_vector(rng, 0.5 * kRadPerDeg)};
     const auto seen = [&](std::size_t row) {
@@ -71,9 +74,10 @@ TEST(Gukf, FindsTheAttitudeInTheFieldThatSwarmMeasured) {
         bank.emplace(tumbling_model({}), first, seen(row), 10.0);
       }
     }
-    found += degrees(motion_error(bank->best(), truth).head<3>().norm()) < 0.8 ? 1 : 0;
+    squares_deg2 += std::pow(degrees(motion_error(bank->best(), truth).head<3>().norm()), 2);
   }
-  EXPECT_EQ(found, 10);
+  RecordProperty("rms_deg", std::to_string(std::sqrt(squares_deg2 / kRuns)));
+  EXPECT_LT(std::sqrt(squares_deg2 / kRuns), 2.0 * 0.37);
 }
 
 }  // namespace spindrift::testing::gukf_test
