@@ -53,8 +53,7 @@ BankOutcome bank_outcome(const GukfModel& model, TumblingBody& body, double peri
     }
     bank.update(field);
     if (body.t_s() <= 900.0) {
-      outcome.off_at_900_s_deg =
-          degrees(motion_error(bank.best(), body.state()).head<3>().norm());
+      outcome.off_at_900_s_deg = degrees(motion_error(bank.best(), body.state()).head<3>().norm());
     }
   }
   const Eigen::Matrix<double, 6, 1> error = motion_error(bank.best(), body.state());

@@ -69,16 +69,16 @@ class TumblingBody {
   TumblingBody(std::mt19937_64& rng, double most_rad_s, const TumblingErrors& errors)
       : rng_{rng},
         errors_{errors},
-        orbit_{low_orbit(
-            at_s(0.0), std::uniform_real_distribution<double>{0.0, 2.0 * std::numbers::pi}(rng))},
-        body_{RigidBody::make(
-                  (kTumblingMoments_kg_m2.array() * (1.0 + errors.moments.array()))
-                      .matrix()
-                      .asDiagonal())
+        orbit_{low_orbit(at_s(0.0),
+                         std::uniform_real_distribution<double>{0.0, 2.0 * std::numbers::pi}(rng))},
+        body_{RigidBody::make((kTumblingMoments_kg_m2.array() * (1.0 + errors.moments.array()))
+                                  .matrix()
+                                  .asDiagonal())
                   .value()},
         state_{.q_icrf_body = any_attitude(rng),
-               .rate_body_rad_s = std::uniform_real_distribution<double>{0.0, most_rad_s}(rng) *
-                                  normal_vector(rng, 1.0).normalized()} {}
+               .rate_body_rad_s = std::uniform_real_distribution<double>{0.0, most_rad_s}(
+                                      rng)*normal_vector(rng, 1.0)
+                                      .normalized()} {}
 
   /// Moves the body on in steps of a second or less, each with a random torque.
   void advance(double dt_s) {
@@ -86,8 +86,7 @@ class TumblingBody {
     const double step_s = dt_s / steps;
     for (int step = 0; step < steps; ++step) {
       const Eigen::Vector3d torque_nm =
-          errors_.torque_nm +
-          normal_vector(rng_, kTumblingTorqueNoise_nm_rts / std::sqrt(step_s));
+          errors_.torque_nm + normal_vector(rng_, kTumblingTorqueNoise_nm_rts / std::sqrt(step_s));
       state_ = body_.after(state_, {.external_nm = torque_nm}, step_s);
     }
     t_s_ += dt_s;
@@ -107,8 +106,7 @@ class TumblingBody {
 
  private:
   Eigen::Vector3d field_icrf_nt_at(double t_s) {
-    return field_icrf_nt(igrf14(), at_s(t_s), orbit_.at(at_s(t_s)).value().position_icrf_km,
-                         earth_)
+    return field_icrf_nt(igrf14(), at_s(t_s), orbit_.at(at_s(t_s)).value().position_icrf_km, earth_)
         .value();
   }
 

@@ -29,6 +29,23 @@ Gukf::Gukf(const GukfModel& model, const UncertainMotion& start)
   estimate_.covariance.block<3, 3>(Torque, Torque) =
       model.torque_sigma_nm * model.torque_sigma_nm * Matrix3d::Identity();
   estimate_.set_errors(model.alignment, {InertiaError, InertiaError + 1, InertiaError + 2});
+  prior_sigma_ = estimate_.covariance.diagonal().cwiseSqrt();
+}
+
+double Gukf::most_prior_sigmas() const {
+  double most = 0.0;
+  for (int state = LogMoments; state < Estimate::kStates; ++state) {
+    if (prior_sigma_[state] > 0.0) {
+      most = std::max(most, std::abs(estimate_.state[state]) / prior_sigma_[state]);
+    }
+  }
+  return most;
+}
+
+Gukf Gukf::started_again(const GukfModel& model, const UncertainMotion& start) const {
+  Gukf again{model, start};
+  again.estimate_.state.segment<3>(LogMoments) = log_moments();
+  return again;
 }
 
 BodyState Gukf::after(const Quaterniond& q_icrf_body, const Estimate::Moving& state,

@@ -41,6 +41,9 @@ class Gukf {
  public:
   Gukf(const GukfModel& model, const UncertainMotion& start);
 
+  /// Returns a filter that starts again at the estimated moments, with their prior covariance.
+  Gukf started_again(const GukfModel& model, const UncertainMotion& start) const;
+
   /// @param torques Known torques and momentum of the wheels at the start of the step.
   void propagate(double dt_s, const BodyTorques& torques = {});
 
@@ -82,6 +85,9 @@ class Gukf {
     return estimate_.covariance.block<3, 3>(kMoving + FieldBias, kMoving + FieldBias);
   }
 
+  /// Returns the largest estimated error of the mission file, in standard deviations of its prior.
+  double most_prior_sigmas() const;
+
  private:
   /// First index of the states in front of the errors of the sensors.
   enum State { Turn = 0, Rate = 3, Torque = 6, LogMoments = 9 };
@@ -97,6 +103,7 @@ class Gukf {
   Eigen::Vector3d moments_kg_m2_;   ///< Those of the file.
   double torque_noise2_;            ///< Density, N^2 m^2 s.
   Estimate estimate_;
+  Estimate::State prior_sigma_;  ///< Zero where a state is exact.
 };
 
 }  // namespace spindrift

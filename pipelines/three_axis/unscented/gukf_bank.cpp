@@ -37,6 +37,9 @@ constexpr double kMostSquare = 16.27;
 /// With more of their expectation the squares contradict the filter.
 constexpr double kMostSquares = 1.6;
 
+/// An error of the mission file that is estimated larger than this contradicts the filter.
+constexpr double kMostPriorSigmas = 5.0;
+
 /// An attitude with a smaller sigma and a larger lead is clear; the filter then starts again.
 constexpr double kClear_rad = 1.0 * kRadPerDeg;
 constexpr double kClear_nats = 50.0;
@@ -59,7 +62,7 @@ GukfBank::GukfBank(const GukfModel& model, const SeenField& first, const SeenFie
 }
 
 GukfBank::GukfBank(const GukfModel& model, const UncertainMotion& start)
-    : model_{model}, hypotheses_{{.filter = Gukf{model, start}}}, is_settled_{true} {}
+    : model_{model}, hypotheses_{{.filter = Gukf{model, start}, .is_settled = true}} {}
 
 void GukfBank::start_from(const SeenField& first, const SeenField& second, double dt_s) {
   const Vector3d along = second.body_nt.normalized();
@@ -81,7 +84,6 @@ void GukfBank::start_from(const SeenField& first, const SeenField& second, doubl
         {.filter = Gukf{model_, uncertain({q, rate_rad_s}, turn_rad2, kStartRate_rad_s)}});
   }
   since_start_s_ = 0.0;
-  is_settled_ = false;
 }
 
 void GukfBank::propagate(double dt_s, const BodyTorques& torques) {
@@ -120,7 +122,7 @@ void GukfBank::update_all(const Measurement& measurement) {
     hypothesis.filter.update(measurement);
   }
   choose();
-  if (!is_settled_) {
+  if (!is_settled()) {
     settle();
   }
 }
@@ -140,8 +142,9 @@ void GukfBank::choose() {
 }
 
 /// On the way from a wrong attitude a filter takes errors of the attitude for those of the mission
-/// file, and does not forget this. Once the attitude is clear it starts again from there, and what
-/// has come to the same attitude is dropped.
+/// file, and does not forget this. Once the attitude is clear it starts again from there, with the
+/// moments that it has found, since what they do is far from linear. What has come to the same
+/// attitude is dropped.
 void GukfBank::settle() {
   const Gukf& found = best();
   if (since_start_s_ < kJudged_s || is_contradicted() || lead_nats() < kClear_nats ||
@@ -152,15 +155,16 @@ void GukfBank::settle() {
   std::erase_if(hypotheses_, [&](const Hypothesis& other) {
     return &other != &hypotheses_.front() && !is_apart(other.filter);
   });
-  hypotheses_.front().filter = Gukf{
-      model_, uncertain(motion, kAgain_rad * kAgain_rad * Matrix3d::Identity(), kAgainRate_rad_s)};
-  is_settled_ = true;
+  hypotheses_.front().filter = best().started_again(
+      model_, uncertain(motion, kAgain_rad * kAgain_rad * Matrix3d::Identity(), kAgainRate_rad_s));
+  hypotheses_.front().is_settled = true;
 }
 
 bool GukfBank::is_contradicted() const {
   const Hypothesis& winner = hypotheses_.front();
   return !std::isfinite(winner.log_likelihood) ||
-         (since_start_s_ >= kJudged_s && winner.squares > kMostSquares * winner.freedom);
+         (since_start_s_ >= kJudged_s && (winner.squares > kMostSquares * winner.freedom ||
+                                          winner.filter.most_prior_sigmas() > kMostPriorSigmas));
 }
 
 bool GukfBank::is_apart(const Gukf& other) const {

@@ -42,11 +42,12 @@ class GukfBank {
   /// Returns by how much it is more likely than every filter more than 15 deg away from it, nats;
   /// infinity where there is none.
   double lead_nats() const;
-  /// Returns whether what was measured in the last minutes contradicts the most likely filter. The
-  /// next field then starts the bank again from nothing.
+  /// Returns whether the most likely filter is contradicted by what was measured in the last
+  /// minutes, or explains it by errors far beyond the mission file's. The next field then starts
+  /// the bank again from nothing.
   bool is_contradicted() const;
-  /// Returns whether the attitude has once been clear since the bank started.
-  bool is_settled() const { return is_settled_; }
+  /// Returns whether the attitude of the most likely filter has once been clear.
+  bool is_settled() const { return hypotheses_.front().is_settled; }
   /// Returns the number of filters left.
   std::size_t size() const { return hypotheses_.size(); }
 
@@ -57,6 +58,7 @@ class GukfBank {
     double log_likelihood = 0.0;  ///< Nats.
     double squares = 0.0;         ///< Sum of normalised squares, spurious ones bounded.
     double freedom = 0.0;         ///< Its expectation.
+    bool is_settled = false;
   };
 
   void start_from(const SeenField& first, const SeenField& second, double dt_s);
@@ -71,7 +73,6 @@ class GukfBank {
   std::optional<SeenField> last_field_;
   double since_field_s_ = 0.0;
   double since_start_s_ = 0.0;
-  bool is_settled_ = false;
 };
 
 }  // namespace spindrift

@@ -21,6 +21,7 @@
 #include <type_traits>
 
 #include "pipelines/frames/rotation_vector.h"
+#include "pipelines/statistics/linear_update.h"
 #include "pipelines/three_axis/unscented/measurements.h"
 #include "pipelines/three_axis/unscented/rodrigues.h"
 #include "pipelines/three_axis/unscented/statistical_linearisation.h"
@@ -127,16 +128,37 @@ struct UnscentedAttitude {
     return innovation;
   }
 
+  /// Updates the state. The measurement is linearised over what is possible after it, from the
+  /// state before it, so that a large correction does not claim knowledge of a turn that the
+  /// measurement does not show (Garcia-Fernandez and others 2015). A vector that points the other
+  /// way tells little of how far it is to turn, so that this takes many passes.
   template <class Measurement>
   void update(const Measurement& measurement, const Eigen::Vector3d& rate_rad_s) {
-    const Seen seen = seen_from(measurement, rate_rad_s);
-    const Eigen::Matrix<double, 3, kStates> shared = seen.slope * covariance;
-    const Eigen::Matrix3d expected = shared * seen.slope.transpose() + seen.noise;
-    const Eigen::LLT<Eigen::Matrix3d> factor{expected};
-    const Eigen::Matrix<double, 3, kStates> whitened = factor.matrixL().solve(shared);
-    covariance.noalias() -= whitened.transpose() * whitened;
-    state.noalias() += whitened.transpose() * factor.matrixL().solve(seen.off);
-    take_turn(q_icrf_body);
+    constexpr int kMostPasses = 20;
+    const UnscentedAttitude before = *this;
+    Eigen::Vector3d turn_rad = Eigen::Vector3d::Zero();
+    for (int pass = 0; pass < kMostPasses; ++pass) {
+      Seen seen = seen_from(measurement, rate_rad_s);
+      seen.off += seen.slope.template leftCols<3>() * turn_rad +
+                  seen.slope.template rightCols<kStates - 3>() *
+                      (state - before.state).template tail<kStates - 3>();
+      seen.slope.template leftCols<3>() *= right_jacobian(turn_rad);
+      const Eigen::Matrix<double, 3, kStates> shared = seen.slope * before.covariance;
+      const Eigen::Matrix3d expected = shared * seen.slope.transpose() + seen.noise;
+      const Eigen::LLT<Eigen::Matrix3d> factor{expected};
+      const Eigen::Matrix<double, 3, kStates> whitened = factor.matrixL().solve(shared);
+      const State more = whitened.transpose() * factor.matrixL().solve(seen.off);
+      const double change_rad = (more.template head<3>() - turn_rad).norm();
+      turn_rad = more.template head<3>();
+      covariance = before.covariance;
+      covariance.noalias() -= whitened.transpose() * whitened;
+      refer_to_turned(turn_rad);
+      state = before.state + more;
+      take_turn(before.q_icrf_body);
+      if (!(change_rad > kFarFromLinear_rad)) {
+        break;
+      }
+    }
   }
 
   /// Returns the covariance of the turn if the errors of the mission file were known.
@@ -153,10 +175,18 @@ struct UnscentedAttitude {
   }
 
  private:
+  /// Refers the covariance to body axes that are turned.
+  void refer_to_turned(const Eigen::Vector3d& turn_rad) {
+    const Eigen::Matrix3d moved = right_jacobian(turn_rad);
+    covariance.template topRows<3>() = (moved * covariance.template topRows<3>()).eval();
+    covariance.template leftCols<3>() =
+        (covariance.template leftCols<3>() * moved.transpose()).eval();
+  }
+
   /// Moves the turn of the state into the quaternion.
   /// @param from Attitude that the turn is relative to.
   void take_turn(const Eigen::Quaterniond& from) {
-    q_icrf_body = (from * quaternion_of_rodrigues(state.template head<3>())).normalized();
+    q_icrf_body = (from * quaternion_by(state.template head<3>())).normalized();
     state.template head<3>().setZero();
   }
 

@@ -86,8 +86,7 @@ Tally tally_with_wrong_inertia(const TumblingPrior& prior, int runs, double peri
 }
 
 /// As real hardware differs from a mission file.
-constexpr TumblingPrior kReal{
-    .moments = 0.05, .mounting_rad = 0.3 * kRadPerDeg, .bias_nt = 100.0};
+constexpr TumblingPrior kReal{.moments = 0.05, .mounting_rad = 0.3 * kRadPerDeg, .bias_nt = 100.0};
 
 TEST(GukfMany, FindTheAttitudeWithAnExactMissionFile) {
   const Tally slow = tally_of({}, 200, 10.0, 5001);
@@ -195,8 +194,8 @@ TEST_F(GukfBadInput, ALateTimeTagIsNeverSafe) {
 
 TEST_F(GukfBadInput, ALargeBiasIsNeverSafeAndWrong) {
   for (const double bias_nt : {300.0, 2000.0}) {
-    const Tally tally = tally_of_bad(kReal, {.bias_nt = bias_nt * Vector3d{0.6, -0.64, 0.48}},
-                                     as_it_is);
+    const Tally tally =
+        tally_of_bad(kReal, {.bias_nt = bias_nt * Vector3d{0.6, -0.64, 0.48}}, as_it_is);
     tally.record("bias_" + std::to_string(static_cast<int>(bias_nt)));
     EXPECT_EQ(tally.safe_but_wrong, 0);
   }
@@ -208,7 +207,9 @@ TEST_F(GukfBadInput, ATorqueIsEstimatedWhereItHasAState) {
   prior.torque_nm = 2e-6;
   const Tally known = tally_of_bad(prior, torque, as_it_is);
   known.record("with_state");
-  known.expect_found(2);
+  EXPECT_GE(known.right, 38);
+  EXPECT_GE(known.safe, 38);
+  EXPECT_EQ(known.safe_but_wrong, 0);
   const Tally unknown = tally_of_bad(kReal, torque, as_it_is);
   unknown.record("without_state");
   EXPECT_EQ(unknown.safe_but_wrong, 0);
