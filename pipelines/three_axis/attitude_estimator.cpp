@@ -384,7 +384,7 @@ void AttitudeEstimator::take_in_star(const StarFix& fix, Products& out) {
     has_fixes_ = true;
     return;
   }
-  if (rival_overrules()) {
+  if (rival_ && rival_->overrules(*t_, is_confirmed())) {
     overrule(out);
   } else if (!rival_) {
     rival_ = RivalAttitude{.filter = filter_at(alone), .since = fix.t, .star_fixes = 1};
@@ -430,8 +430,8 @@ void AttitudeEstimator::take_in_direction(const SeenDirection& seen, Products& o
 /// that where two sensors have contradicted each other these alone say whether they still do. They
 /// know nothing of what was rejected, so that they name none where two attitudes stand.
 void AttitudeEstimator::look_for_culprit(TaiTime t) {
-  has_contradicted_ = has_contradicted_ || contradictions_.found();
-  const bool is_unsettled = has_contradicted_ || began_anew_ || (rival_ && rival_->stands());
+  const bool is_unsettled =
+      contradictions_.has_found() || began_anew_ || (rival_ && rival_->stands());
   by_errors_ = is_unsettled || !filter_->evidence().beyond()
                    ? std::nullopt
                    : contradiction_by_errors(filter_->evidence(), rate_body_rad_s(),
@@ -444,8 +444,7 @@ const std::optional<SensorContradiction>& AttitudeEstimator::contradiction() con
 
 /// Tells of a contradiction, and of its end, where no estimate does.
 void AttitudeEstimator::tell_contradiction(TaiTime t, Products& out) {
-  has_contradicted_ = has_contradicted_ || contradictions_.found();
-  if (has_contradicted_) {
+  if (contradictions_.has_found()) {
     out.emplace_back(SensorsCompared{.t = t, .contradiction = contradictions_.found()});
   }
 }
@@ -457,8 +456,9 @@ bool AttitudeEstimator::work_in(TaiTime t, SampleKind kind, const Observed& obse
   Observation said = observation_of(*filter_, observed);
   said.t = t;
   said.source = source_of(kind);
-  if (rival_) {
-    ask_rival(observed, !observation_of(rival_->filter, observed).rejected_by, !said.rejected_by);
+  if (rival_ && !rival_->hear(observed, !observation_of(rival_->filter, observed).rejected_by,
+                              !said.rejected_by)) {
+    rival_.reset();
   }
   contradicted_rad_ =
       said.rejected_by ? std::max(contradicted_rad_, said.residual.value.norm()) : 0.0;
@@ -498,43 +498,6 @@ bool AttitudeEstimator::work_in(TaiTime t, SampleKind kind, const Observed& obse
     longest_gap_s_ = 0.0;
   }
   return true;
-}
-
-/// Drops a rival formed by star fixes once a fix fits the attitude in force, or fits neither
-/// attitude while the rival is not refuted.
-void AttitudeEstimator::ask_rival(const ObservedAttitude& fix, bool fits, bool fits_in_force) {
-  if (fits_in_force) {
-    rival_->star_fixes = 0;
-  } else if (fits) {
-    rival_->filter.update(fix);
-    ++rival_->star_fixes;
-  }
-  const bool is_past = fits_in_force || (!fits && !(rival_->stands() && rival_->is_refuted()));
-  if (is_past && !rival_->was_in_force) {
-    rival_.reset();
-  }
-}
-
-/// Drops a rival that was once in force as soon as it is refuted.
-void AttitudeEstimator::ask_rival(const SeenDirection& seen, bool fits, bool fits_in_force) {
-  rival_->against = std::clamp(rival_->against + (fits_in_force ? 1 : 0) - (fits ? 1 : 0),
-                               -kLostInARow, kLostInARow);
-  if (fits) {
-    rival_->filter.update(seen);
-  }
-  if (rival_->was_in_force && rival_->is_refuted()) {
-    rival_.reset();
-  }
-}
-
-/// Lets the rival win when no other sensor decides. A sensor that still supports the attitude in
-/// force would have decided within the waiting time.
-bool AttitudeEstimator::rival_overrules() const {
-  if (!rival_ || rival_->is_refuted() || rival_->star_fixes < RivalAttitude::kEnough) {
-    return false;
-  }
-  return rival_->was_in_force || !is_confirmed() ||
-         elapsed_s(rival_->since, *t_) >= RivalAttitude::kEnough * kHeld_s;
 }
 
 /// Keeps the attitude that was in force as the new rival, unless nothing supports it any longer.

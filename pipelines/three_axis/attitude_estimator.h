@@ -55,35 +55,13 @@
 #include "pipelines/three_axis/gyro_watch.h"
 #include "pipelines/three_axis/mekf.h"
 #include "pipelines/three_axis/products.h"
+#include "pipelines/three_axis/rival_attitude.h"
 #include "pipelines/three_axis/samples.h"
 #include "pipelines/three_axis/sensor_contradictions.h"
 #include "pipelines/three_axis/sensor_errors.h"
 #include "pipelines/time/tai_time.h"
 
 namespace spindrift {
-
-/// A second attitude, kept when star fixes contradict the one in force: either the star tracker or
-/// the attitude is wrong. Star fixes alone cannot decide which; Sun and magnetic field can.
-struct RivalAttitude {
-  /// Number of samples beyond which an agreement is not accidental.
-  static constexpr int kEnough = 3;
-
-  Mekf filter;
-  TaiTime since;
-  /// True if star fixes overruled this attitude; false if they formed it.
-  bool was_in_force = false;
-  /// True if star fixes have ever supported this attitude.
-  bool has_fixes = true;
-  /// Number of star fixes that fit this attitude and not the one in force.
-  int star_fixes = 0;
-  /// Samples of other sensors that fit only the attitude in force, minus those that fit only this.
-  int against = 0;
-
-  /// Returns whether this attitude is more than an outlier.
-  bool stands() const { return was_in_force || star_fixes >= kEnough; }
-  bool is_refuted() const { return against >= kEnough; }
-  bool is_proven() const { return against <= -kEnough; }
-};
 
 class AttitudeEstimator {
  public:
@@ -153,9 +131,6 @@ class AttitudeEstimator {
   const std::optional<SensorContradiction>& contradiction() const;
   template <class Observed>
   bool work_in(TaiTime t, SampleKind kind, const Observed& observed, Products& out);
-  void ask_rival(const ObservedAttitude& fix, bool fits, bool fits_in_force);
-  void ask_rival(const SeenDirection& seen, bool fits, bool fits_in_force);
-  bool rival_overrules() const;
   void overrule(Products& out);
 
   /// Describes the interval between two consecutive gyro samples.
@@ -207,7 +182,6 @@ class AttitudeEstimator {
   std::optional<Mekf> filter_;
   bool has_fixes_ = false;  ///< True once star fixes support the filter's attitude.
   SensorContradictions contradictions_;
-  bool has_contradicted_ = false;  ///< True once sensors have contradicted each other.
   /// A contradiction that only all innovations together show.
   std::optional<SensorContradiction> by_errors_;
   std::optional<GyroSample> refused_;  ///< Last gyro sample in a wrong unit.

@@ -298,6 +298,11 @@ void SensorContradictions::add(TaiTime t, SampleKind one, SampleKind other,
 }
 
 void SensorContradictions::decide(TaiTime t) {
+  found_ = contradiction_at(t);
+  has_found_ = has_found_ || found_;
+}
+
+std::optional<SensorContradiction> SensorContradictions::contradiction_at(TaiTime t) {
   const auto worst =
       std::max_element(pairs_.begin(), pairs_.end(), [&](const Pair& a, const Pair& b) {
         const auto weight = [&](const Pair& pair) {
@@ -307,8 +312,7 @@ void SensorContradictions::decide(TaiTime t) {
       });
   if (!worst->test.contradicts(t)) {
     departure_ = {};
-    found_ = scatter(t);
-    return;
+    return scatter(t);
   }
   std::optional<SampleKind> culprit = culprit_of(*worst, t);
   if (!culprit && found_ && found_->culprit && worst->has(kind_of(*found_->culprit))) {
@@ -329,7 +333,7 @@ void SensorContradictions::decide(TaiTime t) {
   } else {
     now.with = {source_of(worst->first), source_of(worst->second)};
   }
-  found_ = std::move(now);
+  return now;
 }
 
 double SensorContradictions::most_sigmas_without(SampleKind kind, TaiTime t) const {

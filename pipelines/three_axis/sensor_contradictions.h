@@ -55,6 +55,8 @@ class SensorContradictions {
 
   /// Returns the contradiction that the samples up to now show; empty if there is none.
   const std::optional<SensorContradiction>& found() const { return found_; }
+  /// Returns whether any samples up to now have shown one.
+  bool has_found() const { return has_found_; }
 
  private:
   /// Sums of what the gyro has measured; differences of two are what it has measured in between.
@@ -102,6 +104,7 @@ class SensorContradictions {
 
   void add(TaiTime t, SampleKind one, SampleKind other, const PairComparison& compared);
   void decide(TaiTime t);
+  std::optional<SensorContradiction> contradiction_at(TaiTime t);
   double most_sigmas_without(SampleKind kind, TaiTime t) const;
   bool is_vouched_for(SampleKind kind, const Pair& accused, TaiTime t) const;
   std::optional<SampleKind> culprit_of(const Pair& worst, TaiTime t) const;
@@ -122,6 +125,7 @@ class SensorContradictions {
   double stated_noise_rad_s_ = 0.0;  ///< Noise of the gyro as the mission file has it.
   double gyro_noise_rad_s_ = 0.0;
   std::optional<SensorContradiction> found_;
+  bool has_found_ = false;
 };
 
 }  // namespace spindrift

@@ -304,7 +304,7 @@ void PassNotices::say_what_the_axis_lacks(const SequentialEstimator& sequential)
   if (!quality_ && last_case_ != 0) {
     say({NoticeCode::SequentialNeverBegan});
   }
-  if (quality_ && is_unopposed(*quality_) &&
+  if (quality_ && is_unopposed(*quality_) && sequential.has_begun() &&
       sequential.model_leverage() > SequentialEstimator::kPoorLeverage) {
     const double error_deg = degrees(kModelError_rad);
     say({NoticeCode::LittleLeverage,

@@ -208,31 +208,78 @@ TEST_F(OperatorActions, HoldForLaterRunsOfTheSameMode) {
   EXPECT_GT(left_out(), of_first);
 }
 
+/// A processor whose products supervision sees.
+struct Supervised {
+  Processor processor = new_processor();
+  AlertDesk desk{{mission()}, RunMode::Live};
+  std::vector<Product> products;
+
+  void see(std::vector<ArchiveBatch> batches) {
+    for (ArchiveBatch& batch : batches) {
+      desk.evaluate(batch);
+      products.insert(products.end(), batch.products.begin(), batch.products.end());
+    }
+  }
+  void see(Routed routed) {
+    see(std::move(routed.samples));
+    for (const PassInput& input : routed.work) {
+      see(processor.compute(input));
+    }
+  }
+  /// Returns the last product of a kind that the condition holds for.
+  template <class Kind, class Condition>
+  const Kind* last(Condition holds) const {
+    const Kind* found = nullptr;
+    for (const Product& product : products) {
+      const auto* const one = std::get_if<Kind>(&product);
+      found = one != nullptr && holds(*one) ? one : found;
+    }
+    return found;
+  }
+};
+
 TEST_F(OperatorActions, SetTheTargetOfSupervisionAlsoAfterARestart) {
   const json target{{"action", "set_target"}, {"ra_deg", 90.0}, {"dec_deg", 0.0}};
   live().receive(0, kStopped, {target});
-  AlertDesk desk{{mission()}, RunMode::Live};
-  Processor processor = new_processor();
-  auto gone_on = processor.go_on(path()).value();
-  std::int64_t raised = 0;
-  const auto see = [&](std::vector<ArchiveBatch> batches) {
-    for (ArchiveBatch& batch : batches) {
-      desk.evaluate(batch);
-      for (const Product& product : batch.products) {
-        const auto* const alert = std::get_if<Alert>(&product);
-        raised += alert != nullptr && alert->key == "spin.off_target" &&
-                          alert->state == AlertState::Active
-                      ? 1
-                      : 0;
-      }
-    }
+  Supervised again;
+  again.see(again.processor.go_on(path()).value().routed);
+  EXPECT_EQ(std::count_if(again.products.begin(), again.products.end(),
+                          [](const Product& product) {
+                            const auto* const alert = std::get_if<Alert>(&product);
+                            return alert != nullptr && alert->key == "spin.off_target" &&
+                                   alert->state == AlertState::Active;
+                          }),
+            1);
+  EXPECT_TRUE(again.desk.target_of("SPINNER"));
+}
+
+/// Behind the manoeuvre all fixes graze the limb, and none settles the axis of `sequential`.
+TEST_F(OperatorActions, OfAManoeuvreBehindTwoExcludedChannelsLeaveTheAnswerOfBatchInForce) {
+  const testing::Samples all = testing::edges_of(kPass, 3600);
+  Supervised pass;
+  pass.see(pass.processor.begin());
+  const auto take = [&](std::size_t from, std::size_t to) {
+    pass.see(
+        pass.processor.route(testing::batch_of_samples<Pulse>(testing::part_of(all, from, to))));
   };
-  see(std::move(gone_on.routed.samples));
-  for (const PassInput& input : gone_on.routed.work) {
-    see(processor.compute(input));
+  take(0, kAll);
+  for (const json& action : {json{{"action", "exclude_channel"}, {"channel", "sun2"}}, kNoNorthIn,
+                             json{{"action", "mark_manoeuvre"}}}) {
+    pass.see(pass.processor.route(batch_of(action)));
   }
-  EXPECT_EQ(raised, 1);
-  EXPECT_TRUE(desk.target_of("SPINNER"));
+  take(kAll, all.size());
+  pass.see(pass.processor.finish());
+  const auto quality_of = [&](SpinEstimator estimator) {
+    return pass
+        .last<SpinEstimate>([&](const SpinEstimate& is) { return is.estimator == estimator; })
+        ->assessment.quality;
+  };
+  EXPECT_EQ(quality_of(SpinEstimator::Sequential), Quality::Ambiguous);
+  EXPECT_EQ(quality_of(SpinEstimator::Batch), Quality::Ok);
+  const auto* const answer = pass.last<SpinAnswer>([](const SpinAnswer&) { return true; });
+  ASSERT_NE(answer, nullptr);
+  EXPECT_EQ(answer->estimate.estimator, SpinEstimator::Batch);
+  EXPECT_EQ(answer->quality, Quality::Ok);
 }
 
 }  // namespace spindrift::operator_action_test

@@ -461,6 +461,17 @@ TEST(SpinPass, AMarkedManoeuvreLeavesTheStepOfTheOrbitBehind) {
   EXPECT_FALSE(has(estimate.assessment, ReasonCode::OrbitSteps));
 }
 
+TEST(SpinPass, EndsAlsoWhereNoFixFollowsAMarkedManoeuvre) {
+  const RecordedPass pass = recorded_pass("nominal");
+  const TaiTime burn = shifted(pass.pulses.front().t, 200.0);
+  SpinPass spin{pass.config, pass.orbit};
+  for (const PulseChannel channel : {PulseChannel::Sun1, PulseChannel::Sun2}) {
+    spin.act(burn, ExcludeChannel<PulseChannel>{channel});
+  }
+  spin.act(burn, MarkManoeuvre{});
+  EXPECT_LE(sequential_of(run(std::move(spin), pass.pulses)).t, burn);
+}
+
 /// 60 rpm with times truncated to a millisecond: each channel has a constant error during the pass.
 TEST(SpinPass, TimesOnAGridAreSaidAndInTheSigmaOfEveryEstimate) {
   const RecordedPass pass = recorded_pass("../faults/times-in-ms");
