@@ -18,6 +18,25 @@ constexpr double kMostTurnInStep_rad = 0.2;
 
 }  // namespace
 
+UncertainMotion motion_between(const UncertainAttitude& first, const UncertainAttitude& second,
+                               double dt_s) {
+  const Quaterniond turn = first.q_ref_body.conjugate() * second.q_ref_body;
+  const Vector3d rate_rad_s = rotation_vector_of(turn) / dt_s;
+  const Matrix3d back = turn.conjugate().toRotationMatrix();
+  const double may_change_rad_s = 0.5 * rate_rad_s.squaredNorm() * dt_s;
+  UncertainMotion motion{
+      .motion = {.q_icrf_body = second.q_ref_body, .rate_body_rad_s = rate_rad_s},
+      .covariance = Eigen::Matrix<double, 6, 6>::Zero()};
+  const Matrix3d& turn_rad2 = second.covariance_rad2;
+  motion.covariance.topLeftCorner<3, 3>() = turn_rad2;
+  motion.covariance.topRightCorner<3, 3>() = turn_rad2 / dt_s;
+  motion.covariance.bottomLeftCorner<3, 3>() = turn_rad2 / dt_s;
+  motion.covariance.bottomRightCorner<3, 3>() =
+      (turn_rad2 + back * first.covariance_rad2 * back.transpose()) / (dt_s * dt_s) +
+      may_change_rad_s * may_change_rad_s * Matrix3d::Identity();
+  return motion;
+}
+
 Gukf::Gukf(const GukfModel& model, const UncertainMotion& start)
     : torque_noise2_{model.torque_noise_nm_rts * model.torque_noise_nm_rts} {
   const Eigen::SelfAdjointEigenSolver<Matrix3d> principal{model.inertia_kg_m2};

@@ -12,6 +12,7 @@
 #include <Eigen/Geometry>
 
 #include "pipelines/frames/body_state.h"
+#include "pipelines/frames/uncertain_attitude.h"
 #include "pipelines/ground_model/dynamics/rigid_body.h"
 #include "pipelines/three_axis/alignment.h"
 #include "pipelines/three_axis/unscented/measurements.h"
@@ -36,6 +37,12 @@ struct UncertainMotion {
   BodyState motion;
   Eigen::Matrix<double, 6, 6> covariance;
 };
+
+/// Returns the motion at the second of two attitudes, as from pairs of vectors, with independent
+/// errors. The rate is taken for constant between them, with an error of what it may turn.
+/// @param dt_s Time between the two, in which the body turns by less than half a turn.
+UncertainMotion motion_between(const UncertainAttitude& first, const UncertainAttitude& second,
+                               double dt_s);
 
 class Gukf {
  public:

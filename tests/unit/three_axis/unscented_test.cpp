@@ -127,6 +127,30 @@ TEST(Gukf, MovesAsTheRigidBody) {
   EXPECT_LT((filter.rate_rad_s() - truth.rate_body_rad_s).norm(), 1e-7);
 }
 
+TEST(MotionBetween, IsConsistentOverManyPairs) {
+  std::mt19937_64 rng{76};
+  constexpr double kSigma_rad = 0.01;
+  constexpr double kApart_s = 10.0;
+  constexpr int kPairs = 500;
+  double nees = 0.0;
+  for (int pair = 0; pair < kPairs; ++pair) {
+    const Vector3d rate_rad_s = normal_vector(rng, 0.005);
+    const Quaterniond first = any_attitude(rng);
+    const Quaterniond second = first * quaternion_by(kApart_s * rate_rad_s);
+    const auto seen = [&](const Quaterniond& q) {
+      return known_to(q * quaternion_by(normal_vector(rng, kSigma_rad)), kSigma_rad);
+    };
+    const UncertainMotion motion = motion_between(seen(first), seen(second), kApart_s);
+    Eigen::Matrix<double, 6, 1> error;
+    error << error_rad(motion.motion.q_icrf_body, second),
+        rate_rad_s - motion.motion.rate_body_rad_s;
+    nees += error.dot(motion.covariance.ldlt().solve(error));
+  }
+  // A rate that changes is allowed for, and does not.
+  EXPECT_LT(nees / kPairs, 6.2);
+  EXPECT_GT(nees / kPairs, 4.5);
+}
+
 constexpr double kField_nt = 30'000.0;
 
 TEST(Gukf, KnowsNothingOfTheTurnAboutASingleVector) {
