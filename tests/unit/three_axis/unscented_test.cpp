@@ -93,9 +93,16 @@ TEST(Usque, IsTheExtendedFilterWhereErrorsAreSmall) {
     mekf.propagate(span, errors);
     const Vector3d sun_body =
         (mekf.q_icrf_body().conjugate() * sun_icrf + normal_vector(rng, 1e-3)).normalized();
-    usque.update(SeenSun{.body = sun_body, .ref_icrf = sun_icrf, .sigma_rad = 1e-3});
-    mekf.update(SeenDirection{
-        .t = at_s(0.0), .kind = SampleKind::Sun, .direction = {sun_body, sun_icrf, 1e-3}});
+    const SeenSun sun{.body = sun_body, .ref_icrf = sun_icrf, .sigma_rad = 1e-3};
+    const SeenDirection direction{
+        .t = at_s(0.0), .kind = SampleKind::Sun, .direction = {sun_body, sun_icrf, 1e-3}};
+    const UnscentedInnovation innovation = usque.innovation(sun);
+    const Mekf::Innovation expected = mekf.innovation(direction);
+    EXPECT_LT((innovation.residual.value - expected.residual.value).norm(), 1e-5);
+    EXPECT_LT((innovation.residual.sigma - expected.residual.sigma).norm(), 1e-5);
+    EXPECT_NEAR(innovation.nis, expected.nis, 0.02 * (1.0 + expected.nis));
+    usque.update(sun);
+    mekf.update(direction);
     if (step % 10 == 5) {
       const Quaterniond stars = mekf.q_icrf_body() * quaternion_by(normal_vector(rng, 1e-4));
       usque.update(SeenStars{.q_icrf_body = stars, .sigma_rad = 1e-4});
