@@ -10,6 +10,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <optional>
 
 #include "pipelines/frames/body_state.h"
 #include "pipelines/frames/uncertain_attitude.h"
@@ -52,7 +53,10 @@ class Gukf {
   Gukf started_again(const GukfModel& model, const UncertainMotion& start) const;
 
   /// @param torques Known torques and momentum of the wheels at the start of the step.
-  void propagate(double dt_s, const BodyTorques& torques = {});
+  /// @param position_icrf_km Where the Earth's gravity turns the body, in the middle of the step;
+  ///        empty: it does not.
+  void propagate(double dt_s, const BodyTorques& torques = {},
+                 const std::optional<Eigen::Vector3d>& position_icrf_km = std::nullopt);
 
   /// @name Innovations
   /// Compares a measurement with the state.
@@ -101,9 +105,15 @@ class Gukf {
   static constexpr int kMoving = 12;
   using Estimate = UnscentedAttitude<kMoving, LogMoments>;
 
+  /// What acts on the body in a span of time.
+  struct Step {
+    double dt_s;
+    BodyTorques torques;
+    std::optional<Eigen::Vector3d> position_icrf_km;
+    int parts;  ///< Number of steps of the integration.
+  };
   BodyState after(const Eigen::Quaterniond& q_icrf_body, const Estimate::Moving& state,
-                  const BodyTorques& torques, double dt_s, int steps) const;
-
+                  const Step& step) const;
   void add_noise(double dt_s);
 
   Eigen::Matrix3d principal_axes_;  ///< Columns in body axes, moments ascending.

@@ -9,6 +9,7 @@
 #include <random>
 
 #include "pipelines/frames/angle.h"
+#include "pipelines/ground_model/dynamics/disturbances.h"
 #include "pipelines/three_axis/mekf.h"
 #include "pipelines/three_axis/unscented/gukf_bank.h"
 #include "pipelines/three_axis/unscented/usque.h"
@@ -132,6 +133,23 @@ TEST(Gukf, MovesAsTheRigidBody) {
   }
   EXPECT_LT(angle_between_rad(filter.q_icrf_body(), truth.q_icrf_body), 1e-5);
   EXPECT_LT((filter.rate_rad_s() - truth.rate_body_rad_s).norm(), 1e-7);
+}
+
+TEST(Gukf, IsTurnedByTheEarthsGravity) {
+  const Matrix3d inertia = Vector3d{1.0, 1.5, 2.0}.asDiagonal();
+  const RigidBody body = RigidBody::make(inertia).value();
+  const Vector3d position_icrf_km{5000.0, 3000.0, 4000.0};
+  BodyState truth{Quaterniond::Identity(), {1e-4, -2e-4, 1e-4}};
+  Gukf filter{GukfModel{.inertia_kg_m2 = inertia}, moving(truth, 1e-7, 1e-9)};
+  for (int minute = 0; minute < 10; ++minute) {
+    filter.propagate(60.0, {}, position_icrf_km);
+  }
+  for (int second = 0; second < 600; ++second) {
+    const Vector3d place_body_km = truth.q_icrf_body.conjugate() * position_icrf_km;
+    truth = body.after(truth, {.external_nm = gravity_gradient_nm(inertia, place_body_km)}, 1.0);
+  }
+  EXPECT_GT((truth.rate_body_rad_s - Vector3d{1e-4, -2e-4, 1e-4}).norm(), 1e-4);
+  EXPECT_LT((filter.rate_rad_s() - truth.rate_body_rad_s).norm(), 1e-6);
 }
 
 TEST(MotionBetween, IsConsistentOverManyPairs) {
