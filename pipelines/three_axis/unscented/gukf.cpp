@@ -96,7 +96,7 @@ void Gukf::propagate(double dt_s, const BodyTorques& torques,
                      const std::optional<Vector3d>& position_icrf_km) {
   const Estimate::Moving mean = estimate_.state.head<kMoving>();
   const double most_rad_s = mean.segment<3>(Rate).norm() +
-                            2.0 * std::sqrt(estimate_.covariance.block<3, 3>(Rate, Rate).trace());
+                            std::sqrt(estimate_.covariance.block<3, 3>(Rate, Rate).trace());
   const double parts = std::min(kMostParts, most_rad_s * dt_s / kMostTurnInPart_rad);
   const Step step{.dt_s = dt_s,
                   .torques = torques,
