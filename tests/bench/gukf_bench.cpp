@@ -38,6 +38,7 @@ struct Scene {
   SeenField second{};
   SeenField third{};
   BodyState motion{};
+  Eigen::Vector3d position_icrf_km = body.position_icrf_km(0.0);
 };
 
 /// @param filters Copies of it are stepped, so that each step is that of its start.
@@ -45,7 +46,7 @@ template <class Filters>
 void step(benchmark::State& state, const Filters& filters, const Scene& scene) {
   for ([[maybe_unused]] const auto iteration : state) {
     Filters now = filters;
-    now.propagate(scene.period_s);
+    now.propagate(scene.period_s, {}, scene.position_icrf_km);
     benchmark::DoNotOptimize(now.innovation(scene.third));
     now.update(scene.third);
     benchmark::DoNotOptimize(now);

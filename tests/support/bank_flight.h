@@ -45,7 +45,7 @@ BankOutcome bank_outcome(const GukfModel& model, TumblingBody& body, double peri
   BankOutcome outcome;
   while (body.t_s() + period_s <= duration_s) {
     body.advance(period_s);
-    bank.propagate(period_s);
+    bank.propagate(period_s, {}, body.position_icrf_km(body.t_s() - 0.5 * period_s));
     const SeenField field = seen(body.field());
     recent_nis.push_back(bank.innovation(field).nis);
     if (static_cast<double>(recent_nis.size()) * period_s > 600.0) {

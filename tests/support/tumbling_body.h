@@ -13,6 +13,7 @@
 #include "pipelines/ephemeris/earth_orientation.h"
 #include "pipelines/frames/rotation_vector.h"
 #include "pipelines/geomagnetism/main_field.h"
+#include "pipelines/ground_model/dynamics/disturbances.h"
 #include "pipelines/ground_model/dynamics/rigid_body.h"
 #include "pipelines/three_axis/unscented/gukf.h"
 #include "services/mission/igrf.h"
@@ -80,16 +81,22 @@ class TumblingBody {
                                       rng)*normal_vector(rng, 1.0)
                                       .normalized()} {}
 
-  /// Moves the body on in steps of a second or less, each with a random torque.
+  /// Moves the body on in steps of a second or less, each with a random torque and that of the
+  /// Earth's gravity at its middle.
   void advance(double dt_s) {
     const int steps = static_cast<int>(std::ceil(dt_s));
     const double step_s = dt_s / steps;
     for (int step = 0; step < steps; ++step) {
+      const Eigen::Quaterniond midway =
+          state_.q_icrf_body * quaternion_by(0.5 * step_s * state_.rate_body_rad_s);
       const Eigen::Vector3d torque_nm =
-          errors_.torque_nm + normal_vector(rng_, kTumblingTorqueNoise_nm_rts / std::sqrt(step_s));
+          errors_.torque_nm +
+          gravity_gradient_nm(body_.inertia_kg_m2(),
+                              midway.conjugate() * position_icrf_km(t_s_ + 0.5 * step_s)) +
+          normal_vector(rng_, kTumblingTorqueNoise_nm_rts / std::sqrt(step_s));
       state_ = body_.after(state_, {.external_nm = torque_nm}, step_s);
+      t_s_ += step_s;
     }
-    t_s_ += dt_s;
   }
 
   SeenField field() {
@@ -103,11 +110,13 @@ class TumblingBody {
 
   const BodyState& state() const { return state_; }
   double t_s() const { return t_s_; }
+  Eigen::Vector3d position_icrf_km(double t_s) const {
+    return orbit_.at(at_s(t_s)).value().position_icrf_km;
+  }
 
  private:
   Eigen::Vector3d field_icrf_nt_at(double t_s) {
-    return field_icrf_nt(igrf14(), at_s(t_s), orbit_.at(at_s(t_s)).value().position_icrf_km, earth_)
-        .value();
+    return field_icrf_nt(igrf14(), at_s(t_s), position_icrf_km(t_s), earth_).value();
   }
 
   std::mt19937_64& rng_;

@@ -13,12 +13,6 @@ using Eigen::Vector3d;
 constexpr double kM_per_km = 1000.0;
 constexpr double kTesla_per_nT = 1e-9;
 
-Vector3d gravity_gradient_nm(const Eigen::Matrix3d& inertia_kg_m2, const Vector3d& place_body_km) {
-  const double range_km = place_body_km.norm();
-  const Vector3d up = place_body_km / range_km;
-  return 3.0 * kEarthMu_km3_s2 / (range_km * range_km * range_km) * up.cross(inertia_kg_m2 * up);
-}
-
 double density_kg_m3(const Atmosphere& air, double altitude_km) {
   return air.density_kg_m3 * std::exp((air.altitude_km - altitude_km) / air.scale_height_km);
 }
@@ -34,6 +28,12 @@ Vector3d force_icrf_n(const Drag& drag, const OrbitState& spacecraft) {
 }
 
 }  // namespace
+
+Vector3d gravity_gradient_nm(const Eigen::Matrix3d& inertia_kg_m2, const Vector3d& place_body_km) {
+  const double range_km = place_body_km.norm();
+  const Vector3d up = place_body_km / range_km;
+  return 3.0 * kEarthMu_km3_s2 / (range_km * range_km * range_km) * up.cross(inertia_kg_m2 * up);
+}
 
 Vector3d disturbance_body_nm(const Disturbances& disturbances, const Eigen::Matrix3d& inertia_kg_m2,
                              const Surroundings& surroundings,

@@ -56,6 +56,11 @@ struct Surroundings {
   Eigen::Vector3d field_icrf_nt = Eigen::Vector3d::Zero();
 };
 
+/// Returns the torque of the Earth's gravity, body axes.
+/// @param place_body_km Position from the Earth's centre, body axes; not zero.
+Eigen::Vector3d gravity_gradient_nm(const Eigen::Matrix3d& inertia_kg_m2,
+                                    const Eigen::Vector3d& place_body_km);
+
 /// @param surroundings The position must not be zero with gravity gradient or drag.
 Eigen::Vector3d disturbance_body_nm(const Disturbances& disturbances,
                                     const Eigen::Matrix3d& inertia_kg_m2,

@@ -10,8 +10,10 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <optional>
 
 #include "pipelines/frames/body_state.h"
+#include "pipelines/frames/uncertain_attitude.h"
 #include "pipelines/ground_model/dynamics/rigid_body.h"
 #include "pipelines/three_axis/alignment.h"
 #include "pipelines/three_axis/unscented/measurements.h"
@@ -37,6 +39,12 @@ struct UncertainMotion {
   Eigen::Matrix<double, 6, 6> covariance;
 };
 
+/// Returns the motion at the second of two attitudes, as from pairs of vectors, with independent
+/// errors. The rate is taken for constant between them, with an error of what it may turn.
+/// @param dt_s Time between the two, in which the body turns by less than half a turn.
+UncertainMotion motion_between(const UncertainAttitude& first, const UncertainAttitude& second,
+                               double dt_s);
+
 class Gukf {
  public:
   Gukf(const GukfModel& model, const UncertainMotion& start);
@@ -45,7 +53,10 @@ class Gukf {
   Gukf started_again(const GukfModel& model, const UncertainMotion& start) const;
 
   /// @param torques Known torques and momentum of the wheels at the start of the step.
-  void propagate(double dt_s, const BodyTorques& torques = {});
+  /// @param position_icrf_km Where the Earth's gravity turns the body, in the middle of the step;
+  ///        empty: it does not.
+  void propagate(double dt_s, const BodyTorques& torques = {},
+                 const std::optional<Eigen::Vector3d>& position_icrf_km = std::nullopt);
 
   /// @name Innovations
   /// Compares a measurement with the state.
@@ -94,9 +105,15 @@ class Gukf {
   static constexpr int kMoving = 12;
   using Estimate = UnscentedAttitude<kMoving, LogMoments>;
 
+  /// What acts on the body in a span of time.
+  struct Step {
+    double dt_s;
+    BodyTorques torques;
+    std::optional<Eigen::Vector3d> position_icrf_km;
+    int parts;  ///< Number of steps of the integration.
+  };
   BodyState after(const Eigen::Quaterniond& q_icrf_body, const Estimate::Moving& state,
-                  const BodyTorques& torques, double dt_s, int steps) const;
-
+                  const Step& step) const;
   void add_noise(double dt_s);
 
   Eigen::Matrix3d principal_axes_;  ///< Columns in body axes, moments ascending.

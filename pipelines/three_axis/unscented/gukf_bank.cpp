@@ -86,10 +86,11 @@ void GukfBank::start_from(const SeenField& first, const SeenField& second, doubl
   since_start_s_ = 0.0;
 }
 
-void GukfBank::propagate(double dt_s, const BodyTorques& torques) {
+void GukfBank::propagate(double dt_s, const BodyTorques& torques,
+                         const std::optional<Vector3d>& position_icrf_km) {
   const double left = std::exp(-dt_s / kForgotten_s);
   for (Hypothesis& hypothesis : hypotheses_) {
-    hypothesis.filter.propagate(dt_s, torques);
+    hypothesis.filter.propagate(dt_s, torques, position_icrf_km);
     hypothesis.log_likelihood *= left;
     hypothesis.squares *= left;
     hypothesis.freedom *= left;

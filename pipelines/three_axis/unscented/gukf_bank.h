@@ -22,8 +22,9 @@ class GukfBank {
   /// Starts one filter from a known attitude and rate.
   GukfBank(const GukfModel& model, const UncertainMotion& start);
 
-  /// @param torques Known torques and momentum of the wheels at the start of the step.
-  void propagate(double dt_s, const BodyTorques& torques = {});
+  /// Advances the filters as Gukf::propagate().
+  void propagate(double dt_s, const BodyTorques& torques = {},
+                 const std::optional<Eigen::Vector3d>& position_icrf_km = std::nullopt);
 
   /// @name Innovations
   /// Compares a measurement with the most likely filter.

@@ -220,10 +220,10 @@ struct UnscentedAttitude {
     if constexpr (std::is_same_v<Measurement, SeenSun>) {
       const Eigen::Vector3d towards = (measurement.body - seen.off).normalized();
       const Eigen::Vector3d first = towards.unitOrthogonal();
-      // A turn about the one axis moves the direction along the other.
+      // The turn of the attitude about the one axis moves the direction along the other.
       Eigen::Matrix<double, 2, 3> across;
-      across.row(0) = -towards.cross(first);
-      across.row(1) = first;
+      across.row(0) = towards.cross(first);
+      across.row(1) = -first;
       Residual residual{.freedom = 2};
       residual.value.template head<2>() = across * seen.off;
       residual.sigma.template head<2>() =

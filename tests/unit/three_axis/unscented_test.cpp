@@ -9,6 +9,7 @@
 #include <random>
 
 #include "pipelines/frames/angle.h"
+#include "pipelines/ground_model/dynamics/disturbances.h"
 #include "pipelines/three_axis/mekf.h"
 #include "pipelines/three_axis/unscented/gukf_bank.h"
 #include "pipelines/three_axis/unscented/usque.h"
@@ -93,9 +94,16 @@ TEST(Usque, IsTheExtendedFilterWhereErrorsAreSmall) {
     mekf.propagate(span, errors);
     const Vector3d sun_body =
         (mekf.q_icrf_body().conjugate() * sun_icrf + normal_vector(rng, 1e-3)).normalized();
-    usque.update(SeenSun{.body = sun_body, .ref_icrf = sun_icrf, .sigma_rad = 1e-3});
-    mekf.update(SeenDirection{
-        .t = at_s(0.0), .kind = SampleKind::Sun, .direction = {sun_body, sun_icrf, 1e-3}});
+    const SeenSun sun{.body = sun_body, .ref_icrf = sun_icrf, .sigma_rad = 1e-3};
+    const SeenDirection direction{
+        .t = at_s(0.0), .kind = SampleKind::Sun, .direction = {sun_body, sun_icrf, 1e-3}};
+    const UnscentedInnovation innovation = usque.innovation(sun);
+    const Mekf::Innovation expected = mekf.innovation(direction);
+    EXPECT_LT((innovation.residual.value - expected.residual.value).norm(), 1e-5);
+    EXPECT_LT((innovation.residual.sigma - expected.residual.sigma).norm(), 1e-5);
+    EXPECT_NEAR(innovation.nis, expected.nis, 0.02 * (1.0 + expected.nis));
+    usque.update(sun);
+    mekf.update(direction);
     if (step % 10 == 5) {
       const Quaterniond stars = mekf.q_icrf_body() * quaternion_by(normal_vector(rng, 1e-4));
       usque.update(SeenStars{.q_icrf_body = stars, .sigma_rad = 1e-4});
@@ -125,6 +133,47 @@ TEST(Gukf, MovesAsTheRigidBody) {
   }
   EXPECT_LT(angle_between_rad(filter.q_icrf_body(), truth.q_icrf_body), 1e-5);
   EXPECT_LT((filter.rate_rad_s() - truth.rate_body_rad_s).norm(), 1e-7);
+}
+
+TEST(Gukf, IsTurnedByTheEarthsGravity) {
+  const Matrix3d inertia = Vector3d{1.0, 1.5, 2.0}.asDiagonal();
+  const RigidBody body = RigidBody::make(inertia).value();
+  const Vector3d position_icrf_km{5000.0, 3000.0, 4000.0};
+  BodyState truth{Quaterniond::Identity(), {1e-4, -2e-4, 1e-4}};
+  Gukf filter{GukfModel{.inertia_kg_m2 = inertia}, moving(truth, 1e-7, 1e-9)};
+  for (int minute = 0; minute < 10; ++minute) {
+    filter.propagate(60.0, {}, position_icrf_km);
+  }
+  for (int second = 0; second < 600; ++second) {
+    const Vector3d place_body_km = truth.q_icrf_body.conjugate() * position_icrf_km;
+    truth = body.after(truth, {.external_nm = gravity_gradient_nm(inertia, place_body_km)}, 1.0);
+  }
+  EXPECT_GT((truth.rate_body_rad_s - Vector3d{1e-4, -2e-4, 1e-4}).norm(), 1e-4);
+  EXPECT_LT((filter.rate_rad_s() - truth.rate_body_rad_s).norm(), 1e-6);
+}
+
+TEST(MotionBetween, IsConsistentOverManyPairs) {
+  std::mt19937_64 rng{76};
+  constexpr double kSigma_rad = 0.01;
+  constexpr double kApart_s = 10.0;
+  constexpr int kPairs = 500;
+  double nees = 0.0;
+  for (int pair = 0; pair < kPairs; ++pair) {
+    const Vector3d rate_rad_s = normal_vector(rng, 0.005);
+    const Quaterniond first = any_attitude(rng);
+    const Quaterniond second = first * quaternion_by(kApart_s * rate_rad_s);
+    const auto seen = [&](const Quaterniond& q) {
+      return known_to(q * quaternion_by(normal_vector(rng, kSigma_rad)), kSigma_rad);
+    };
+    const UncertainMotion motion = motion_between(seen(first), seen(second), kApart_s);
+    Eigen::Matrix<double, 6, 1> error;
+    error << error_rad(motion.motion.q_icrf_body, second),
+        rate_rad_s - motion.motion.rate_body_rad_s;
+    nees += error.dot(motion.covariance.ldlt().solve(error));
+  }
+  // A rate that changes is allowed for, and does not.
+  EXPECT_LT(nees / kPairs, 6.2);
+  EXPECT_GT(nees / kPairs, 4.5);
 }
 
 constexpr double kField_nt = 30'000.0;
