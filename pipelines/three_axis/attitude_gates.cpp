@@ -2,6 +2,8 @@
 
 #include <cmath>
 #include <cstdint>
+#include <functional>
+#include <numeric>
 #include <utility>
 
 #include "pipelines/ephemeris/flight_frames.h"
@@ -56,7 +58,7 @@ void AttitudeGates::see_field(TaiTime t, const Eigen::Vector3d& field_body,
     return;
   }
   const bool has_sun = sun_ && elapsed_s(sun_->t, t) <= kSunHolds_s;
-  field_ = FieldSaid{.off_deg = *off_deg, .certain = has_sun && by_sun_.is_open()};
+  field_ = FieldSaid{.t = t, .off_deg = *off_deg, .certain = has_sun && by_sun_.is_open()};
   std::vector<NamedValue> more{{"certain", std::int64_t{field_->certain}}};
   if (has_sun) {
     more.push_back({"sun_deg", sun_->deg});
@@ -97,12 +99,12 @@ void AttitudeGates::see(const WinnerReading& winner, Products& out) {
 
 double AttitudeGates::mean_nis(const WinnerReading& winner) {
   recent_.push_back({.t = winner.t, .nis = winner.nis});
-  sum_nis_ += winner.nis;
   while (elapsed_s(recent_.front().t, winner.t) > rule_of(Gate::Safe).seconds) {
-    sum_nis_ -= recent_.front().nis;
     recent_.pop_front();
   }
-  return sum_nis_ / static_cast<double>(recent_.size());
+  const double sum = std::transform_reduce(recent_.begin(), recent_.end(), 0.0, std::plus{},
+                                           [](const Nis& one) { return one.nis; });
+  return sum / static_cast<double>(recent_.size());
 }
 
 void AttitudeGates::update(TaiTime t, Gate gate, double value, bool is_hit,

@@ -78,6 +78,7 @@ class AttitudeGates {
 
   /// What the last field said.
   struct FieldSaid {
+    TaiTime t;
     double off_deg;  ///< Angle to the field expected at the nominal attitude.
     bool certain;    ///< The Sun is as far away from where it should be.
   };
@@ -106,7 +107,6 @@ class AttitudeGates {
     double nis;
   };
   std::deque<Nis> recent_;  ///< Of the window of `safe`.
-  double sum_nis_ = 0.0;    ///< Of `recent_`.
 };
 
 }  // namespace spindrift

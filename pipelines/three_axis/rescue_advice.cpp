@@ -50,7 +50,7 @@ std::optional<Advisory> RescueAdvice::advise(TaiTime t, const AttitudeGates& gat
                                              const ThreeAxisConfig& config,
                                              const SensorHealths& sensors) {
   const auto& field = gates.field();
-  if (!gates.is_open(Gate::Lost) || !field) {
+  if (!gates.is_open(Gate::Lost) || !field || elapsed_s(field->t, t) > kSilent_s) {
     given_.reset();
     return std::nullopt;
   }
@@ -62,7 +62,7 @@ std::optional<Advisory> RescueAdvice::advise(TaiTime t, const AttitudeGates& gat
                     .attitude = attitude_,
                     .off_deg = field->off_deg,
                     .certain = field->certain,
-                    .may_control = gates.is_open(Gate::Safe)};
+                    .may_control = attitude_.has_value() && gates.is_open(Gate::Safe)};
   if (given_ && elapsed_s(given_->t, t) < kBetween_s && !differ(*given_, advisory)) {
     return std::nullopt;
   }

@@ -48,7 +48,6 @@ ThreeAxisOutput ThreeAxisPass::process(const OrderedSample& sample) {
   }
   compute(window_.release(), out);
   doubt_where_orbit_steps(out);
-  judge_answers(out);
   say_what_is_left_out(out);
   return out;
 }
@@ -86,10 +85,9 @@ void ThreeAxisPass::act(TaiTime t, const AttitudeAction& action) {
 ThreeAxisOutput ThreeAxisPass::fall_silent() {
   ThreeAxisOutput out;
   compute(window_.fall_silent(), out);
-  estimator_.settle(out.products);
+  settle(out);
   tell_of_mission(out);
   doubt_where_orbit_steps(out);
-  judge_answers(out);
   say_what_is_left_out(out);
   return out;
 }
@@ -102,10 +100,9 @@ ThreeAxisOutput ThreeAxisPass::finish() {
     say_once(Notice{NoticeCode::SamplesOutOfTime, {}}, out);
   }
   compute(rest.in_time, out);
-  estimator_.settle(out.products);
+  settle(out);
   tell_of_mission(out);
   doubt_where_orbit_steps(out);
-  judge_answers(out);
   say_what_is_left_out(out);
   if (!estimator_.ever_began()) {
     const auto accepted = [this](SampleKind kind) {
@@ -123,6 +120,7 @@ ThreeAxisOutput ThreeAxisPass::finish() {
 
 void ThreeAxisPass::compute(const std::vector<OrderedSample>& in_order, ThreeAxisOutput& out) {
   for (const OrderedSample& sample : in_order) {
+    const std::size_t from = out.products.size();
     reached_ = sample.t;
     const auto used = settled(sample, out);
     if (excluded_.hold(sample.t, sample.kind())) {
@@ -132,6 +130,7 @@ void ThreeAxisPass::compute(const std::vector<OrderedSample>& in_order, ThreeAxi
     } else {
       std::visit([&](const auto& is) { compute(is, out); }, used->is);
     }
+    judge_answers(from, out);
   }
 }
 
@@ -279,10 +278,19 @@ void ThreeAxisPass::doubt_where_orbit_steps(ThreeAxisOutput& out) {
   }
 }
 
-/// Shows the gates what the filter made of the samples, and advises where the body is lost.
-void ThreeAxisPass::judge_answers(ThreeAxisOutput& out) {
+void ThreeAxisPass::settle(ThreeAxisOutput& out) {
+  const std::size_t from = out.products.size();
+  estimator_.settle(out.products);
+  judge_answers(from, out);
+}
+
+/// Shows the gates what the filter made of a sample, and advises where the body is lost. Samples
+/// are judged one by one, so that it does not matter which of them came together.
+/// @param from Number of products before the sample.
+void ThreeAxisPass::judge_answers(std::size_t from, ThreeAxisOutput& out) {
   std::vector<ThreeAxisProduct> transitions;
-  for (const ThreeAxisProduct& product : out.products) {
+  for (std::size_t i = from; i < out.products.size(); ++i) {
+    const ThreeAxisProduct& product = out.products[i];
     if (const auto* const estimate = std::get_if<AttitudeEstimate>(&product)) {
       gates_.see(*estimate, spacecraft_at(estimate->t), transitions);
       advice_.see(*estimate);

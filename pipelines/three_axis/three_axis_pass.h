@@ -121,7 +121,8 @@ class ThreeAxisPass {
   void leave_out(const OrderedSample& sample, Rejection rejected_by, ThreeAxisOutput& out);
   bool has_sensor(SampleKind kind) const;
   void doubt_where_orbit_steps(ThreeAxisOutput& out);
-  void judge_answers(ThreeAxisOutput& out);
+  void settle(ThreeAxisOutput& out);
+  void judge_answers(std::size_t from, ThreeAxisOutput& out);
   void say_once(Notice notice, ThreeAxisOutput& out);
   void say_what_is_left_out(ThreeAxisOutput& out);
   Notice most_left_out(const RejectedSample& last, double percent) const;
