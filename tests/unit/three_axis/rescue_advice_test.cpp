@@ -103,6 +103,7 @@ TEST_F(RescueAdviceTest, HasTheAttitudeThatIsKnownNow) {
 TEST_F(RescueAdviceTest, SaysWhenControlMayRestart) {
   std::optional<Advisory> last;
   for (int t_s = 0; t_s <= 601; ++t_s) {
+    advice_.see(estimate(t_s, Quality::Ok));
     const auto advisory = second(t_s, 20.0, {});
     EXPECT_TRUE(!advisory || t_s > 600 || !advisory->may_control) << t_s;
     last = advisory ? advisory : last;
@@ -111,6 +112,13 @@ TEST_F(RescueAdviceTest, SaysWhenControlMayRestart) {
   ASSERT_TRUE(last);
   EXPECT_EQ(last->t, at_s(601));
   EXPECT_TRUE(last->may_control);
+  // The gate is still open, but what it was open for is too old.
+  for (int t_s = 602; t_s <= 700; ++t_s) {
+    const auto advisory = second(t_s, 20.0, {});
+    last = advisory ? advisory : last;
+  }
+  EXPECT_FALSE(last->attitude);
+  EXPECT_FALSE(last->may_control);
 }
 
 TEST_F(RescueAdviceTest, IsSilentWhenTheBodyHasRecovered) {
