@@ -24,7 +24,8 @@ bool RivalAttitude::hear(const ObservedAttitude& fix, bool fits, bool fits_in_fo
 }
 
 bool RivalAttitude::hear(const SeenDirection& seen, bool fits, bool fits_in_force) {
-  against = std::clamp(against + (fits_in_force ? 1 : 0) - (fits ? 1 : 0), -kMostAgainst, kMostAgainst);
+  against =
+      std::clamp(against + (fits_in_force ? 1 : 0) - (fits ? 1 : 0), -kMostAgainst, kMostAgainst);
   if (fits) {
     filter.update(seen);
   }

@@ -146,7 +146,7 @@ class RescueComputer {
   }
 
   const RescueTruth& truth_;
-  Thrusters fired_;  ///< As commanded for the period before.
+  Thrusters fired_;  ///< What was commanded for the period before.
   const Orbit& orbit_;
   Chance& chance_;
   TurningEarth earth_;

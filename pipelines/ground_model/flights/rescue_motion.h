@@ -25,8 +25,8 @@ namespace spindrift {
 enum class RescuePhase {
   Pointing,    ///< By gyro and Earth sensor, whether they are right or not.
   Lost,        ///< Control is off.
-  Controlled,  ///< By the filter's attitude.
-  Reached,     ///< So, at the commanded attitude.
+  Controlled,  ///< The filter's attitude controls the body.
+  Reached,     ///< The body is at the commanded attitude.
 };
 
 /// Failure of gyro and Earth sensor, after which the computer takes the body to turn while it does
@@ -80,7 +80,7 @@ struct RescueOutcome {
   std::optional<double> controlled_s;
   std::optional<double> reached_s;
   double last_off_rad;                      ///< Angle to the commanded attitude at the end.
-  std::optional<double> error_at_safe_rad;  ///< Of the filter when control began.
+  std::optional<double> error_at_safe_rad;  ///< Error of the filter when control began.
 };
 
 RescueOutcome outcome_of(const Rescue& rescue);
