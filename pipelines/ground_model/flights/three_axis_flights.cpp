@@ -157,8 +157,8 @@ Expected<FlownOrientation> flown(const OrientationScenario& scenario, const Orbi
 Expected<FlownRescue> flown(const RescueScenario& scenario, const Orbit& orbit) {
   Chance chance{scenario.view.seed};
   const ThreeAxisSensors sensors = sensors_of(scenario.view, chance);
-  Chance on_board{
-      ~scenario.view.seed};  // The seed differs from that of the view, as for an orientation.
+  // The seed differs from that of the view, as for an orientation.
+  Chance on_board{~scenario.view.seed};
   return rescue_motion(scenario.truth, orbit, on_board).and_then([&](Rescue&& rescue) {
     const RescueOutcome outcome = outcome_of(rescue);
     return seen(std::move(rescue.motion), scenario.truth.body.start, sensors, scenario.view.faults,
