@@ -30,8 +30,8 @@ constexpr std::string_view name_of(Gate gate) {
   return kNames.at(static_cast<std::size_t>(gate));
 }
 
-/// What a gate counts as a hit, and which windows open it. A window ends with the sample by which
-/// it has both its samples and its length.
+/// Says what a gate counts as a hit, and which windows open it. A window ends with the sample by
+/// which it has both its samples and its length.
 struct GateRule {
   double threshold;       ///< Lost: a hit is above it. All others: below.
   std::string_view unit;  ///< Unit of the threshold and of the values.
@@ -61,7 +61,7 @@ struct GateTransition {
   TaiTime since = {};  ///< First sample of the window.
   int hits = 0;        ///< K
   int window = 0;      ///< Samples of the window.
-  std::vector<NamedValue> more = {};  ///< What else the gate knew.
+  std::vector<NamedValue> more = {};  ///< Whatever else the gate has known.
 };
 
 /// The machine. While a gate is closed the first hit opens a window and counts one; at the end of

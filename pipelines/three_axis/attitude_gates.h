@@ -41,7 +41,7 @@ Expected<Eigen::Quaterniond> q_icrf_nominal(const NominalAttitude& nominal,
 struct WinnerReading {
   TaiTime t;
   double nis;        ///< Normalised innovation squared, of three degrees of freedom.
-  double sigma_rad;  ///< Of the winner's attitude.
+  double sigma_rad;  ///< Sigma that the winner's attitude has.
   /// Log-likelihood by which the winner is ahead of the best hypothesis that is more than
   /// kOtherAttitude_rad away; infinite where there is none.
   double lead_nats;
@@ -53,7 +53,7 @@ class AttitudeGates {
 
   /// @name Conditions of `safe` beside the threshold of its rule
   /// @{
-  static constexpr double kMostMeanNis = 4.0;  ///< Of the last window.
+  static constexpr double kMostMeanNis = 4.0;  ///< Mean NIS that the last window may have.
   static constexpr double kMostSigma_deg = 5.0;
   static constexpr double kLeastLead_nats = 50.0;
   static constexpr double kOtherAttitude_rad = 15.0 * kRadPerDeg;
@@ -76,7 +76,7 @@ class AttitudeGates {
   void see_innovation(const Observation& field, Products& out);
   void see(const WinnerReading& winner, Products& out);
 
-  /// What the last field said.
+  /// Holds what the last field has said.
   struct FieldSaid {
     TaiTime t;
     double off_deg;  ///< Angle to the field expected at the nominal attitude.
@@ -106,7 +106,7 @@ class AttitudeGates {
     TaiTime t;
     double nis;
   };
-  std::deque<Nis> recent_;  ///< Of the window of `safe`.
+  std::deque<Nis> recent_;  ///< Readings that are in the window of `safe`.
 };
 
 }  // namespace spindrift
